@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/ray_caster.hpp"
+#include "mir/cpu/detail/embree.hpp"
+#include "mir/cpu/embree_visibility.hpp"
+#include "mir/scene/world_geometry.hpp"
+
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace mir::cpu {
+
+/// Finds closest hits through Embree. Model of RayCaster; a handle that the EmbreeScene outlives.
+struct EmbreeRayCaster {
+    RTCScene scene = nullptr;
+    const WorldGeometry* geometry = nullptr;
+
+    [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const;
+};
+
+static_assert(RayCaster<EmbreeRayCaster>);
+
+/// Embree device and scene over the triangles of a WorldGeometry, which must outlive it. Move-only
+/// owner; the handles it gives out may be used from any thread.
+class EmbreeScene {
+ public:
+    /// Builds the acceleration structure, on the threads of the task library.
+    /// @throws Error(device) with Embree's words when it reports a failure.
+    explicit EmbreeScene(const WorldGeometry& geometry);
+
+    [[nodiscard]] EmbreeVisibility visibility() const { return {scene_.get()}; }
+    [[nodiscard]] EmbreeRayCaster ray_caster() const { return {scene_.get(), geometry_}; }
+
+    /// For callers that measure Embree itself.
+    [[nodiscard]] RTCScene handle() const { return scene_.get(); }
+
+ private:
+    struct ReleaseDevice {
+        void operator()(RTCDevice d) const { rtcReleaseDevice(d); }
+    };
+    struct ReleaseScene {
+        void operator()(RTCScene s) const { rtcReleaseScene(s); }
+    };
+    /// First failure that Embree reported; the callback may run on any of its threads.
+    struct DeviceErrors {
+        std::mutex mutex;
+        std::string first;
+    };
+
+    void add_triangles();
+    void throw_if_failed() const;
+    static void remember(void* errors, RTCError code, const char* text);
+
+    const WorldGeometry* geometry_;
+    std::unique_ptr<DeviceErrors> errors_ = std::make_unique<DeviceErrors>();
+    std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device_;
+    std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene_;
+};
+
+inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray) const {
+    RTCRayHit query{};
+    query.ray.org_x = ray.origin.x;
+    query.ray.org_y = ray.origin.y;
+    query.ray.org_z = ray.origin.z;
+    query.ray.dir_x = ray.direction.x;
+    query.ray.dir_y = ray.direction.y;
+    query.ray.dir_z = ray.direction.z;
+    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.mask = detail::all_rays;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    detail::intersect1(scene, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return geometry->surface_point(query.hit.primID, {query.hit.u, query.hit.v}, ray.direction);
+}
+
+inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry)
+    : geometry_(&geometry), device_(rtcNewDevice(nullptr)) {
+    if (device_ == nullptr)
+        throw Error(ErrorCode::device,
+                    "Embree cannot make a device on this processor (error " +
+                        std::to_string(rtcGetDeviceError(nullptr)) +
+                        "); check that its library matches the machine");
+    rtcSetDeviceErrorFunction(device_.get(), &EmbreeScene::remember, errors_.get());
+    scene_.reset(rtcNewScene(device_.get()));
+    throw_if_failed();
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+    add_triangles();
+    rtcCommitScene(scene_.get());
+    throw_if_failed();
+}
+
+inline void EmbreeScene::add_triangles() {
+    if (geometry_->triangles().empty()) return;
+    RTCGeometry mesh = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Copies, not shared buffers: Embree reads sixteen bytes at the last vertex, one float too far.
+    const auto positions = geometry_->positions();
+    const auto triangles = geometry_->triangles();
+    void* vertices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(Vec3), positions.size());
+    void* indices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(TriangleIndices), triangles.size());
+    if (vertices != nullptr && indices != nullptr) {
+        std::memcpy(vertices, positions.data(), positions.size_bytes());
+        std::memcpy(indices, triangles.data(), triangles.size_bytes());
+        rtcSetGeometryMask(mesh, detail::all_rays);
+        rtcCommitGeometry(mesh);
+        rtcAttachGeometry(scene_.get(), mesh);
+    }
+    rtcReleaseGeometry(mesh);
+    throw_if_failed();
+}
+
+inline void EmbreeScene::throw_if_failed() const {
+    const std::lock_guard lock(errors_->mutex);
+    if (!errors_->first.empty())
+        throw Error(ErrorCode::device, "Embree reported: " + errors_->first +
+                                           " (the scene could not be prepared for ray tracing); "
+                                           "try a smaller scene or more memory");
+}
+
+inline void EmbreeScene::remember(void* errors, RTCError code, const char* text) {
+    auto* e = static_cast<DeviceErrors*>(errors);
+    const std::lock_guard lock(e->mutex);
+    if (!e->first.empty()) return;
+    e->first = "error " + std::to_string(code);
+    if (text != nullptr) e->first += std::string(", ") + text;
+}
+
+}  // namespace mir::cpu

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/visibility.hpp"
+#include "mir/cpu/detail/embree.hpp"
+
+#include <limits>
+
+namespace mir::cpu {
+
+/// Segment visibility through Embree, one at a time or sixteen from one origin. Model of
+/// Visibility and PacketVisibility; a handle that the EmbreeScene outlives, usable from any thread.
+struct EmbreeVisibility {
+    static constexpr Space space = Space::host;
+
+    RTCScene scene = nullptr;
+
+    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const {
+        const Vec3 d = b - a;
+        RTCRay ray{};
+        ray.org_x = a.x;
+        ray.org_y = a.y;
+        ray.org_z = a.z;
+        ray.dir_x = d.x;
+        ray.dir_y = d.y;
+        ray.dir_z = d.z;
+        ray.tfar = 1.0f;
+        ray.mask = detail::all_rays;
+        detail::occluded1(scene, ray);
+        return ray.tfar >= 0.0f;
+    }
+
+    [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
+                                               std::uint32_t active) const {
+        RTCRay16 rays;
+        alignas(64) int valid[16];
+        for (std::uint32_t k = 0; k < 16; ++k) {
+            rays.org_x[k] = origin.x;
+            rays.org_y[k] = origin.y;
+            rays.org_z[k] = origin.z;
+            rays.dir_x[k] = points.x[k] - origin.x;
+            rays.dir_y[k] = points.y[k] - origin.y;
+            rays.dir_z[k] = points.z[k] - origin.z;
+            rays.tnear[k] = 0.0f;
+            rays.tfar[k] = 1.0f;
+            rays.time[k] = 0.0f;
+            rays.mask[k] = detail::all_rays;
+            valid[k] = (active >> k & 1u) != 0 ? -1 : 0;
+        }
+        detail::occluded16(valid, scene, rays);
+        std::uint32_t seen = 0;
+        for (std::uint32_t k = 0; k < 16; ++k)
+            seen |= static_cast<std::uint32_t>(rays.tfar[k] >= 0.0f) << k;
+        return seen & active;
+    }
+};
+
+static_assert(PacketVisibility<EmbreeVisibility>);
+
+}  // namespace mir::cpu

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/renderer.hpp"
+
+namespace mir::cpu {
+
+/// Adds the compiled CPU renderers: "cpu-blocks", the tuned path, and "cpu", the plain loop that
+/// is the oracle. Both trace with Embree.
+void add_to(Registry& registry);
+
+/// "Embree 3.13.5" or the like, and the vector instructions that loops will use.
+std::string description();
+
+}  // namespace mir::cpu

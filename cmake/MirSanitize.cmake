@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+include_guard()
+
+set(MIR_SANITIZE "" CACHE STRING "Sanitizers of the whole build, for example address,undefined")
+
+# For the whole directory tree, since a sanitizer must see every object of a program; therefore only
+# where this project is the top one.
+if(MIR_SANITIZE AND PROJECT_IS_TOP_LEVEL)
+    add_compile_options(-fsanitize=${MIR_SANITIZE} -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=${MIR_SANITIZE})
+    if(MIR_SANITIZE MATCHES "undefined")
+        add_compile_options(-fno-sanitize-recover=undefined)
+    endif()
+endif()

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: MIT
+include_guard()
+
+find_package(Catch2 REQUIRED)
+include(Catch)
+include(MirWarnings)
+
+# mir_add_test(NAME source... [LIBRARIES target...] [LABELS label...])
+#
+# One test program. Each TEST_CASE becomes a test "NAME: <its sentence>"; those tagged [statistical]
+# get that label besides LABELS.
+function(mir_add_test name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;LABELS")
+    add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_link_libraries(${name} PRIVATE mir::mir ${arg_LIBRARIES} Catch2::Catch2WithMain)
+    mir_set_warnings(${name})
+    mir_strict_floats(${name})
+
+    set(has_statistical)
+    foreach(source IN LISTS arg_UNPARSED_ARGUMENTS)
+        file(STRINGS ${source} tags REGEX "\\[statistical\\]" LIMIT_COUNT 1)
+        list(APPEND has_statistical ${tags})
+    endforeach()
+    if(has_statistical)
+        mir_discover_tests(${name} "~[statistical]" "${arg_LABELS}")
+        mir_discover_tests(${name} "[statistical]" "${arg_LABELS};statistical")
+    else()
+        mir_discover_tests(${name} "" "${arg_LABELS}")
+    endif()
+endfunction()
+
+# The labels become one word, because catch_discover_tests() takes a list of labels apart; CTest
+# selects by regular expression and finds each of them in it.
+function(mir_discover_tests name spec labels)
+    list(REMOVE_ITEM labels "")
+    list(JOIN labels "+" label)
+    set(arguments)
+    if(spec)
+        list(APPEND arguments TEST_SPEC "${spec}")
+    endif()
+    if(label)
+        list(APPEND arguments PROPERTIES LABELS "${label}")
+    endif()
+    catch_discover_tests(${name}
+        TEST_PREFIX "${name}: "
+        ${arguments})
+endfunction()
+
+# mir_add_compile_fail_test(source [LIBRARIES target...])
+#
+# Builds `source` as it is, which must succeed, and as a test with MIR_COMPILE_FAIL, which must fail
+# and print the sentence of the file's first line, "// expect: sentence".
+function(mir_add_compile_fail_test source)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES")
+    get_filename_component(name ${source} NAME_WE)
+    file(STRINGS ${source} sentence REGEX "^// expect: " LIMIT_COUNT 1)
+    if(NOT sentence)
+        message(FATAL_ERROR "${source} has no line '// expect: sentence' (the test would pass for "
+                            "any error); add the sentence that the compiler must print")
+    endif()
+    string(REGEX REPLACE "^// expect: " "" sentence "${sentence}")
+    string(REGEX REPLACE "([][+.*()^$?|\\])" "\\\\\\1" pattern "${sentence}")
+    foreach(variant IN ITEMS ok fail)
+        add_library(${name}_${variant} OBJECT ${source})
+        target_link_libraries(${name}_${variant} PRIVATE mir::mir ${arg_LIBRARIES})
+    endforeach()
+    set_target_properties(${name}_fail PROPERTIES EXCLUDE_FROM_ALL ON)
+    target_compile_definitions(${name}_fail PRIVATE MIR_COMPILE_FAIL)
+    add_test(NAME "compile_fail: ${name}"
+        COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target ${name}_fail)
+    # Two builds must not work in one folder at the same time.
+    set_tests_properties("compile_fail: ${name}" PROPERTIES
+        PASS_REGULAR_EXPRESSION "error:.*${pattern}"
+        ENVIRONMENT LC_ALL=C
+        LABELS compile_fail
+        RESOURCE_LOCK build_folder)
+endfunction()

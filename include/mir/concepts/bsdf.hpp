@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/rgb.hpp"
+#include "mir/data/soa.hpp"
+#include "mir/shading/bsdf_sample.hpp"
+
+#include <concepts>
+
+namespace mir {
+
+/// A reflection model: `Params` per surface point and pure functions of directions. `n` is the unit
+/// shading normal, `wi` and `wo` unit directions away from the surface.
+///
+/// Axioms (tests/conformance/bsdf_suite.hpp):
+///  1. eval(wi, wo) = eval(wo, wi), finite and not negative;
+///  2. the directional albedo is at most 1;
+///  3. albedo() lies in [0, 1];
+///  4. sample() follows pdf(), and its weight is eval cos / pdf.
+template <class B>
+concept Bsdf = WordCopyable<typename B::Params> &&
+               requires(const typename B::Params& p, Vec3 n, Vec3 wi, Vec3 wo, Vec2 u, float v) {
+                   { B::eval(p, n, wi, wo) } -> std::same_as<Rgb>;
+                   { B::pdf(p, n, wi, wo) } -> std::same_as<float>;
+                   { B::sample(p, n, wo, u, v) } -> std::same_as<BsdfSample>;
+                   { B::albedo(p, n, wo) } -> std::same_as<Rgb>;
+               };
+
+}  // namespace mir

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/space.hpp"
+#include "mir/data/luxel.hpp"
+#include "mir/data/tile.hpp"
+
+#include <concepts>
+#include <vector>
+
+namespace mir {
+
+/// A view of the luxels of one tile, in blocked order.
+///
+/// Axioms (tests/conformance/gbuffer_suite.hpp):
+///  1. hit(i) never touches surface memory, so that visibility can run before surfaces arrive;
+///  2. luxels of the padding are empty.
+template <class G>
+concept GBuffer = DeviceCopyable<G> && requires(const G g, LuxelIndex i) {
+    { G::space } -> std::convertible_to<Space>;
+    { g.size() } -> std::same_as<std::uint32_t>;
+    { g.hit(i) } -> std::same_as<Hit>;
+    { g.surface(i) } -> std::same_as<typename G::Surface>;
+};
+
+/// The luxels of an image, tile by tile, on the host: what reconstruct() is given.
+template <class T>
+concept TiledGBuffer = requires(const T t, TileIndex i) {
+    { t.extent() } -> std::same_as<Extent>;
+    { t.tiles() } -> std::convertible_to<const std::vector<Tile>&>;
+    { t.view(i) } -> GBuffer;
+};
+
+}  // namespace mir

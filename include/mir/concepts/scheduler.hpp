@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/rgb.hpp"
+#include "mir/data/image.hpp"
+
+#include <concepts>
+
+namespace mir {
+
+/// What a scheduler opens for one image: owns queues and buffers and dies with the call.
+template <class P>
+concept Pipeline = requires(P p, TileIndex t) {
+    p.submit(t);  // may return before the tile is done
+    p.finish();   // every submitted luxel is written, once
+};
+
+/// One of the arrangements in time of the paper's section 5: a value that opens pipelines.
+/// `Inputs` is mir::Inputs<...> of reconstruct.hpp.
+///
+/// Axioms (tests/conformance/scheduler_suite.hpp): each luxel of each submitted tile is written
+/// exactly once; the order of tiles does not change the image; no VPLs give black; the image is that
+/// of sched::Cpu.
+template <class S, class Inputs>
+concept Scheduler = requires(const S s, const Inputs& in, Image<Rgb>& out) {
+    { s.open(in, out) } -> Pipeline;
+};
+
+}  // namespace mir

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/space.hpp"
+#include "mir/data/luxel.hpp"
+#include "mir/data/vpl.hpp"
+
+#include <concepts>
+
+namespace mir {
+
+/// Radiance that an unoccluded VPL adds to a luxel. `typename F::Surface` says which surface data
+/// it reads.
+///
+/// Axioms (tests/conformance/shading_suite.hpp): finite, not negative, zero below either horizon,
+/// traces no ray.
+template <class F>
+concept Shading = DeviceCopyable<F> && requires(const F f, const Hit& h,
+                                                const typename F::Surface& s, const Vpl& v) {
+    { f(h, s, v) } -> std::same_as<Rgb>;
+};
+
+/// Shading that is zero beyond a distance, so that whole blocks can be skipped without loss.
+template <class F>
+concept ReachLimitedShading = Shading<F> && requires(const F f) {
+    { f.reach_squared() } -> std::same_as<float>;
+};
+
+}  // namespace mir

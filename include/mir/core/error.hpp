@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace mir {
+
+/// Place in the source that raised an error. clang 14 lacks std::source_location; the builtins used
+/// here exist in every supported compiler and report the caller's line.
+struct Where {
+    const char* file = "";
+    std::uint32_t line = 0;
+
+    static constexpr Where here(const char* file = __builtin_FILE(),
+                                std::uint32_t line = __builtin_LINE()) {
+        return {file, line};
+    }
+};
+
+/// What kind of failure an Error reports. `mir` the program maps these to exit codes.
+enum class ErrorCode {
+    invalid_argument,  ///< a value handed in by the caller cannot be used
+    invalid_input,     ///< a file or scene cannot be read or breaks its format's rules
+    limit_exceeded,    ///< a Limits bound would be passed; nothing was allocated
+    unsupported,       ///< understood, but outside what this build or library does
+    no_device,         ///< the requested device does not exist
+    device,            ///< a device or its driver failed
+    io,                ///< a file cannot be created or written
+    cancelled,         ///< the caller asked to stop
+    internal           ///< an invariant of the library broke: please report
+};
+
+/// The one exception type of the library. The message is a sentence: problem, reason, remedy.
+class Error : public std::runtime_error {
+ public:
+    Error(ErrorCode code, const std::string& what, Where at = Where::here())
+        : std::runtime_error(what), code_(code), where_(at) {}
+
+    [[nodiscard]] ErrorCode code() const noexcept { return code_; }
+    [[nodiscard]] Where where() const noexcept { return where_; }
+
+ private:
+    ErrorCode code_;
+    Where where_;
+};
+
+/// Checks a precondition at a public border, always, in every build.
+/// @throws Error(invalid_argument) with `sentence` when `ok` is false.
+inline void expects(bool ok, const char* sentence, Where at = Where::here()) {
+    if (!ok) throw Error(ErrorCode::invalid_argument, sentence, at);
+}
+
+}  // namespace mir

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace mir {
+
+/// Vector instruction sets that host loops are compiled for.
+enum class InstructionSet { baseline, avx2, avx512 };
+
+/// The best one that this processor has. Results never depend on it: no contraction is allowed, and
+/// every operation used is exact to the last bit in all of them.
+inline InstructionSet best_instruction_set() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+        __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512vl") != 0)
+        return InstructionSet::avx512;
+    if (__builtin_cpu_supports("avx2") != 0) return InstructionSet::avx2;
+#endif
+    return InstructionSet::baseline;
+}
+
+namespace detail {
+
+#if defined(__x86_64__)
+// `flatten` pulls the whole loop into a function that may use the wider registers, so one template
+// serves every instruction set and no file needs its own compiler flags.
+template <class Body>
+[[gnu::flatten, gnu::target("avx2")]] void run_avx2(const Body& body) {
+    body();
+}
+
+#if defined(__clang__)
+template <class Body>
+[[gnu::flatten, gnu::target("avx512f,avx512dq,avx512bw,avx512vl")]] void run_avx512(
+    const Body& body) {
+    body();
+}
+#else
+template <class Body>
+[[gnu::flatten,
+  gnu::target("avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512")]] void
+run_avx512(const Body& body) {
+    body();
+}
+#endif
+#endif
+
+}  // namespace detail
+
+/// Calls `body()` compiled for `set`, which the processor must have.
+template <class Body>
+void run_with(InstructionSet set, const Body& body) {
+#if defined(__x86_64__)
+    if (set == InstructionSet::avx512) return detail::run_avx512(body);
+    if (set == InstructionSet::avx2) return detail::run_avx2(body);
+#endif
+    static_cast<void>(set);
+    body();
+}
+
+}  // namespace mir

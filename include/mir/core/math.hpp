@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The only file that includes GLM. nvcc reports a host-only annotation of GLM's defaulted members
+// hundreds of times; the diagnostic is silenced around this include and nowhere else.
+#if defined(__CUDACC__)
+#include <cuda.h>
+#pragma nv_diagnostic push
+#pragma nv_diag_suppress 20012
+#endif
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#if defined(__CUDACC__)
+#pragma nv_diagnostic pop
+#endif
+
+#include "mir/core/hd.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+namespace mir {
+
+using Vec2 = glm::vec2;
+using Vec3 = glm::vec3;
+using Vec4 = glm::vec4;
+using Mat3 = glm::mat3;
+using Mat4 = glm::mat4;
+
+// Host and device code exchange these types as bytes.
+static_assert(sizeof(Vec3) == 12 && alignof(Vec3) == 4);
+static_assert(std::is_trivially_copyable_v<Vec3> && std::is_trivially_copyable_v<Mat4>);
+
+inline constexpr float pi = 3.14159265358979323846f;
+inline constexpr float inv_pi = 0.31830988618379067154f;
+
+/// Larger and smaller of two numbers, `b` when they cannot be compared. Plain selects: unlike fmaxf
+/// they are one instruction in vectorised loops and equal in bits on every backend.
+MIR_HD constexpr float larger(float a, float b) { return a > b ? a : b; }
+MIR_HD constexpr float smaller(float a, float b) { return a < b ? a : b; }
+
+/// Largest absolute component. Same unit as `v`.
+MIR_HD inline float max_abs(Vec3 v) {
+    return larger(fabsf(v.x), larger(fabsf(v.y), fabsf(v.z)));
+}
+
+/// Squared Euclidean length.
+MIR_HD inline float length_squared(Vec3 v) { return glm::dot(v, v); }
+
+/// True when no component is NaN or infinite.
+inline bool is_finite(Vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace mir

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+
+namespace mir {
+
+/// What a random number is for. Streams never share numbers, so adding a draw to one stage leaves
+/// every other stage's results as they were.
+enum class Stream : std::uint32_t { luxel = 1, lens, direct_light, light_path, pilot, test };
+
+/// 128 bits as four words; a plain array, because device code cannot index std::array.
+struct Bits128 {
+    std::uint32_t word[4] = {};
+    friend MIR_HD constexpr bool operator==(const Bits128&, const Bits128&) = default;
+};
+
+/// Philox 4x32 with 10 rounds: 128 random bits from a 128-bit counter and a 64-bit key.
+/// Source: Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011.
+MIR_HD constexpr Bits128 philox4x32(Bits128 counter, std::uint64_t key) {
+    std::uint32_t c0 = counter.word[0], c1 = counter.word[1];
+    std::uint32_t c2 = counter.word[2], c3 = counter.word[3];
+    std::uint32_t k0 = static_cast<std::uint32_t>(key), k1 = static_cast<std::uint32_t>(key >> 32);
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t p0 = std::uint64_t{0xD2511F53u} * c0;
+        const std::uint64_t p1 = std::uint64_t{0xCD9E8D57u} * c2;
+        c0 = static_cast<std::uint32_t>(p1 >> 32) ^ c1 ^ k0;
+        c2 = static_cast<std::uint32_t>(p0 >> 32) ^ c3 ^ k1;
+        c1 = static_cast<std::uint32_t>(p1);
+        c3 = static_cast<std::uint32_t>(p0);
+        k0 += 0x9E3779B9u;
+        k1 += 0xBB67AE85u;
+    }
+    return {{c0, c1, c2, c3}};
+}
+
+/// Maps 32 random bits to the 2^24 floats k 2^-24 of [0, 1). Never returns 1.
+MIR_HD constexpr float to_unit_float(std::uint32_t bits) {
+    return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
+
+/// Counter-based source of uniform numbers in [0, 1): the i-th number is a pure function of
+/// (seed, stream, index, i), on any machine and in any order. A small value; not shared by threads.
+class Random {
+ public:
+    /// `index` names the consumer inside the stream, for example the luxel or the light path.
+    MIR_HD constexpr Random(std::uint64_t seed, Stream stream, std::uint64_t index)
+        : key_(seed), stream_(static_cast<std::uint32_t>(stream)), index_(index) {}
+
+    /// Number of dimension `dimension`; leaves the sequence of next() alone.
+    [[nodiscard]] MIR_HD constexpr float at(std::uint32_t dimension) const {
+        return to_unit_float(block(dimension / 4).word[dimension % 4]);
+    }
+
+    MIR_HD constexpr float next() {
+        if (dimension_ % 4 == 0) block_ = block(dimension_ / 4);
+        return to_unit_float(block_.word[dimension_++ % 4]);
+    }
+
+    MIR_HD Vec2 next_2d() {
+        const float x = next();
+        return {x, next()};
+    }
+
+ private:
+    [[nodiscard]] MIR_HD constexpr Bits128 block(std::uint32_t number) const {
+        return philox4x32({{number, stream_, static_cast<std::uint32_t>(index_),
+                            static_cast<std::uint32_t>(index_ >> 32)}},
+                          key_);
+    }
+
+    std::uint64_t key_;
+    std::uint32_t stream_;
+    std::uint64_t index_;
+    std::uint32_t dimension_ = 0;
+    Bits128 block_{};
+};
+
+}  // namespace mir

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+
+namespace mir {
+
+/// Half line origin + t direction, t > 0. `direction` has unit length; metres.
+struct Ray {
+    Vec3 origin{0};
+    Vec3 direction{0, 0, -1};
+};
+
+/// Where a ray met the scene. Both normals have unit length and lie on the side the ray came from;
+/// `front` says whether that is the side on which the triangle's vertices turn counter-clockwise.
+struct SurfacePoint {
+    Vec3 position{0};
+    Vec3 geometric_normal{0, 0, 1};
+    Vec3 shading_normal{0, 0, 1};
+    Vec2 barycentrics{0};         ///< weights of the triangle's second and third vertex
+    std::uint32_t triangle = 0;   ///< index into WorldGeometry
+    std::uint32_t material = 0;   ///< index into Scene::materials
+    bool front = true;
+};
+
+/// Lifts a point off its surface by `offset` metres along the unit normal of the side it is seen
+/// from, so that segments leaving it do not meet the surface again. `offset` comes from
+/// WorldGeometry::ray_offset, which scales with the scene and its distance from the origin.
+MIR_HD inline Vec3 lift(Vec3 position, Vec3 normal, float offset) {
+    return position + offset * normal;
+}
+
+}  // namespace mir

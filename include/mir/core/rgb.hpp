@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+
+namespace mir {
+
+/// Linear Rec. 709 triple. What it measures (radiance, intensity, reflectance) is said where it is
+/// used.
+struct Rgb {
+    float r = 0.0f;
+    float g = 0.0f;
+    float b = 0.0f;
+
+    MIR_HD constexpr Rgb& operator+=(Rgb o) {
+        r += o.r;
+        g += o.g;
+        b += o.b;
+        return *this;
+    }
+    friend MIR_HD constexpr Rgb operator+(Rgb a, Rgb o) { return a += o; }
+    friend MIR_HD constexpr Rgb operator-(Rgb a, Rgb o) { return {a.r - o.r, a.g - o.g, a.b - o.b}; }
+    friend MIR_HD constexpr Rgb operator*(Rgb a, Rgb o) { return {a.r * o.r, a.g * o.g, a.b * o.b}; }
+    friend MIR_HD constexpr Rgb operator*(Rgb a, float s) { return {a.r * s, a.g * s, a.b * s}; }
+    friend MIR_HD constexpr Rgb operator*(float s, Rgb a) { return a * s; }
+    friend MIR_HD constexpr bool operator==(Rgb a, Rgb o) = default;
+};
+
+/// Rec. 709 luminance, in the unit of `c`. Strictly positive weights, so no colour is lost to it.
+MIR_HD constexpr float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+/// Largest channel.
+MIR_HD constexpr float max_channel(Rgb c) {
+    const float rg = c.r > c.g ? c.r : c.g;
+    return rg > c.b ? rg : c.b;
+}
+
+/// True when every channel is exactly zero.
+MIR_HD constexpr bool is_black(Rgb c) { return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f; }
+
+/// True when no channel is NaN or infinite.
+inline bool is_finite(Rgb c) {
+    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
+
+}  // namespace mir

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/data/tile.hpp"
+
+namespace mir {
+
+/// Order of the luxels of one tile in memory: squares of 16x16, one after another (figure 4 of the
+/// paper), each cut into 8x4 and those into 4x4, so that 16 or 32 consecutive luxels (a vector
+/// register, a warp) are neighbours in both directions. The blocked index of a luxel is the global
+/// index of its CUDA thread. Ragged edges are padded to whole blocks.
+struct BlockedLayout {
+    static constexpr std::uint32_t side = 16;
+    static constexpr std::uint32_t block_size = side * side;
+
+    std::uint32_t blocks_x = 0;
+    std::uint32_t blocks_y = 0;
+
+    MIR_HD static constexpr BlockedLayout of(Tile t) {
+        return {(t.width + side - 1) / side, (t.height + side - 1) / side};
+    }
+    [[nodiscard]] MIR_HD constexpr std::uint32_t blocks() const { return blocks_x * blocks_y; }
+    [[nodiscard]] MIR_HD constexpr std::uint32_t size() const { return blocks() * block_size; }
+
+    /// Blocked index of the luxel at (x, y) of the tile.
+    [[nodiscard]] MIR_HD constexpr LuxelIndex operator()(std::uint32_t x, std::uint32_t y) const {
+        const std::uint32_t block = (y / side) * blocks_x + x / side;
+        return block * block_size + inside(x % side, y % side);
+    }
+
+    /// Index inside a block of the luxel at (x, y), both below `side`.
+    [[nodiscard]] MIR_HD static constexpr LuxelIndex inside(std::uint32_t x, std::uint32_t y) {
+        return (y / 4) * 64 + (x / 4) * 16 + (y % 4) * 4 + x % 4;
+    }
+
+    /// The part of tile `t` that block `block` covers; empty extents never occur.
+    [[nodiscard]] constexpr Tile block_area(Tile t, std::uint32_t block) const {
+        const std::uint32_t x = (block % blocks_x) * side;
+        const std::uint32_t y = (block / blocks_x) * side;
+        return {x, y, std::min(side, t.width - x), std::min(side, t.height - y)};
+    }
+};
+
+}  // namespace mir

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/rgb.hpp"
+
+#include <cstdint>
+
+namespace mir {
+
+/// A geometric VPL, its path VPLs already summed: a point that shines into the hemisphere of its
+/// geometric normal with radiant intensity J cos(theta).
+struct Vpl {
+    Vec3 position{0};  ///< lifted off the surface, metres
+    Vec3 normal{0};    ///< unit geometric normal
+    Rgb intensity;     ///< J, radiant intensity along the normal, W sr^-1
+};
+
+/// Where the light of a VPL comes from.
+enum class VplKind : std::uint8_t {
+    emitter,    ///< a point of a light source: direct light
+    reflective  ///< a point that reflects: indirect light
+};
+
+/// What later stages may ask about a VPL but no kernel reads.
+struct VplOrigin {
+    VplKind kind = VplKind::reflective;
+    std::uint8_t bounce = 2;         ///< scattering events up to the camera: 1 direct, 2 one bounce
+    std::uint16_t light_group = 0;   ///< group of the light that feeds it
+    std::uint32_t multiplicity = 1;  ///< recorded states that share this point
+    std::uint32_t triangle = 0;      ///< identity of the point: triangle and barycentrics
+    Vec2 barycentrics{0};
+};
+
+/// True when two path VPLs belong to one geometric VPL of one bounce and light group. Identity is
+/// the triangle and the barycentrics copied from the sampler's state, never a distance.
+inline bool same_place(const VplOrigin& a, const VplOrigin& b) {
+    return a.triangle == b.triangle && a.barycentrics == b.barycentrics && a.kind == b.kind &&
+           a.bounce == b.bounce && a.light_group == b.light_group;
+}
+
+}  // namespace mir

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/concepts/ray_caster.hpp"
+#include "mir/core/random.hpp"
+#include "mir/data/gbuffer.hpp"
+#include "mir/film/luxel_grid.hpp"
+#include "mir/scene/camera.hpp"
+#include "mir/shading/surface_table.hpp"
+
+namespace mir {
+
+/// The camera rays of an image: one per luxel, a pure function of its place and the seed.
+struct CameraRays {
+    Camera camera;
+    LuxelGrid grid;
+    std::uint64_t seed = 0;
+
+    /// Ray of the luxel at (x, y) of the whole luxel image.
+    [[nodiscard]] Ray operator()(std::uint32_t x, std::uint32_t y) const {
+        const Extent pixels = grid.pixels;
+        const Vec2 position = grid.position(x, y, seed);
+        const float aspect =
+            static_cast<float>(pixels.width) / static_cast<float>(pixels.height);
+        Random random(seed, Stream::lens, std::uint64_t{y} * grid.luxels().width + x);
+        return camera.ray({position.x / static_cast<float>(pixels.width),
+                           position.y / static_cast<float>(pixels.height)},
+                          aspect, random.next_2d());
+    }
+};
+
+/// First phase: traces the camera ray of every luxel of `gbuffer`, which holds the rows from
+/// `first_row` on of the luxel image. Points are lifted by `ray_offset` metres.
+template <Bsdf B, RayCaster R, Executor E>
+void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t first_row,
+                  const CameraRays& rays, const R& caster, const SurfaceTable<B>& surfaces,
+                  float ray_offset, E& executor) {
+    struct Row {
+        TileIndex tile;
+        std::uint32_t y;
+    };
+    std::vector<Row> rows;
+    for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t)
+        for (std::uint32_t y = 0; y < gbuffer.tiles()[t].height; ++y) rows.push_back({t, y});
+
+    executor.for_each(rows.size(), [&](std::size_t i) {
+        const Row row = rows[i];
+        const Tile tile = gbuffer.tiles()[row.tile];
+        const auto layout = BlockedLayout::of(tile);
+        for (std::uint32_t x = 0; x < tile.width; ++x) {
+            const Ray ray = rays(tile.x + x, first_row + tile.y + row.y);
+            const auto point = caster.closest_hit(ray);
+            if (!point) continue;
+            const Vec3 n = point->geometric_normal;
+            gbuffer.store(row.tile, layout(x, row.y), {lift(point->position, n, ray_offset), n},
+                          surfaces.surface(*point, -ray.direction));
+        }
+    });
+}
+
+}  // namespace mir

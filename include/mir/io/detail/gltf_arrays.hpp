@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+#include "mir/io/detail/gltf_accessor.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mir::detail {
+
+template <class Vec>
+Vec load_vector(const unsigned char* bytes, int type, bool normalized) {
+    Vec value;
+    const std::size_t step = gltf_component_size(type);
+    for (int k = 0; k < Vec::length(); ++k)
+        value[k] = load_component(bytes + static_cast<std::size_t>(k) * step, type, normalized);
+    return value;
+}
+
+/// Overwrites the elements that a sparse accessor lists.
+template <class Vec>
+void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
+                  const std::string& place, std::vector<Vec>& values) {
+    const auto& sparse = accessor.sparse;
+    const auto& where = sparse.indices;
+    if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count ||
+        where.byteOffset < 0 || sparse.values.byteOffset < 0 || !is_index_type(where.componentType))
+        gltf_fail(place, "its sparse part is broken (count, offset or index type); repair it");
+    const auto count = static_cast<std::uint64_t>(sparse.count);
+    const GltfElements indices = elements_in_view(
+        model, where.bufferView, static_cast<std::uint64_t>(where.byteOffset), count,
+        gltf_component_size(where.componentType), where.componentType, place);
+    const GltfElements replaced = elements_in_view(
+        model, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset),
+        count, gltf_component_size(accessor.componentType) * Vec::length(), accessor.componentType,
+        place);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t at =
+            load_index(indices.first + i * indices.stride, indices.component_type);
+        if (at >= values.size())
+            gltf_fail(place, "its sparse part replaces element " + std::to_string(at) + " of " +
+                                 std::to_string(values.size()) + "; repair the index");
+        values[at] = load_vector<Vec>(replaced.first + i * replaced.stride, replaced.component_type,
+                                      accessor.normalized);
+    }
+}
+
+/// Vectors of an accessor of any component type, sparse parts applied. `Vec` is Vec3 or Vec4.
+/// @throws Error(invalid_input) when the accessor holds something else.
+template <class Vec>
+std::vector<Vec> read_vectors(const tinygltf::Model& model, int index, const std::string& user) {
+    const std::size_t at = checked_index(index, model.accessors.size(), "accessor", user);
+    const tinygltf::Accessor& accessor = model.accessors[at];
+    const std::string place = gltf_place("accessor", at, accessor.name);
+    if (accessor.type != Vec::length())
+        gltf_fail(place, "it does not hold vectors of " + std::to_string(Vec::length()) +
+                             " components, which " + user + " needs; repair its type");
+    const GltfElements elements = accessor_elements(model, at);
+    std::vector<Vec> values(elements.count, Vec(0.0f));
+    if (elements.first != nullptr)
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = load_vector<Vec>(elements.first + i * elements.stride,
+                                         elements.component_type, accessor.normalized);
+    if (accessor.sparse.isSparse) apply_sparse(model, accessor, place, values);
+    return values;
+}
+
+/// Vertex indices of 8, 16 or 32 bits.
+/// @throws Error(invalid_input) when the accessor holds something else.
+inline std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int index,
+                                               const std::string& user) {
+    const std::size_t at = checked_index(index, model.accessors.size(), "accessor", user);
+    const tinygltf::Accessor& accessor = model.accessors[at];
+    const std::string place = gltf_place("accessor", at, accessor.name);
+    if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_index_type(accessor.componentType))
+        gltf_fail(place, "it does not hold unsigned numbers, which the indices of " + user +
+                             " have to be; repair its type");
+    if (accessor.sparse.isSparse || accessor.bufferView < 0)
+        gltf_fail(place, "sparse vertex indices are not supported; export the file without",
+                  ErrorCode::unsupported);
+    const GltfElements elements = accessor_elements(model, at);
+    std::vector<std::uint32_t> values(elements.count);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = load_index(elements.first + i * elements.stride, elements.component_type);
+    return values;
+}
+
+}  // namespace mir::detail

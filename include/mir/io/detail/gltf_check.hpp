@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/error.hpp"
+#include "mir/io/scene_report.hpp"
+
+#include <tiny_gltf.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mir::detail {
+
+/// Complains about one place of a file; the reader puts the file's name in front.
+[[noreturn]] inline void gltf_fail(const std::string& place, const std::string& problem,
+                                   ErrorCode code = ErrorCode::invalid_input) {
+    throw Error(code, place + ": " + problem);
+}
+
+/// "node 3 'lamp'", for messages.
+inline std::string gltf_place(const char* kind, std::size_t index, const std::string& name = {}) {
+    std::string place = std::string(kind) + " " + std::to_string(index);
+    if (!name.empty()) place += " '" + name + "'";
+    return place;
+}
+
+/// @throws Error(invalid_input) when `index` is not one of `size` things called `kind`.
+inline std::size_t checked_index(int index, std::size_t size, const char* kind,
+                                 const std::string& place) {
+    if (index >= 0 && static_cast<std::size_t>(index) < size)
+        return static_cast<std::size_t>(index);
+    gltf_fail(place, "it names " + std::string(kind) + " " + std::to_string(index) +
+                         ", which does not exist (the file has " + std::to_string(size) +
+                         "); repair the index");
+}
+
+/// A finite number that fits a float.
+inline float checked_float(double value, const char* what, const std::string& place) {
+    const auto narrow = static_cast<float>(value);
+    if (!std::isfinite(narrow))
+        gltf_fail(place, std::string(what) + " is not a finite number (" + std::to_string(value) +
+                             " does not fit 32 bits); repair the value");
+    return narrow;
+}
+
+/// A finite number that is not negative.
+inline float checked_amount(double value, const char* what, const std::string& place) {
+    const float narrow = checked_float(value, what, place);
+    if (narrow < 0.0f)
+        gltf_fail(place, std::string(what) + " is negative (" + std::to_string(value) +
+                             "; light and lengths cannot be); repair the value");
+    return narrow;
+}
+
+/// A factor of 0..1. Values outside are clamped and counted: exporters round past the ends.
+inline float unit_factor(double value, const char* what, const std::string& place,
+                         SceneReport& report) {
+    const float narrow = checked_float(value, what, place);
+    if (narrow >= 0.0f && narrow <= 1.0f) return narrow;
+    ++report.ignored[std::string(what) + " outside 0..1 (clamped)"];
+    return narrow < 0.0f ? 0.0f : 1.0f;
+}
+
+/// Number under `key` of an extension or of extras, `otherwise` when it is not there.
+inline double number_or(const tinygltf::Value& object, const char* key, double otherwise,
+                        const std::string& place) {
+    if (!object.Has(key)) return otherwise;
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsNumber())
+        gltf_fail(place, "'" + std::string(key) + "' is not a number; repair the value");
+    return value.GetNumberAsDouble();
+}
+
+/// Whole number under `key`, -1 when it is missing or of another kind: no index is negative.
+inline int index_under(const tinygltf::Value& object, const char* key) {
+    return object.Has(key) && object.Get(key).IsInt() ? object.Get(key).GetNumberAsInt() : -1;
+}
+
+/// Light group kept in extras, 0 when not given.
+inline std::uint16_t light_group_of(const tinygltf::Value& extras, const std::string& place) {
+    const double group = number_or(extras, "light_group", 0.0, place);
+    if (!(group >= 0.0 && group <= 65535.0) || group != std::floor(group))
+        gltf_fail(place, "extras.light_group is no whole number of 0..65535; repair the value");
+    return static_cast<std::uint16_t>(group);
+}
+
+/// Extensions that change nothing but the look of materials may be required: what of them is not
+/// supported is counted where it is used.
+inline bool can_read_extension(std::string_view name) {
+    return name == "KHR_lights_punctual" || name == "KHR_mesh_quantization" ||
+           name == "EXT_mesh_gpu_instancing" || name.rfind("KHR_materials_", 0) == 0 ||
+           name.find("_texture_") != std::string_view::npos;
+}
+
+/// @throws Error(unsupported) by name.
+inline void check_version_and_extensions(const tinygltf::Model& model) {
+    const std::string& version = model.asset.version;
+    const std::string& needed = model.asset.minVersion;
+    if (version.rfind("2.", 0) != 0 || !(needed.empty() || needed == "2.0"))
+        gltf_fail("asset",
+                  "it is glTF " + (needed.empty() ? version : needed) +
+                      " (this reader knows 2.0); export it as glTF 2.0",
+                  ErrorCode::unsupported);
+    for (const std::string& name : model.extensionsRequired)
+        if (!can_read_extension(name))
+            gltf_fail("extensionsRequired",
+                      "the file cannot be read without '" + name +
+                          "' (this reader does not know that extension); export it without",
+                      ErrorCode::unsupported);
+}
+
+}  // namespace mir::detail

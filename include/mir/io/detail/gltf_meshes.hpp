@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/limits.hpp"
+#include "mir/io/detail/gltf_arrays.hpp"
+#include "mir/io/detail/gltf_materials.hpp"
+#include "mir/scene/scene.hpp"
+
+#include <tiny_gltf.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mir::detail {
+
+/// `v` with length 1. What is unit to rounding stays as it is, so that files written by
+/// write_glb come back unchanged. Zero when `v` is no direction.
+inline Vec3 unit_direction(Vec3 v) {
+    const float squared = length_squared(v);
+    if (std::fabs(squared - 1.0f) < 1e-6f) return v;
+    if (!(squared > 0.0f) || !std::isfinite(squared)) return Vec3(0.0f);
+    return v / std::sqrt(squared);
+}
+
+/// Triangles from the vertex order of a primitive: lists, strips or fans (glTF 2.0, 3.7.2.1).
+/// @pre `mode` is one of the three.
+inline std::vector<TriangleIndices> gltf_triangles(const std::vector<std::uint32_t>& order,
+                                                   int mode) {
+    std::vector<TriangleIndices> triangles;
+    const std::size_t n = order.size();
+    if (n < 3) return triangles;
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+        triangles.reserve(n / 3);
+        for (std::size_t i = 0; i + 2 < n; i += 3)
+            triangles.push_back({order[i], order[i + 1], order[i + 2]});
+        return triangles;
+    }
+    triangles.reserve(n - 2);
+    for (std::size_t i = 0; i + 2 < n; ++i)
+        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+            triangles.push_back({order[i + 1], order[i + 2], order[0]});
+        else
+            triangles.push_back({order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
+    return triangles;
+}
+
+/// Turns the primitives of a file into meshes of a scene whose materials are already there.
+class GltfMeshes {
+ public:
+    GltfMeshes(const tinygltf::Model& model, const Limits& limits, Scene& scene,
+               SceneReport& report)
+        : model_(model), limits_(limits), scene_(scene), report_(report) {}
+
+    /// For every mesh of the file, the scene meshes of its primitives.
+    /// @throws Error(invalid_input), Error(limit_exceeded)
+    [[nodiscard]] std::vector<std::vector<std::uint32_t>> convert_all() {
+        std::vector<std::vector<std::uint32_t>> parts(model_.meshes.size());
+        for (std::size_t m = 0; m < parts.size(); ++m) {
+            const std::size_t primitives = model_.meshes[m].primitives.size();
+            if (primitives == 0)
+                gltf_fail(gltf_place("mesh", m, model_.meshes[m].name),
+                          "it has no list of primitives (glTF asks for one at least); repair it");
+            for (std::size_t k = 0; k < primitives; ++k) convert(m, k, parts[m]);
+        }
+        return parts;
+    }
+
+ private:
+    void convert(std::size_t m, std::size_t k, std::vector<std::uint32_t>& parts) {
+        const tinygltf::Primitive& from = model_.meshes[m].primitives[k];
+        place_ = gltf_place("mesh", m, model_.meshes[m].name) + ", primitive " + std::to_string(k);
+        if (!has_triangles(from)) return;
+        Mesh mesh;
+        mesh.name = name_of(m, k);
+        mesh.material = material_of(from);
+        read_triangles(from, mesh);
+        if (mesh.triangles.empty()) return ignore("primitive without triangles");
+        read_vertices(from, mesh);
+        check_mesh(scene_, mesh);
+        note_unused(from);
+        parts.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
+        scene_.meshes.push_back(std::move(mesh));
+    }
+
+    void ignore(const std::string& what) { ++report_.ignored[what]; }
+
+    [[nodiscard]] std::string name_of(std::size_t m, std::size_t k) const {
+        const tinygltf::Mesh& mesh = model_.meshes[m];
+        const std::string name = mesh.name.empty() ? "mesh " + std::to_string(m) : mesh.name;
+        return mesh.primitives.size() == 1 ? name : name + "/" + std::to_string(k);
+    }
+
+    bool has_triangles(const tinygltf::Primitive& from) {
+        if (from.mode < TINYGLTF_MODE_POINTS || from.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+            gltf_fail(place_, "mode " + std::to_string(from.mode) +
+                                  " is none of glTF 2.0 (0 to 6); repair it");
+        if (from.mode < TINYGLTF_MODE_TRIANGLES) {
+            ignore(from.mode == TINYGLTF_MODE_POINTS ? "primitive of points"
+                                                     : "primitive of lines");
+            return false;
+        }
+        if (from.attributes.find("POSITION") != from.attributes.end()) return true;
+        ignore("primitive without positions");
+        return false;
+    }
+
+    std::uint32_t material_of(const tinygltf::Primitive& from) {
+        if (from.material >= 0)
+            return static_cast<std::uint32_t>(
+                checked_index(from.material, model_.materials.size(), "material", place_));
+        if (!default_material_) default_material_ = scene_.add(gltf_default_material());
+        return *default_material_;
+    }
+
+    /// Number of elements of an accessor that nothing has been read from yet.
+    [[nodiscard]] std::uint64_t count_of(int accessor) const {
+        return model_
+            .accessors[checked_index(accessor, model_.accessors.size(), "accessor", place_)]
+            .count;
+    }
+
+    void read_triangles(const tinygltf::Primitive& from, Mesh& mesh) {
+        const int positions = from.attributes.at("POSITION");
+        const std::uint64_t count = count_of(from.indices >= 0 ? from.indices : positions);
+        const bool list = from.mode == TINYGLTF_MODE_TRIANGLES;
+        triangles_ += list ? count / 3 : count;
+        check_limit(triangles_, limits_.triangles, "triangles");
+        if (list && count % 3 != 0) ignore("incomplete triangle at the end of a primitive");
+        std::vector<std::uint32_t> order;
+        if (from.indices >= 0) {
+            order = read_indices(model_, from.indices, place_);
+        } else {
+            order.resize(count);
+            for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+        }
+        mesh.triangles = gltf_triangles(order, from.mode);
+    }
+
+    void read_vertices(const tinygltf::Primitive& from, Mesh& mesh) {
+        const int positions = from.attributes.at("POSITION");
+        vertices_ += count_of(positions);
+        check_limit(vertices_, limits_.vertices, "vertices");
+        mesh.positions = read_vectors<Vec3>(model_, positions, place_);
+        const auto normals = from.attributes.find("NORMAL");
+        if (normals == from.attributes.end()) return;
+        mesh.normals = read_vectors<Vec3>(model_, normals->second, place_);
+        bool all_directions = true;
+        for (Vec3& n : mesh.normals) {
+            n = unit_direction(n);
+            all_directions = all_directions && n != Vec3(0.0f);
+        }
+        // Exporters write such normals at triangles without area; shading falls back to flat.
+        if (!all_directions) ignore("normal without a direction (mesh counted once)");
+    }
+
+    void note_unused(const tinygltf::Primitive& from) {
+        if (from.attributes.count("COLOR_0") != 0) ignore("vertex colours (COLOR_0)");
+        if (!from.targets.empty()) ignore("morph targets");
+        for (const auto& [name, value] : from.extensions) ignore(name);
+    }
+
+    const tinygltf::Model& model_;
+    const Limits& limits_;
+    Scene& scene_;
+    SceneReport& report_;
+    std::optional<std::uint32_t> default_material_;
+    std::uint64_t triangles_ = 0;
+    std::uint64_t vertices_ = 0;
+    std::string place_;
+};
+
+}  // namespace mir::detail

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/limits.hpp"
+#include "mir/io/detail/gltf_cameras.hpp"
+#include "mir/io/detail/gltf_instances.hpp"
+#include "mir/io/detail/gltf_lights.hpp"
+#include "mir/io/detail/gltf_load.hpp"
+#include "mir/io/detail/gltf_materials.hpp"
+#include "mir/io/detail/gltf_meshes.hpp"
+#include "mir/io/scene_report.hpp"
+#include "mir/scene/scene.hpp"
+
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace mir {
+
+/// A scene from a file, and what was found and left out on the way.
+struct LoadedScene {
+    Scene scene;
+    SceneReport report;
+};
+
+namespace detail {
+
+/// Counts what a node asks for beyond meshes, lights and cameras.
+inline void note_unused_of_node(const tinygltf::Node& node, SceneReport& report) {
+    if (node.skin >= 0) ++report.ignored["skin"];
+    for (const auto& [name, value] : node.extensions)
+        if (name != "KHR_lights_punctual" && name != "EXT_mesh_gpu_instancing")
+            ++report.ignored[name];
+}
+
+/// Counts what the file as a whole asks for beyond its scene.
+inline void note_unused_of_file(const tinygltf::Model& model, SceneReport& report) {
+    if (!model.animations.empty()) report.ignored["animation"] += model.animations.size();
+    for (const auto& [name, value] : model.extensions)
+        if (name != "KHR_lights_punctual") ++report.ignored[name];
+    for (const tinygltf::Scene& scene : model.scenes) {
+        if (scene.extras.Has("environment")) ++report.ignored["environment"];
+        for (const auto& [name, value] : scene.extensions) ++report.ignored[name];
+    }
+}
+
+inline void place_everything(const tinygltf::Model& model, const Limits& limits,
+                             LoadedScene& loaded) {
+    const auto parts = GltfMeshes(model, limits, loaded.scene, loaded.report).convert_all();
+    GltfInstances instances(model, parts, limits, loaded.scene);
+    for (const PlacedNode& placed : placed_nodes(model, loaded.report)) {
+        const tinygltf::Node& node = model.nodes[placed.node];
+        if (node.mesh >= 0) instances.add(placed);
+        if (node.camera >= 0) add_camera(model, node.camera, placed, loaded.scene, loaded.report);
+        const auto light = node.extensions.find("KHR_lights_punctual");
+        if (light != node.extensions.end())
+            add_light(model, index_under(light->second, "light"), placed, loaded.scene,
+                      loaded.report);
+        note_unused_of_node(node, loaded.report);
+    }
+}
+
+inline LoadedScene convert_gltf(const tinygltf::Model& model, const Limits& limits) {
+    check_ranges(model);
+    LoadedScene loaded;
+    const std::size_t chosen =
+        model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
+    if (chosen < model.scenes.size()) loaded.scene.name = model.scenes[chosen].name;
+    GltfMaterials materials(model, loaded.report);
+    for (std::size_t i = 0; i < model.materials.size(); ++i) loaded.scene.add(materials.convert(i));
+    place_everything(model, limits, loaded);
+    note_unused_of_file(model, loaded.report);
+    count_scene(loaded.scene, loaded.report);
+    return loaded;
+}
+
+}  // namespace detail
+
+/// Reads a glTF 2.0 scene, .gltf with its buffers or .glb. Each primitive becomes a mesh, named
+/// after its mesh (and its number where a mesh has several). emissiveFactor x emissiveStrength is
+/// radiance; punctual lights give candela as W/sr and lux as W/m^2. A scene without light or camera
+/// is no error: the report says so. Textures, alpha and environments are not read; the report
+/// counts them. Thread-safe for different or equal files.
+/// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules;
+///         Error(unsupported) when it requires an extension that is not known;
+///         Error(limit_exceeded) before memory beyond `limits` is taken.
+///         Each message reads "FILE: PLACE: problem (why); remedy".
+/// Source: Khronos glTF 2.0 specification, version 2.0.1.
+inline LoadedScene read_gltf(const std::filesystem::path& path, const Limits& limits = {}) {
+    const auto repeat = [&](ErrorCode code, const std::string& what, Where at) {
+        const std::string file = path.string();
+        return Error(code, what.rfind(file, 0) == 0 ? what : file + ": " + what, at);
+    };
+    try {
+        return detail::convert_gltf(detail::load_gltf_model(path, limits), limits);
+    } catch (const Error& error) {
+        throw repeat(error.code(), error.what(), error.where());
+    } catch (const std::bad_alloc&) {
+        throw repeat(ErrorCode::limit_exceeded,
+                     "there is not enough memory to read it (or it declares absurd sizes); use a "
+                     "smaller scene",
+                     Where::here());
+    } catch (const std::exception& error) {
+        throw repeat(ErrorCode::invalid_input,
+                     std::string("it is no valid glTF 2.0 file (") + error.what() +
+                         "); repair or export it again",
+                     Where::here());
+    }
+}
+
+}  // namespace mir

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/error.hpp"
+#include "mir/core/rgb.hpp"
+#include "mir/data/image.hpp"
+#include "mir/io/atomic_file.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace mir {
+
+/// Exposure in stops (EV) that maps the 90th percentile of the pixels' luminance to 0.8: multiply
+/// radiance by 2^EV. Where more than 90 % of the pixels are black, the percentile of the others.
+/// 0 when all are black. Pixels that are not finite are left out.
+[[nodiscard]] inline float auto_exposure(const Image<Rgb>& linear) {
+    std::vector<float> values;
+    values.reserve(linear.pixels().size());
+    for (const Rgb& pixel : linear.pixels())
+        if (const float y = luminance(pixel); std::isfinite(y)) values.push_back(y);
+    const auto percentile = [&values] {
+        if (values.empty()) return 0.0f;
+        const std::size_t at = (values.size() - 1) * 9 / 10;
+        const auto nth = values.begin() + static_cast<std::ptrdiff_t>(at);
+        std::nth_element(values.begin(), nth, values.end());
+        return *nth;
+    };
+    float bright = percentile();
+    if (bright <= 0.0f) {
+        values.erase(std::remove_if(values.begin(), values.end(), [](float y) { return y <= 0; }),
+                     values.end());
+        bright = percentile();
+    }
+    return bright > 0.0f ? std::log2(0.8f / bright) : 0.0f;
+}
+
+/// 8-bit sRGB code of a linear value: clamped to [0, 1], then the curve of IEC 61966-2-1. NaN gives
+/// 0.
+[[nodiscard]] inline std::uint8_t to_srgb8(float linear) {
+    if (!(linear > 0.0f)) return 0;
+    if (linear >= 1.0f) return 255;
+    const float coded =
+        linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+    return static_cast<std::uint8_t>(coded * 255.0f + 0.5f);
+}
+
+namespace detail {
+
+[[noreturn]] inline void cannot_write_png(const std::filesystem::path& path,
+                                          const std::string& reason) {
+    throw Error(ErrorCode::io, path.string() + ": the preview cannot be written (" + reason +
+                                   "); free space there or choose another folder");
+}
+
+/// PNG file of 8-bit RGB rows. libpng's simplified interface keeps its longjmp to itself, so that
+/// no C++ frame is ever jumped over.
+inline std::vector<std::uint8_t> encode_png(Extent extent, const std::vector<std::uint8_t>& codes,
+                                            const std::filesystem::path& path) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = extent.width;
+    image.height = extent.height;
+    image.format = PNG_FORMAT_RGB;
+    png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::vector<std::uint8_t> file(bytes);
+    if (png_image_write_to_memory(&image, file.data(), &bytes, 0, codes.data(), 0, nullptr) == 0)
+        cannot_write_png(path, image.message);
+    file.resize(bytes);
+    return file;
+}
+
+}  // namespace detail
+
+/// Writes an 8-bit sRGB preview with an sRGB chunk: radiance times 2^`exposure_ev`, clamped to
+/// [0, 1]. The only place of the library that clamps. Equal input gives equal bytes; the file
+/// replaces an older one only when complete.
+/// @throws Error(io) when the file cannot be written, Error(invalid_argument) for an empty image or
+///         one that is beyond 10^6 pixels a side or 2^28 in all.
+inline void write_png(const std::filesystem::path& path, const Image<Rgb>& linear,
+                      float exposure_ev) {
+    constexpr std::uint32_t most = 1'000'000;  // libpng's own bound
+    constexpr std::uint64_t most_pixels = 1ull << 28;
+    const Extent extent = linear.extent();
+    expects(extent.area() > 0 && extent.area() <= most_pixels && extent.width <= most &&
+                extent.height <= most,
+            "this image has no preview (a PNG has 1 to 1000000 pixels a side and 2^28 in all); "
+            "write OpenEXR");
+    const float scale = std::exp2(exposure_ev);
+    std::vector<std::uint8_t> codes;
+    codes.reserve(linear.pixels().size() * 3);
+    for (const Rgb& pixel : linear.pixels())
+        for (const float value : {pixel.r, pixel.g, pixel.b})
+            codes.push_back(to_srgb8(value * scale));
+    const std::vector<std::uint8_t> file = detail::encode_png(extent, codes, path);
+    AtomicFile target(path);
+    errno = 0;
+    std::ofstream stream(target.temporary(), std::ios::binary | std::ios::trunc);
+    stream.write(reinterpret_cast<const char*>(file.data()),
+                 static_cast<std::streamsize>(file.size()));
+    stream.close();
+    if (!stream) detail::cannot_write_png(path, std::strerror(errno != 0 ? errno : EIO));
+    target.commit();
+}
+
+}  // namespace mir

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/scene/scene.hpp"
+#include "mir/scene/world_geometry.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mir {
+
+/// A camera of a scene file, usable or not.
+struct CameraReport {
+    std::string name;
+    std::string kind;                    ///< "perspective", or the kind that cannot be used
+    std::optional<std::uint32_t> index;  ///< into Scene::cameras; none: not supported
+    std::uint32_t width = 0;             ///< pixels that the file asks for; 0: not given
+    std::uint32_t height = 0;
+};
+
+/// What a scene file holds and which parts of it are not used. Plain values.
+struct SceneReport {
+    std::uint64_t triangles = 0;           ///< after instancing
+    std::uint64_t vertices = 0;            ///< after instancing
+    std::uint64_t stored_triangles = 0;    ///< each mesh once
+    std::uint64_t emitting_triangles = 0;  ///< after instancing
+    std::uint64_t meshes = 0;
+    std::uint64_t instances = 0;
+    std::uint64_t materials = 0;
+    std::uint64_t emitting_materials = 0;
+    std::uint64_t point_lights = 0;
+    std::uint64_t spot_lights = 0;
+    std::uint64_t directional_lights = 0;
+    std::vector<CameraReport> cameras;
+    Bounds bounds;  ///< of all instances, metres
+
+    /// Features that change the picture and are not supported, with the number of their uses.
+    /// Nothing is dropped without an entry here.
+    std::map<std::string, std::uint64_t> ignored;
+    std::vector<std::string> notes;  ///< sentences on choices that the reader made
+
+    /// True when nothing in the scene shines.
+    [[nodiscard]] bool is_dark() const {
+        return emitting_triangles + point_lights + spot_lights + directional_lights == 0;
+    }
+};
+
+namespace detail {
+
+inline void count_instance(const Scene& scene, const Instance& instance, SceneReport& report) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    report.triangles += mesh.triangles.size();
+    report.vertices += mesh.positions.size();
+    if (scene.materials[mesh.material].emits()) report.emitting_triangles += mesh.triangles.size();
+    for (Vec3 p : mesh.positions) report.bounds.add(Vec3(instance.to_world * Vec4(p, 1.0f)));
+}
+
+inline void note_absences(const Scene& scene, SceneReport& report) {
+    if (report.triangles == 0) report.notes.emplace_back("no triangles: there is nothing to see");
+    if (report.is_dark())
+        report.notes.emplace_back("no light: no material emits and there is no light source");
+    if (scene.cameras.empty())
+        report.notes.emplace_back("no usable camera: the bounding box can be framed instead");
+}
+
+}  // namespace detail
+
+/// Fills the counts and the bounds of `report` from a checked scene and notes what is missing.
+/// Cameras, `ignored` and earlier notes stay as they are.
+/// @pre every index of `scene` is valid (the readers check this).
+inline void count_scene(const Scene& scene, SceneReport& report) {
+    report.meshes = scene.meshes.size();
+    report.instances = scene.instances.size();
+    report.materials = scene.materials.size();
+    report.point_lights = scene.point_lights.size();
+    report.spot_lights = scene.spot_lights.size();
+    report.directional_lights = scene.directional_lights.size();
+    for (const Mesh& mesh : scene.meshes) report.stored_triangles += mesh.triangles.size();
+    for (const Material& material : scene.materials)
+        if (material.emits()) ++report.emitting_materials;
+    for (const Instance& instance : scene.instances)
+        detail::count_instance(scene, instance, report);
+    detail::note_absences(scene, report);
+}
+
+}  // namespace mir

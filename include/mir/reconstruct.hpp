@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/gbuffer.hpp"
+#include "mir/concepts/scheduler.hpp"
+#include "mir/concepts/shading.hpp"
+#include "mir/concepts/visibility.hpp"
+#include "mir/concepts/vpl_set.hpp"
+
+namespace mir {
+
+/// What a scheduler works on.
+template <TiledGBuffer G, VplSet P, Visibility V, Shading F>
+struct Inputs {
+    const G& gbuffer;
+    P vpls;
+    V visibility;
+    F shading;
+};
+
+/// Algorithm 3 of the paper: radiance that the VPLs send to the viewer through each luxel,
+/// W m^-2 sr^-1, one element per luxel of the G-buffer in row order. Emission is not included.
+///
+/// The scheduler decides where and when things run, never what comes out.
+/// @throws Error whatever the backend reports.
+template <class S, TiledGBuffer G, VplSet P, Visibility V, Shading F>
+Image<Rgb> reconstruct(const S& scheduler, const G& gbuffer, P vpls, V visibility, F shading) {
+    using In = Inputs<G, P, V, F>;
+    static_assert(Scheduler<S, In>,
+                  "mir: the first argument of reconstruct() is not a Scheduler for these inputs");
+    const In in{gbuffer, vpls, visibility, shading};
+    Image<Rgb> luxels(gbuffer.extent());
+    auto pipeline = scheduler.open(in, luxels);
+    for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) pipeline.submit(t);
+    pipeline.finish();
+    return luxels;
+}
+
+}  // namespace mir

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/error.hpp"
+
+#include <atomic>
+#include <cstdint>
+
+namespace mir {
+
+/// Looks into a running render from another thread, and stops it. All members may be used from any
+/// thread at any time.
+struct Monitor {
+    std::atomic<std::uint64_t> contributions{0};         ///< luxel-VPL pairs done
+    std::atomic<std::uint64_t> planned_contributions{0}; ///< 0 until known
+    std::atomic<bool> cancelled{false};                  ///< set to stop at the next block
+
+    /// @throws Error(cancelled) when the caller asked to stop.
+    void check() const {
+        if (cancelled.load(std::memory_order_relaxed))
+            throw Error(ErrorCode::cancelled, "the render was cancelled; nothing was written");
+    }
+};
+
+}  // namespace mir

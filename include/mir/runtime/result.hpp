@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/rgb.hpp"
+#include "mir/data/vpl_list.hpp"
+#include "mir/film/guides.hpp"
+
+#include <string>
+#include <vector>
+
+namespace mir {
+
+/// Seconds of wall time spent in each stage of a render.
+struct StageSeconds {
+    double build = 0.0;           ///< world geometry and acceleration structure
+    double sampling = 0.0;        ///< VPLs
+    double gbuffer = 0.0;         ///< camera rays
+    double direct = 0.0;          ///< next-event light
+    double reconstruction = 0.0;  ///< contributions of the VPLs
+    double ledger = 0.0;          ///< measuring what the bound removed
+    double film = 0.0;            ///< filtering
+    double total = 0.0;
+};
+
+/// Numbers about a render that a user may want to judge it by.
+struct RenderStatistics {
+    std::uint64_t triangles = 0;
+    std::uint64_t dropped_triangles = 0;   ///< without area, left out
+    std::uint64_t luxels = 0;
+    std::uint64_t light_paths = 0;
+    std::uint32_t vpls = 0;                ///< geometric VPLs placed
+    std::uint64_t contributions = 0;       ///< luxels x VPLs
+    float emitted_power = 0.0f;            ///< luminance, W
+    float non_lambertian_share = 0.0f;     ///< of VPL intensity spread as Lambertian
+    float bound = 0.0f;                    ///< largest geometry term, m^-2; 0: none
+    double indirect_luminance = 0.0;       ///< mean over luxels of the VPLs' light
+    double removed_luminance = 0.0;        ///< mean over luxels of what the bound removed
+    std::string scheduler;
+    std::string scene_hash;
+    StageSeconds seconds;
+
+    /// Share of the VPLs' light that the bound removed, 0..1.
+    [[nodiscard]] double removed_share() const {
+        const double all = indirect_luminance + removed_luminance;
+        return all > 0.0 ? removed_luminance / all : 0.0;
+    }
+};
+
+/// A finished picture. Radiance in W m^-2 sr^-1; beauty = emission + direct + indirect.
+struct RenderResult {
+    Image<Rgb> beauty;
+    Image<Rgb> emission;
+    Image<Rgb> direct;
+    Image<Rgb> indirect;
+    std::vector<Image<Rgb>> bounces;  ///< element i: light of i + 2 scattering events; on request
+    Guides guides;
+    VplList vpls;
+    RenderStatistics statistics;
+    std::vector<std::string> warnings;  ///< sentences
+};
+
+}  // namespace mir

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/limits.hpp"
+#include "mir/film/filter.hpp"
+#include "mir/film/luxel_grid.hpp"
+#include "mir/sampling/instant_radiosity_sampler.hpp"
+
+#include <optional>
+#include <string>
+
+namespace mir {
+
+/// How direct light reaches the image.
+enum class DirectLight {
+    separate,  ///< next-event samples per luxel (default); delta lights exactly
+    vpl        ///< VPLs on the lamps, as the paper does; delta lights stay separate
+};
+
+/// How 1/d^2 next to a VPL is tamed.
+struct BoundPolicy {
+    enum class Kind { automatic, none, fixed };
+    Kind kind = Kind::automatic;
+    float value = 0.0f;  ///< largest geometry term, m^-2, for `fixed`
+};
+
+/// What to render and how. Plain values with working defaults; validate() tells what is wrong.
+struct RenderSettings {
+    Extent image{640, 480};                    ///< pixels
+    std::uint32_t luxels_per_pixel = 1;        ///< 1..64
+    std::uint32_t camera = 0;                  ///< index into Scene::cameras
+    std::uint32_t vpls = 256;                  ///< wanted geometric VPLs
+    Termination termination = Termination::roulette;
+    Sequence sequence = Sequence::random;
+    DirectLight direct = DirectLight::separate;
+    std::uint32_t direct_samples = 16;         ///< next-event samples per pixel
+    std::uint8_t max_bounce = 32;              ///< largest number of scattering events
+    BoundPolicy bound;
+    Filter filter = default_filter(FilterKind::lanczos);
+    std::uint64_t seed = 0;
+    unsigned threads = 0;                      ///< 0: every core
+    std::string scheduler = "cpu-blocks";      ///< name in the Registry
+    Extent tile{256, 256};                     ///< luxels
+    bool bounce_layers = false;                ///< one image per bounce besides the sum
+    bool allow_no_light = false;               ///< a scene without light gives black, not an error
+    Limits limits;
+
+    /// @throws Error(invalid_argument or limit_exceeded) that names the first bad value.
+    void validate() const;
+
+    /// Next-event samples of one luxel: those of the pixel shared out, at least one.
+    [[nodiscard]] std::uint32_t direct_samples_per_luxel() const {
+        return (direct_samples + luxels_per_pixel - 1) / luxels_per_pixel;
+    }
+};
+
+inline void RenderSettings::validate() const {
+    expects(image.width > 0 && image.height > 0,
+            "an image of zero pixels was asked for (there is nothing to compute); give --width and "
+            "--height of at least 1");
+    check_limit(image.area(), limits.pixels, "pixels");
+    expects(luxels_per_pixel >= 1 && luxels_per_pixel <= max_luxels_per_pixel,
+            "luxels per pixel must be 1 to 64");
+    expects(vpls > 0,
+            "0 VPLs were asked for (there would be no indirect light); ask for at least 1, 256 is "
+            "usual");
+    check_limit(vpls, limits.vpls, "vpls");
+    expects(direct_samples > 0 && direct_samples <= 65536,
+            "next-event samples per pixel must be 1 to 65536");
+    expects(max_bounce >= 1 && max_bounce < 255, "the largest bounce must be 1 to 254");
+    expects(tile.width > 0 && tile.height > 0,
+            "a tile of zero luxels was asked for (a tile must hold at least one); use 256x256");
+    expects(bound.kind != BoundPolicy::Kind::fixed || bound.value > 0.0f,
+            "the bound of the geometry term must be positive (per square metre); use auto or none");
+}
+
+}  // namespace mir

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/sampler.hpp"
+#include "mir/core/limits.hpp"
+#include "mir/sampling/light_path.hpp"
+#include "mir/sampling/survivor_counts.hpp"
+
+#include <algorithm>
+
+namespace mir {
+
+/// When a light path ends.
+enum class Termination {
+    roulette,  ///< by chance, with the albedo as odds of survival: unbiased
+    levels     ///< Keller's: floor(rho^n N) particles survive n bounces; consistent
+};
+
+struct InstantRadiosityOptions {
+    std::uint32_t vpls = 256;         ///< wanted; the set comes close, see sample()
+    Termination termination = Termination::roulette;
+    Sequence sequence = Sequence::random;
+    bool emitter_vpls = false;        ///< also place VPLs on the lamps: direct light by VPLs
+    std::uint8_t max_bounce = 32;     ///< largest number of scattering events, 1..254
+    std::uint64_t seed = 0;
+};
+
+/// Instant radiosity: VPLs along light paths that start at the lamps. Source: Keller, "Instant
+/// radiosity", SIGGRAPH 1997; without emitter VPLs, the variant of section 3 of Pajot, Barthe and
+/// Paulin 2009, in which level n gets floor(rho^(n-1) N) VPLs. Model of Sampler. The referenced
+/// scene data must outlive it; const use from any thread.
+template <Bsdf B, RayCaster R>
+class InstantRadiositySampler {
+ public:
+    static constexpr Normalisation normalisation = Normalisation::none;
+
+    /// What paths run through.
+    struct World {
+        const WorldGeometry& geometry;
+        const LightTable& lights;
+        const SurfaceTable<B>& surfaces;
+        R caster;
+    };
+
+    /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when
+    ///         more VPLs are wanted than `limits` allows.
+    InstantRadiositySampler(const World& world, InstantRadiosityOptions options,
+                            const Limits& limits = {})
+        : world_(world), options_(options) {
+        expects(options.vpls > 0, "0 VPLs were asked for (there would be no light); ask for at "
+                                  "least 1, 256 is usual");
+        expects(options.max_bounce >= 1 && options.max_bounce < 255,
+                "the largest bounce must be 1 to 254");
+        check_limit(options.vpls, limits.vpls, "vpls");
+    }
+
+    /// Traces the paths. Their number is fixed beforehand, so that nothing depends on where the
+    /// count of VPLs happens to stop: by a pilot run with numbers of its own for roulette, from rho
+    /// for levels. The number of records therefore only comes close to options.vpls.
+    template <Executor E>
+    [[nodiscard]] VplRecords sample(E& executor) const;
+
+ private:
+    using Path = std::vector<VplRecord>;
+
+    [[nodiscard]] std::uint64_t paths_for_target() const;
+    [[nodiscard]] Path trace(std::uint64_t index, Stream stream, const SurvivorCounts* levels) const;
+    bool bounce_once(Emission& light, std::uint8_t bounce, float survival, PathNumbers& numbers,
+                     Path& path) const;
+    [[nodiscard]] SurvivorCounts level_counts() const;
+
+    World world_;
+    InstantRadiosityOptions options_;
+};
+
+template <Bsdf B, RayCaster R>
+template <Executor E>
+VplRecords InstantRadiositySampler<B, R>::sample(E& executor) const {
+    VplRecords out;
+    out.emitted_power = static_cast<float>(world_.lights.power());
+    if (world_.lights.empty()) return out;
+    const bool levels = options_.termination == Termination::levels;
+    const SurvivorCounts counts = levels ? level_counts() : SurvivorCounts{};
+    out.paths = levels ? counts.at(0) : paths_for_target();
+
+    std::vector<Path> paths(out.paths);
+    executor.for_each(paths.size(), [&](std::size_t i) {
+        paths[i] = trace(i, Stream::light_path, levels ? &counts : nullptr);
+    });
+    const float scale = 1.0f / static_cast<float>(out.paths);
+    for (const Path& path : paths)
+        for (VplRecord r : path) {
+            r.vpl.intensity = r.vpl.intensity * scale;
+            out.records.push_back(r);
+        }
+    out.non_lambertian_share = share_of_non_lambertian(out.records);
+    return out;
+}
+
+template <Bsdf B, RayCaster R>
+std::uint64_t InstantRadiositySampler<B, R>::paths_for_target() const {
+    constexpr std::uint64_t pilot_paths = 4096;
+    std::uint64_t records = 0;
+    for (std::uint64_t i = 0; i < pilot_paths; ++i)
+        records += trace(i, Stream::pilot, nullptr).size();
+    // Nothing hit at all: the target cannot be met, so the count of paths is the target itself.
+    const double per_path =
+        records == 0 ? 1.0 : static_cast<double>(records) / static_cast<double>(pilot_paths);
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(options_.vpls / per_path + 0.5));
+}
+
+template <Bsdf B, RayCaster R>
+SurvivorCounts InstantRadiositySampler<B, R>::level_counts() const {
+    double area = 0.0;
+    double reflected = 0.0;
+    for (std::uint32_t t = 0; t < world_.geometry.triangles().size(); ++t) {
+        const double a = world_.geometry.area(t);
+        area += a;
+        reflected += a * world_.surfaces.mean_albedo(world_.geometry.material_of(t));
+    }
+    const double rho = area > 0.0 ? reflected / area : 0.0;
+    return SurvivorCounts::for_total(options_.vpls, rho, options_.max_bounce,
+                                     options_.emitter_vpls);
+}
+
+template <Bsdf B, RayCaster R>
+auto InstantRadiositySampler<B, R>::trace(std::uint64_t index, Stream stream,
+                                          const SurvivorCounts* levels) const -> Path {
+    Path path;
+    PathNumbers numbers(options_.sequence, options_.seed, stream, index);
+    Emission light = sample_emission(world_.lights, world_.geometry.ray_offset(), numbers);
+    if (options_.emitter_vpls && light.emitter)
+        path.push_back({emitter_vpl(light),
+                        {VplKind::emitter, 1, light.light_group, 1, light.emitter->triangle,
+                         light.emitter->barycentrics}});
+    for (std::uint8_t bounce = 2; bounce <= options_.max_bounce; ++bounce) {
+        float survival = 1.0f;
+        if (levels != nullptr) {
+            const std::uint8_t level = bounce - 1;
+            if (index >= levels->at(level)) break;
+            survival = levels->survival(level);
+        }
+        if (!bounce_once(light, bounce, survival, numbers, path)) break;
+    }
+    return path;
+}
+
+template <Bsdf B, RayCaster R>
+bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bounce,
+                                                float survival, PathNumbers& numbers,
+                                                Path& path) const {
+    const float offset = world_.geometry.ray_offset();
+    const auto point = world_.caster.closest_hit(light.ray);
+    if (!point || is_black(light.power)) return false;
+    const Arrival<B> at{*point, -light.ray.direction, light.power * (1.0f / survival)};
+    const Vec2 uv = numbers.next_2d();
+    const BsdfSample sample =
+        B::sample(world_.surfaces.params(point->material), point->shading_normal, at.towards_light,
+                  uv, numbers.next());
+    const Vpl vpl = reflective_vpl(at, sample.weight, offset);
+    if (!is_black(vpl.intensity))
+        path.push_back({vpl,
+                        {VplKind::reflective, bounce, light.light_group, 1, point->triangle,
+                         point->barycentrics},
+                        world_.surfaces.is_lambertian(point->material)});
+
+    const std::uint16_t group = light.light_group;
+    light = scatter(at, sample, offset);
+    light.light_group = group;
+    const float roulette = numbers.next();
+    if (options_.termination == Termination::levels) return true;
+    const float odds = smaller(max_channel(sample.weight), 1.0f);
+    if (!(roulette < odds)) return false;
+    light.power = light.power * (1.0f / odds);
+    return true;
+}
+
+}  // namespace mir

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/ray_caster.hpp"
+#include "mir/sampling/emission.hpp"
+#include "mir/sampling/vpl_record.hpp"
+#include "mir/shading/surface_table.hpp"
+
+namespace mir {
+
+/// Light that arrives at a surface along a light path, seen from there.
+template <Bsdf B>
+struct Arrival {
+    SurfacePoint point;
+    Vec3 towards_light{0};
+    Rgb power;  ///< W, per path
+
+    /// Jacobian of arriving power with a shading normal: (wi.ns) / (wi.ng). Source: Veach 1997,
+    /// section 5.3, the adjoint BSDF.
+    [[nodiscard]] float shading_normal_factor() const {
+        return larger(glm::dot(towards_light, point.shading_normal), 0.0f) /
+               larger(glm::dot(towards_light, point.geometric_normal), 1e-6f);
+    }
+};
+
+/// The VPL of an arrival. `weight` is f cos / pdf of a sampled direction, whose mean is the
+/// directional albedo: the VPL sends out exactly the reflected power, spread as a Lambertian
+/// surface would. For Lambertian surfaces that is the truth; others lose the shape of their lobe.
+template <Bsdf B>
+Vpl reflective_vpl(const Arrival<B>& at, Rgb weight, float ray_offset) {
+    const Vec3 n = at.point.geometric_normal;
+    return {lift(at.point.position, n, ray_offset), n,
+            at.power * weight * (at.shading_normal_factor() * inv_pi)};
+}
+
+/// The point on the lamp where a path starts, as a VPL: J = L_e / pdf.
+inline Vpl emitter_vpl(const Emission& e) {
+    return {e.ray.origin, e.emitter_normal, e.emitter->radiance * (1.0f / e.pdf_point)};
+}
+
+/// Light that leaves an arrival along `sample`: its ray and power, which is black when the sampled
+/// direction and the geometric side disagree.
+template <Bsdf B>
+Emission scatter(const Arrival<B>& at, const BsdfSample& sample, float ray_offset) {
+    Emission out;
+    const Vec3 n = at.point.geometric_normal;
+    const float cos_geometric = glm::dot(sample.wi, n);
+    const float cos_shading = glm::dot(sample.wi, at.point.shading_normal);
+    if (cos_geometric <= 0.0f || cos_shading <= 0.0f) return out;
+    out.ray = {lift(at.point.position, n, ray_offset), sample.wi};
+    out.power = at.power * sample.weight *
+                (at.shading_normal_factor() * (cos_geometric / cos_shading));
+    return out;
+}
+
+}  // namespace mir

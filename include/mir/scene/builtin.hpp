@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/error.hpp"
+#include "mir/scene/builtin/check_rooms.hpp"
+#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scene/builtin/sphere_room.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace mir::builtin {
+
+/// A scene that is generated in code, and what it shows.
+struct Entry {
+    std::string_view name;
+    std::string_view description;
+    Scene (*make)();
+};
+
+/// Every built-in scene, in the order in which help lists them.
+inline constexpr std::array<Entry, 8> scenes{{
+    {"cornell-box", "the Cornell box", [] { return cornell_box(Lamp::down); }},
+    {"cornell-inverted", "the Cornell box with its lamp turned to the ceiling",
+     [] { return cornell_box(Lamp::up); }},
+    {"sphere", "the paper's sphere, main lamp down", [] { return sphere_room(Lamp::down); }},
+    {"sphere-indirect", "the paper's sphere, main lamp up", [] { return sphere_room(Lamp::up); }},
+    {"furnace", "closed box whose radiance is exactly 1", [] { return furnace_box(); }},
+    {"parallel-squares", "form factor 0.199824896", [] { return parallel_squares(); }},
+    {"perpendicular-squares", "form factor 0.200043776", [] { return perpendicular_squares(); }},
+    {"disc-above-plane", "irradiance pi/2 below the centre", [] { return disc_above_plane(); }},
+}};
+
+/// Makes the scene called `name`.
+/// @throws Error(invalid_argument) that lists the names when there is none.
+inline Scene make(std::string_view name) {
+    std::string names;
+    for (const Entry& e : scenes) {
+        if (e.name == name) return e.make();
+        names += (names.empty() ? "" : ", ") + std::string(e.name);
+    }
+    throw Error(ErrorCode::invalid_argument,
+                "there is no built-in scene '" + std::string(name) + "'; choose one of " + names);
+}
+
+}  // namespace mir::builtin

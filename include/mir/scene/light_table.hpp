@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/discrete_distribution.hpp"
+#include "mir/scene/world_geometry.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mir {
+
+/// A point on an emissive triangle.
+struct EmitterSample {
+    Vec3 position{0};         ///< on the surface, not lifted
+    Vec3 normal{0};           ///< unit, of the triangle's front
+    Rgb radiance;             ///< W m^-2 sr^-1
+    float pdf_area = 0.0f;    ///< of this point among all emissive triangles, m^-2
+    bool both_sides = false;  ///< shines from the back too
+    std::uint16_t light_group = 0;
+    std::uint32_t triangle = 0;
+    Vec2 barycentrics{0};
+};
+
+/// All lights of a scene, ready to be sampled. Immutable; const use from any thread. The Scene and
+/// the WorldGeometry must outlive it.
+class LightTable {
+ public:
+    /// @throws Error(invalid_input) when an emission is negative or not finite.
+    LightTable(const Scene& scene, const WorldGeometry& geometry);
+
+    [[nodiscard]] bool empty() const { return by_power_.empty(); }
+    [[nodiscard]] std::span<const PointLight> point_lights() const { return scene_->point_lights; }
+    [[nodiscard]] std::span<const SpotLight> spot_lights() const { return scene_->spot_lights; }
+    [[nodiscard]] std::span<const DirectionalLight> directional_lights() const {
+        return scene_->directional_lights;
+    }
+    [[nodiscard]] std::span<const std::uint32_t> emissive_triangles() const { return triangles_; }
+
+    /// Luminance of the power emitted by everything, W. Directional lights count what passes the
+    /// bounding sphere of the scene.
+    [[nodiscard]] double power() const { return by_power_.total(); }
+
+    /// True when emissive triangles exist, so that sample_emitter() may be called.
+    [[nodiscard]] bool has_emitters() const { return !emitters_.empty(); }
+
+    /// Point on an emissive triangle: triangle by power with `u`, point uniform with `uv`.
+    [[nodiscard]] EmitterSample sample_emitter(float u, Vec2 uv) const;
+
+    /// Density per m^2 with which sample_emitter() picks a point of `triangle`; 0 for others.
+    [[nodiscard]] float emitter_pdf(std::uint32_t triangle) const;
+
+    /// Any light by power, as an index: first emissive triangles, then point, spot and directional
+    /// lights. Must not be empty().
+    [[nodiscard]] std::uint32_t sample_light(float u) const { return by_power_.sample(u); }
+    [[nodiscard]] float light_probability(std::uint32_t light) const {
+        return by_power_.probability(light);
+    }
+
+    /// Point on the emissive triangle at `index` of emissive_triangles(); pdf_area is that of the
+    /// triangle alone.
+    [[nodiscard]] EmitterSample point_on(std::uint32_t index, Vec2 uv) const;
+
+    /// Bounding sphere that directional light is sent through.
+    [[nodiscard]] Vec3 centre() const { return geometry_->bounds().centre(); }
+    [[nodiscard]] float radius() const { return 0.5f * geometry_->bounds().diagonal(); }
+
+ private:
+    void add_triangles(std::vector<float>& power);
+    void add_delta_lights(std::vector<float>& power) const;
+
+    const Scene* scene_;
+    const WorldGeometry* geometry_;
+    std::vector<std::uint32_t> triangles_;
+    DiscreteDistribution emitters_;
+    DiscreteDistribution by_power_;
+};
+
+namespace detail {
+
+inline void check_emission(Rgb value, const std::string& what, const std::string& name) {
+    if (is_finite(value) && value.r >= 0.0f && value.g >= 0.0f && value.b >= 0.0f) return;
+    throw Error(ErrorCode::invalid_input, what + " '" + name +
+                                              "' emits a negative or infinite amount of light "
+                                              "(it cannot be sampled); repair its emission");
+}
+
+/// int over the sphere of the falloff of a spot light, sr: the smooth ring integrates to a third.
+inline float spot_solid_angle(const SpotLight& s) {
+    return 2.0f * pi * ((1.0f - s.cos_inner) + (s.cos_inner - s.cos_outer) / 3.0f);
+}
+
+}  // namespace detail
+
+inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
+    : scene_(&scene), geometry_(&geometry) {
+    for (const Material& m : scene.materials) detail::check_emission(m.emission, "material", m.name);
+    for (const PointLight& l : scene.point_lights)
+        detail::check_emission(l.intensity, "point light", l.name);
+    for (const SpotLight& l : scene.spot_lights)
+        detail::check_emission(l.intensity, "spot light", l.name);
+    for (const DirectionalLight& l : scene.directional_lights)
+        detail::check_emission(l.irradiance, "directional light", l.name);
+    std::vector<float> power;
+    add_triangles(power);
+    emitters_ = DiscreteDistribution(power);
+    add_delta_lights(power);
+    by_power_ = DiscreteDistribution(power);
+}
+
+inline void LightTable::add_triangles(std::vector<float>& power) {
+    for (std::uint32_t t = 0; t < geometry_->triangles().size(); ++t) {
+        const Material& m = scene_->materials[geometry_->material_of(t)];
+        if (!m.emits()) continue;
+        const float sides = m.emits_from_both_sides ? 2.0f : 1.0f;
+        triangles_.push_back(t);
+        power.push_back(luminance(m.emission) * pi * geometry_->area(t) * sides);
+    }
+}
+
+inline void LightTable::add_delta_lights(std::vector<float>& power) const {
+    for (const PointLight& l : scene_->point_lights)
+        power.push_back(luminance(l.intensity) * 4.0f * pi);
+    for (const SpotLight& l : scene_->spot_lights)
+        power.push_back(luminance(l.intensity) * detail::spot_solid_angle(l));
+    for (const DirectionalLight& l : scene_->directional_lights)
+        power.push_back(luminance(l.irradiance) * pi * radius() * radius());
+}
+
+inline EmitterSample LightTable::point_on(std::uint32_t index, Vec2 uv) const {
+    const std::uint32_t t = triangles_[index];
+    const Material& m = scene_->materials[geometry_->material_of(t)];
+    EmitterSample s;
+    s.barycentrics = square_to_triangle(uv);
+    s.normal = geometry_->front_normal(t);
+    s.position = geometry_->surface_point(t, s.barycentrics, -s.normal).position;
+    s.radiance = m.emission;
+    s.pdf_area = 1.0f / geometry_->area(t);
+    s.both_sides = m.emits_from_both_sides;
+    s.light_group = m.light_group;
+    s.triangle = t;
+    return s;
+}
+
+inline EmitterSample LightTable::sample_emitter(float u, Vec2 uv) const {
+    const std::uint32_t index = emitters_.sample(u);
+    EmitterSample s = point_on(index, uv);
+    s.pdf_area *= emitters_.probability(index);
+    return s;
+}
+
+inline float LightTable::emitter_pdf(std::uint32_t triangle) const {
+    const auto found = std::lower_bound(triangles_.begin(), triangles_.end(), triangle);
+    if (found == triangles_.end() || *found != triangle) return 0.0f;
+    const auto index = static_cast<std::uint32_t>(found - triangles_.begin());
+    return emitters_.probability(index) / geometry_->area(triangle);
+}
+
+}  // namespace mir

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/rgb.hpp"
+
+#include <string>
+
+namespace mir {
+
+/// The one material of a Scene: a diffuse base under a Cook-Torrance interface, in glTF's
+/// metallic-roughness parameters. Both faces reflect. `specular` = 0 and `metallic` = 0 make it
+/// purely Lambertian.
+struct Material {
+    std::string name;
+    Rgb base_color{0.8f, 0.8f, 0.8f};  ///< linear reflectance, 0..1
+    float metallic = 0.0f;             ///< 0..1
+    float roughness = 1.0f;            ///< 0..1, GGX alpha is its square
+    float specular = 1.0f;             ///< weight of the dielectric interface, 0..1
+    float ior = 1.5f;                  ///< index of refraction of the dielectric interface, >= 1
+    Rgb emission;                      ///< radiance of the front, W m^-2 sr^-1
+    bool emits_from_both_sides = false;
+    std::uint16_t light_group = 0;     ///< group that its light is counted in
+
+    [[nodiscard]] bool emits() const { return !is_black(emission); }
+    [[nodiscard]] bool is_lambertian() const { return metallic == 0.0f && specular == 0.0f; }
+};
+
+/// Ideal diffuse material of the given reflectance, without emission.
+inline Material lambertian(std::string name, Rgb reflectance) {
+    Material m;
+    m.name = std::move(name);
+    m.base_color = reflectance;
+    m.specular = 0.0f;
+    return m;
+}
+
+/// Lambertian material that shines with `radiance` (W m^-2 sr^-1) from its front.
+inline Material emitter(std::string name, Rgb reflectance, Rgb radiance) {
+    Material m = lambertian(std::move(name), reflectance);
+    m.emission = radiance;
+    return m;
+}
+
+}  // namespace mir

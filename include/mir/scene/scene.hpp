@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/scene/camera.hpp"
+#include "mir/scene/light.hpp"
+#include "mir/scene/material.hpp"
+#include "mir/scene/mesh.hpp"
+
+#include <string>
+#include <vector>
+
+namespace mir {
+
+/// Everything to render, as plain values: a host renderer fills it from its own data, a file reader
+/// from a file. Right-handed, +y up, metres, linear Rec. 709. WorldGeometry and LightTable are made
+/// from it; both check it.
+struct Scene {
+    std::string name;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Material> materials;
+    std::vector<PointLight> point_lights;
+    std::vector<SpotLight> spot_lights;
+    std::vector<DirectionalLight> directional_lights;
+    std::vector<Camera> cameras;
+
+    /// Adds a mesh together with one instance of it; returns the index of the mesh.
+    std::uint32_t place(Mesh mesh, const Mat4& to_world = Mat4(1.0f)) {
+        meshes.push_back(std::move(mesh));
+        const auto index = static_cast<std::uint32_t>(meshes.size() - 1);
+        instances.push_back({index, to_world});
+        return index;
+    }
+
+    /// Adds a material; returns its index.
+    std::uint32_t add(Material material) {
+        materials.push_back(std::move(material));
+        return static_cast<std::uint32_t>(materials.size() - 1);
+    }
+};
+
+}  // namespace mir

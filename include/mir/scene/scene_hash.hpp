@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/scene/scene.hpp"
+
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+
+namespace mir {
+
+/// Fingerprint of what a scene looks like: 16 hexadecimal digits that change with any geometry,
+/// material, light or camera, and not with names. Not cryptographic. Source: FNV-1a, 64 bits.
+class SceneHash {
+ public:
+    explicit SceneHash(const Scene& scene) {
+        for (const Mesh& m : scene.meshes) {
+            add_all(m.positions);
+            add_all(m.normals);
+            add_all(m.triangles);
+            add(m.material);
+        }
+        for (const Instance& i : scene.instances) {
+            add(i.mesh);
+            add(i.to_world);
+        }
+        for (const Material& m : scene.materials) add_material(m);
+        for (const PointLight& l : scene.point_lights) add_each(l.position, l.intensity);
+        for (const SpotLight& l : scene.spot_lights)
+            add_each(l.position, l.direction, l.intensity, l.cos_inner, l.cos_outer);
+        for (const DirectionalLight& l : scene.directional_lights)
+            add_each(l.direction, l.irradiance);
+        for (const Camera& c : scene.cameras)
+            add_each(c.position, c.right, c.up, c.back, c.vertical_fov, c.lens_radius,
+                     c.focus_distance);
+    }
+
+    [[nodiscard]] std::string hex() const {
+        constexpr char digits[] = "0123456789abcdef";
+        std::string text(16, '0');
+        for (std::size_t i = 0; i < 16; ++i) text[i] = digits[(state_ >> (60 - 4 * i)) & 15];
+        return text;
+    }
+
+ private:
+    void add_bytes(const void* data, std::size_t size) {
+        const auto* bytes = static_cast<const unsigned char*>(data);
+        for (std::size_t i = 0; i < size; ++i) state_ = (state_ ^ bytes[i]) * 0x100000001b3ull;
+    }
+    template <class T>
+    void add(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        add_bytes(&value, sizeof value);
+    }
+    template <class... T>
+    void add_each(const T&... values) {
+        (add(values), ...);
+    }
+    template <class T>
+    void add_all(const std::vector<T>& values) {
+        add(values.size());
+        add_bytes(values.data(), values.size() * sizeof(T));
+    }
+    void add_material(const Material& m) {
+        add_each(m.base_color, m.metallic, m.roughness, m.specular, m.ior, m.emission,
+                 m.emits_from_both_sides, m.light_group);
+    }
+
+    std::uint64_t state_ = 0xcbf29ce484222325ull;
+};
+
+}  // namespace mir

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/limits.hpp"
+#include "mir/core/ray.hpp"
+#include "mir/scene/scene.hpp"
+
+#include <span>
+#include <vector>
+
+namespace mir {
+
+/// Axis-aligned box. Empty until a point is added.
+struct Bounds {
+    Vec3 low{std::numeric_limits<float>::infinity()};
+    Vec3 high{-std::numeric_limits<float>::infinity()};
+
+    void add(Vec3 p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
+    [[nodiscard]] Vec3 centre() const { return 0.5f * (low + high); }
+    [[nodiscard]] float diagonal() const { return empty() ? 0.0f : glm::length(high - low); }
+};
+
+/// All instances of a scene as triangles in world space: what ray engines are built from and what
+/// turns their answers (triangle, barycentrics) into surface points. Immutable once made; const use
+/// from any thread.
+class WorldGeometry {
+ public:
+    /// Places every instance. Triangles without area are left out and counted.
+    /// @throws Error(invalid_input) on an index out of range or a coordinate that is not finite;
+    ///         Error(limit_exceeded) before memory is taken.
+    explicit WorldGeometry(const Scene& scene, const Limits& limits = {});
+
+    [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
+    [[nodiscard]] std::span<const TriangleIndices> triangles() const { return triangles_; }
+    [[nodiscard]] std::uint32_t material_of(std::uint32_t triangle) const {
+        return materials_[triangle];
+    }
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] std::uint64_t dropped_triangles() const { return dropped_; }
+
+    /// Corner `k` (0..2) of a triangle, metres.
+    [[nodiscard]] Vec3 corner(std::uint32_t triangle, std::uint32_t k) const {
+        return positions_[triangles_[triangle][k]];
+    }
+
+    /// Unit normal of the front of a triangle.
+    [[nodiscard]] Vec3 front_normal(std::uint32_t triangle) const {
+        return glm::normalize(area_vector(triangle));
+    }
+
+    /// m^2.
+    [[nodiscard]] float area(std::uint32_t triangle) const {
+        return 0.5f * glm::length(area_vector(triangle));
+    }
+
+    /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
+    /// travels along `direction`.
+    [[nodiscard]] SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
+                                             Vec3 direction) const;
+
+    /// Distance by which points are lifted off surfaces, metres: sixteen units in the last place of
+    /// the largest coordinate, which covers the rounding of hit points and of traversal at any
+    /// scale and any distance from the origin.
+    [[nodiscard]] float ray_offset() const { return ray_offset_; }
+
+ private:
+    [[nodiscard]] Vec3 area_vector(std::uint32_t t) const {
+        return glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    }
+    void place(const Scene& scene, const Instance& instance);
+    void place_vertices(const Mesh& mesh, const Mat4& to_world);
+    void place_triangles(const Mesh& mesh, std::uint32_t first_vertex, bool mirrored);
+
+    std::vector<Vec3> positions_;
+    std::vector<Vec3> normals_;  ///< zero where the mesh has none
+    std::vector<TriangleIndices> triangles_;
+    std::vector<std::uint32_t> materials_;
+    Bounds bounds_;
+    float ray_offset_ = 0.0f;
+    std::uint64_t dropped_ = 0;
+};
+
+namespace detail {
+
+inline void check_mesh(const Scene& scene, const Mesh& mesh) {
+    const auto fail = [&](const std::string& what) {
+        throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': " + what);
+    };
+    if (mesh.material >= scene.materials.size())
+        fail("material " + std::to_string(mesh.material) + " does not exist (the scene has " +
+             std::to_string(scene.materials.size()) + "); add it or correct the index");
+    if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
+        fail("it has " + std::to_string(mesh.normals.size()) + " normals for " +
+             std::to_string(mesh.positions.size()) + " positions; give one each or none");
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        if (!is_finite(mesh.positions[i]))
+            fail("position " + std::to_string(i) +
+                 " is not finite (nothing can be built around it); repair the file");
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (std::uint32_t v : mesh.triangles[i])
+            if (v >= mesh.positions.size())
+                fail("triangle " + std::to_string(i) + " uses vertex " + std::to_string(v) +
+                     " of " + std::to_string(mesh.positions.size()) + "; repair the indices");
+}
+
+inline void check_instances(const Scene& scene, const Limits& limits) {
+    std::uint64_t triangles = 0;
+    std::uint64_t vertices = 0;
+    for (const Instance& instance : scene.instances) {
+        if (instance.mesh >= scene.meshes.size())
+            throw Error(ErrorCode::invalid_input,
+                        "an instance names mesh " + std::to_string(instance.mesh) +
+                            ", but the scene has " + std::to_string(scene.meshes.size()) +
+                            "; correct the index");
+        triangles += scene.meshes[instance.mesh].triangles.size();
+        vertices += scene.meshes[instance.mesh].positions.size();
+    }
+    check_limit(triangles, limits.triangles, "triangles");
+    check_limit(vertices, limits.vertices, "vertices");
+}
+
+}  // namespace detail
+
+inline WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits) {
+    for (const Mesh& mesh : scene.meshes) detail::check_mesh(scene, mesh);
+    detail::check_instances(scene, limits);
+    for (const Instance& instance : scene.instances) place(scene, instance);
+    const float magnitude =
+        bounds_.empty() ? 0.0f : larger(max_abs(bounds_.low), max_abs(bounds_.high));
+    ray_offset_ = magnitude * 16.0f * 0x1p-24f;
+}
+
+inline void WorldGeometry::place(const Scene& scene, const Instance& instance) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const auto first_vertex = static_cast<std::uint32_t>(positions_.size());
+    place_vertices(mesh, instance.to_world);
+    place_triangles(mesh, first_vertex, glm::determinant(Mat3(instance.to_world)) < 0.0f);
+}
+
+inline void WorldGeometry::place_vertices(const Mesh& mesh, const Mat4& to_world) {
+    for (Vec3 p : mesh.positions) {
+        const Vec3 world = Vec3(to_world * Vec4(p, 1.0f));
+        if (!is_finite(world))
+            throw Error(ErrorCode::invalid_input,
+                        "mesh '" + mesh.name +
+                            "': an instance places it at infinity (its transform overflows); "
+                            "repair the transform");
+        positions_.push_back(world);
+        bounds_.add(world);
+    }
+    // Cofactors instead of the inverse transpose: they exist for flattened instances too. Their
+    // sign follows the determinant, which a mirrored instance has to undo.
+    const Mat3 m(to_world);
+    const float sign = glm::determinant(m) < 0.0f ? -1.0f : 1.0f;
+    const Mat3 cofactors(sign * glm::cross(m[1], m[2]), sign * glm::cross(m[2], m[0]),
+                         sign * glm::cross(m[0], m[1]));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Vec3 n = mesh.normals.empty() ? Vec3(0.0f) : cofactors * mesh.normals[i];
+        const float length = glm::length(n);
+        normals_.push_back(length > 0.0f ? n / length : Vec3(0.0f));
+    }
+}
+
+inline void WorldGeometry::place_triangles(const Mesh& mesh, std::uint32_t first_vertex,
+                                           bool mirrored) {
+    for (TriangleIndices t : mesh.triangles) {
+        if (mirrored) std::swap(t[1], t[2]);
+        for (std::uint32_t& v : t) v += first_vertex;
+        const Vec3 a = positions_[t[0]];
+        const Vec3 cross = glm::cross(positions_[t[1]] - a, positions_[t[2]] - a);
+        if (!(length_squared(cross) > 0.0f)) {
+            ++dropped_;
+            continue;
+        }
+        triangles_.push_back(t);
+        materials_.push_back(mesh.material);
+    }
+}
+
+inline SurfacePoint WorldGeometry::surface_point(std::uint32_t triangle, Vec2 barycentrics,
+                                                 Vec3 direction) const {
+    const TriangleIndices& t = triangles_[triangle];
+    const float u = barycentrics.x;
+    const float v = barycentrics.y;
+    const float w = 1.0f - u - v;
+    SurfacePoint p;
+    p.position = w * positions_[t[0]] + u * positions_[t[1]] + v * positions_[t[2]];
+    p.barycentrics = barycentrics;
+    p.triangle = triangle;
+    p.material = materials_[triangle];
+    const Vec3 normal = front_normal(triangle);
+    p.front = glm::dot(direction, normal) <= 0.0f;
+    p.geometric_normal = p.front ? normal : -normal;
+    const Vec3 smooth = w * normals_[t[0]] + u * normals_[t[1]] + v * normals_[t[2]];
+    const float length = glm::length(smooth);
+    p.shading_normal = length > 0.0f ? smooth / length : p.geometric_normal;
+    if (glm::dot(p.shading_normal, p.geometric_normal) < 0.0f)
+        p.shading_normal = -p.shading_normal;
+    // At silhouettes the smooth normal may turn away from the ray: shading would be undefined.
+    if (glm::dot(p.shading_normal, direction) >= 0.0f) p.shading_normal = p.geometric_normal;
+    return p;
+}
+
+}  // namespace mir

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/reconstruct.hpp"
+#include "mir/runtime/monitor.hpp"
+#include "mir/sched/detail/block_list.hpp"
+#include "mir/shading/contribution.hpp"
+
+namespace mir::sched {
+
+/// The oracle: algorithm 3 as the paper prints it, a plain loop over luxels and VPLs. Shares
+/// nothing with faster schedulers but contribution(), so that it does not repeat their mistakes.
+template <Executor E>
+struct Cpu {
+    E& executor;
+    Monitor* monitor = nullptr;  ///< may be null
+
+    template <class In>
+    class Pipeline {
+     public:
+        Pipeline(const In& in, Image<Rgb>& image, E& executor, Monitor* monitor)
+            : in_(in), image_(image), executor_(executor), monitor_(monitor) {}
+
+        void submit(TileIndex t) { detail::append_blocks(blocks_, t, in_.gbuffer.tiles()[t]); }
+
+        void finish() {
+            executor_.for_each(blocks_.size(), [this](std::size_t i) { run(blocks_[i]); });
+        }
+
+     private:
+        void run(detail::Block b) const {
+            const Tile tile = in_.gbuffer.tiles()[b.tile];
+            const auto layout = BlockedLayout::of(tile);
+            const Tile area = layout.block_area(tile, b.block);
+            const auto luxels = in_.gbuffer.view(b.tile);
+            if (monitor_ != nullptr) monitor_->check();
+            for (std::uint32_t y = area.y; y < area.y + area.height; ++y)
+                for (std::uint32_t x = area.x; x < area.x + area.width; ++x)
+                    image_(tile.x + x, tile.y + y) = gather(luxels, layout(x, y));
+            if (monitor_ != nullptr)
+                monitor_->contributions += std::uint64_t{area.width} * area.height *
+                                           in_.vpls.size();
+        }
+
+        Rgb gather(const auto& luxels, LuxelIndex i) const {
+            const Hit hit = luxels.hit(i);
+            if (is_empty(hit)) return {};
+            const auto surface = luxels.surface(i);
+            Rgb sum;
+            for (VplIndex j = 0; j < in_.vpls.size(); ++j)
+                sum += contribution(hit, surface, in_.vpls[j], in_.visibility, in_.shading);
+            return sum;
+        }
+
+        const In& in_;
+        Image<Rgb>& image_;
+        E& executor_;
+        Monitor* monitor_;
+        std::vector<detail::Block> blocks_;
+    };
+
+    template <class In>
+    Pipeline<In> open(const In& in, Image<Rgb>& image) const {
+        static_assert(AccessibleFrom<decltype(in.visibility), Space::host>,
+                      "mir: sched::Cpu needs a Visibility that lives in host memory");
+        return {in, image, executor, monitor};
+    }
+};
+template <Executor E>
+Cpu(E&) -> Cpu<E>;
+template <Executor E>
+Cpu(E&, Monitor*) -> Cpu<E>;
+
+}  // namespace mir::sched

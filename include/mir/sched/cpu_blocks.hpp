@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/core/instruction_set.hpp"
+#include "mir/reconstruct.hpp"
+#include "mir/runtime/monitor.hpp"
+#include "mir/sched/detail/block_list.hpp"
+#include "mir/sched/detail/luxel_block.hpp"
+
+namespace mir::sched {
+
+/// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
+/// luxels are found, their rays traced in packets of sixteen that start at the VPL, and the lit
+/// ones shaded, sixteen to a register. Same image as sched::Cpu in every bit, provided that the
+/// visibility's packet face keeps its axiom and the caller compiles with -ffp-contract=off.
+template <Executor E>
+struct CpuBlocks {
+    E& executor;
+    Monitor* monitor = nullptr;  ///< may be null
+    InstructionSet instructions = best_instruction_set();
+
+    template <class In>
+    class Pipeline {
+     public:
+        Pipeline(const In& in, Image<Rgb>& image, const CpuBlocks& scheduler)
+            : in_(in), image_(image), scheduler_(scheduler) {}
+
+        void submit(TileIndex t) { detail::append_blocks(blocks_, t, in_.gbuffer.tiles()[t]); }
+
+        void finish() {
+            scheduler_.executor.for_each(blocks_.size(), [this](std::size_t i) {
+                const detail::Block block = blocks_[i];
+                run_with(scheduler_.instructions, [this, block] { run(block); });
+            });
+        }
+
+     private:
+        using Hits = SoaView<const Hit>;
+        using Surfaces = SoaView<const typename decltype(In::shading)::Surface>;
+
+        void run(detail::Block b) const;
+        void add_vpl(Hits hits, Surfaces surfaces, const Vpl& vpl,
+                     detail::BlockRadiance& sum) const;
+        void store(detail::Block b, const detail::BlockRadiance& sum) const;
+
+        /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing.
+        bool is_out_of_reach(const detail::BlockBounds& bounds, const Vpl& vpl) const {
+            if (bounds.behind(vpl)) return true;
+            if constexpr (ReachLimitedShading<decltype(In::shading)>)
+                return bounds.distance_squared(vpl.position) >
+                       in_.shading.reach_squared() * (1.0f + 0x1p-16f);
+            return false;
+        }
+
+        const In& in_;
+        Image<Rgb>& image_;
+        const CpuBlocks& scheduler_;
+        std::vector<detail::Block> blocks_;
+    };
+
+    template <class In>
+    Pipeline<In> open(const In& in, Image<Rgb>& image) const {
+        static_assert(AccessibleFrom<decltype(in.visibility), Space::host>,
+                      "mir: sched::CpuBlocks needs a Visibility that lives in host memory");
+        static_assert(PacketVisibility<decltype(in.visibility)>,
+                      "mir: sched::CpuBlocks needs a Visibility with visible_packet(); use "
+                      "sched::Cpu for one that answers single segments only");
+        return {in, image, *this};
+    }
+};
+template <Executor E>
+CpuBlocks(E&) -> CpuBlocks<E>;
+template <Executor E>
+CpuBlocks(E&, Monitor*) -> CpuBlocks<E>;
+template <Executor E>
+CpuBlocks(E&, Monitor*, InstructionSet) -> CpuBlocks<E>;
+
+template <Executor E>
+template <class In>
+void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
+    const std::uint32_t first = b.block * BlockedLayout::block_size;
+    const auto view = in_.gbuffer.view(b.tile);
+    const Hits hits = detail::starting_at(view.hits, first);
+    const Surfaces surfaces = detail::starting_at(view.surfaces, first);
+    if (scheduler_.monitor != nullptr) scheduler_.monitor->check();
+
+    detail::BlockBounds bounds;
+    for (std::uint32_t i = 0; i < BlockedLayout::block_size; ++i) {
+        const Hit hit = hits.load(i);
+        if (!is_empty(hit)) bounds.add(hit.position);
+    }
+    detail::BlockRadiance sum;
+    if (!bounds.empty)
+        for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
+            const Vpl vpl = in_.vpls[j];
+            if (!is_out_of_reach(bounds, vpl)) add_vpl(hits, surfaces, vpl, sum);
+        }
+    store(b, sum);
+}
+
+template <Executor E>
+template <class In>
+void CpuBlocks<E>::Pipeline<In>::add_vpl(Hits hits, Surfaces surfaces, const Vpl& vpl,
+                                         detail::BlockRadiance& sum) const {
+    for (std::uint32_t group = 0; group < detail::groups_per_block; ++group) {
+        const std::uint32_t first = group * detail::group_size;
+        const Hits group_hits = detail::starting_at(hits, first);
+        const std::uint32_t facing = detail::facing_mask(group_hits, vpl);
+        if (facing == 0) continue;
+        PointPacket points;
+        detail::load_points(group_hits, points);
+        const std::uint32_t lit = in_.visibility.visible_packet(vpl.position, points, facing);
+        if (lit == 0) continue;
+        detail::add_shaded(group_hits, detail::starting_at(surfaces, first), vpl, in_.shading, lit,
+                           sum.r + first, sum.g + first, sum.b + first);
+    }
+}
+
+template <Executor E>
+template <class In>
+void CpuBlocks<E>::Pipeline<In>::store(detail::Block b, const detail::BlockRadiance& sum) const {
+    const Tile tile = in_.gbuffer.tiles()[b.tile];
+    const Tile area = BlockedLayout::of(tile).block_area(tile, b.block);
+    for (std::uint32_t y = 0; y < area.height; ++y)
+        for (std::uint32_t x = 0; x < area.width; ++x) {
+            const LuxelIndex i = BlockedLayout::inside(x, y);
+            image_(tile.x + area.x + x, tile.y + area.y + y) = {sum.r[i], sum.g[i], sum.b[i]};
+        }
+    if (scheduler_.monitor != nullptr)
+        scheduler_.monitor->contributions +=
+            std::uint64_t{area.width} * area.height * in_.vpls.size();
+}
+
+}  // namespace mir::sched

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/frame.hpp"
+#include "mir/core/rgb.hpp"
+#include "mir/core/warp.hpp"
+#include "mir/shading/bsdf_sample.hpp"
+#include "mir/shading/ggx.hpp"
+
+namespace mir {
+
+/// Cook-Torrance reflection over a diffuse base. Model of Bsdf.
+///
+/// Specular: F D V with D and V of shading/ggx.hpp, F by Schlick between f0 and f90.
+/// Diffuse: base (1 - F(n.wi)) (1 - F(n.wo)) / (pi (1 - F_avg)), the reciprocal coupling of Kelemen
+/// and Szirmay-Kalos (2001): what the interface reflects does not reach the base, so a white base
+/// under a smooth interface reflects exactly all light. Reciprocal; directional albedo at most 1.
+struct CookTorrance {
+    /// Eight words, made by material_params() so that eval() divides by no constant.
+    struct Params {
+        Rgb diffuse;          ///< base reflectance / (1 - F_avg), 0 for metals
+        Rgb f0;               ///< reflectance at normal incidence
+        float f90 = 0.0f;     ///< reflectance at grazing incidence; 0: no interface, pure Lambert
+        float alpha = 1.0f;   ///< GGX width, roughness squared
+    };
+
+    /// f(wi, wo), sr^-1. The caller has made sure that both lie above `n`.
+    [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
+        const float cos_i = glm::dot(n, wi);
+        const float cos_o = glm::dot(n, wo);
+        const Vec3 sum = wi + wo;
+        const float inv_length = 1.0f / sqrtf(larger(length_squared(sum), 1e-20f));
+        const float cos_h = smaller(glm::dot(n, sum) * inv_length, 1.0f);
+        const float cos_d = smaller(glm::dot(wo, sum) * inv_length, 1.0f);
+        const float specular = ggx_d(cos_h, p.alpha) * ggx_v(cos_i, cos_o, p.alpha);
+        return schlick(p, cos_d) * specular + diffuse(p, cos_i, cos_o);
+    }
+
+    /// Density of sample() at `wi`, per steradian.
+    MIR_HD static float pdf(const Params& p, Vec3 n, Vec3 wi, Vec3 wo);
+
+    /// `u` picks the direction inside a lobe, `lobe` the lobe.
+    MIR_HD static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe);
+
+    /// Reflectance towards `wo` for guide images and samplers: the diffuse base exactly, the
+    /// interface without its roughness, 0..1.
+    MIR_HD static Rgb albedo(const Params& p, Vec3 n, Vec3 wo) {
+        const Rgb white{1.0f, 1.0f, 1.0f};
+        const Rgb f = schlick(p, larger(glm::dot(n, wo), 0.0f));
+        const Rgb mean = p.f0 * (20.0f / 21.0f) + white * (p.f90 / 21.0f);
+        return f + p.diffuse * (white - mean) * (white - f);
+    }
+
+    /// Schlick's Fresnel term between f0 and f90.
+    MIR_HD static Rgb schlick(const Params& p, float cos_theta) {
+        const float m = 1.0f - cos_theta;
+        const float m2 = m * m;
+        const float w = m2 * m2 * m;
+        const float grazing = p.f90 * w;
+        return p.f0 * (1.0f - w) + Rgb{grazing, grazing, grazing};
+    }
+
+    /// The diffuse part of eval().
+    MIR_HD static Rgb diffuse(const Params& p, float cos_i, float cos_o) {
+        const Rgb white{1.0f, 1.0f, 1.0f};
+        return p.diffuse * inv_pi * (white - schlick(p, cos_i)) * (white - schlick(p, cos_o));
+    }
+
+    /// Probability with which sample() picks the specular lobe: its share of the reflected light,
+    /// kept away from 0 and 1 while both lobes exist.
+    MIR_HD static float specular_share(const Params& p, float cos_o) {
+        const float s = luminance(schlick(p, cos_o));
+        const float d = luminance(p.diffuse) * (1.0f - s);
+        if (p.f90 <= 0.0f && is_black(p.f0)) return 0.0f;
+        if (is_black(p.diffuse)) return 1.0f;
+        return smaller(larger(s / (s + d), 0.1f), 0.9f);
+    }
+};
+
+MIR_HD inline float CookTorrance::pdf(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
+    const float cos_i = glm::dot(n, wi);
+    const float cos_o = glm::dot(n, wo);
+    if (cos_i <= 0.0f || cos_o <= 0.0f) return 0.0f;
+    const float share = specular_share(p, cos_o);
+    float density = (1.0f - share) * cosine_hemisphere_pdf(cos_i);
+    if (share > 0.0f) {
+        const Vec3 h = glm::normalize(wi + wo);
+        density += share * ggx_reflection_pdf(cos_o, glm::dot(n, h), p.alpha);
+    }
+    return density;
+}
+
+MIR_HD inline BsdfSample CookTorrance::sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u,
+                                              float lobe) {
+    const Frame frame = Frame::around(n);
+    const Vec3 local_wo = frame.to_local(wo);
+    if (local_wo.z <= 0.0f) return {};
+    const bool specular = lobe < specular_share(p, local_wo.z);
+    const Vec3 local = specular ? ggx_sample_reflection(local_wo, p.alpha, u)
+                                : square_to_cosine_hemisphere(u);
+    const Vec3 wi = frame.to_world(local);
+    const float density = pdf(p, n, wi, wo);
+    const float cos_i = glm::dot(n, wi);
+    if (density <= 0.0f || cos_i <= 0.0f) return {};
+    return {wi, eval(p, n, wi, wo) * (cos_i / density), density};
+}
+
+}  // namespace mir

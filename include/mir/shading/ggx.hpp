@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+
+namespace mir {
+
+/// Smallest GGX width: below it single precision loses the shape of the lobe.
+inline constexpr float min_ggx_alpha = 1e-3f;
+
+/// GGX distribution of microfacet normals, per steradian: int D cos(theta_h) dw = 1.
+/// Source: Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007.
+MIR_HD inline float ggx_d(float cos_h, float alpha) {
+    const float a2 = alpha * alpha;
+    // 1 - cos^2 + a^2 cos^2, written so that a narrow lobe keeps its digits near the normal.
+    const float sin2 = (1.0f - cos_h) * (1.0f + cos_h);
+    const float t = sin2 + a2 * cos_h * cos_h;
+    return a2 / (pi * t * t);
+}
+
+/// Height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo).
+/// Source: Heitz, "Understanding the masking-shadowing function", JCGT 3(2), 2014, eq. 99.
+MIR_HD inline float ggx_v(float cos_i, float cos_o, float alpha) {
+    const float a2 = alpha * alpha;
+    const float li = cos_o * sqrtf(cos_i * cos_i * (1.0f - a2) + a2);
+    const float lo = cos_i * sqrtf(cos_o * cos_o * (1.0f - a2) + a2);
+    return 0.5f / larger(li + lo, 1e-20f);
+}
+
+/// Smith masking of one direction, G1 in [0, 1].
+MIR_HD inline float ggx_g1(float cos_theta, float alpha) {
+    const float a2 = alpha * alpha;
+    return 2.0f * cos_theta /
+           (cos_theta + sqrtf(cos_theta * cos_theta * (1.0f - a2) + a2));
+}
+
+/// Density, per steradian of wi, of ggx_sample_reflection(): G1(wo) D / (4 n.wo).
+MIR_HD inline float ggx_reflection_pdf(float cos_o, float cos_h, float alpha) {
+    return ggx_g1(cos_o, alpha) * ggx_d(smaller(cos_h, 1.0f), alpha) / (4.0f * cos_o);
+}
+
+/// Mirrors `wo` at a microfacet normal drawn among those visible from it. Local frame, n = +z.
+/// Source: Dupuy and Benyoub, "Sampling visible GGX normals with spherical caps", HPG 2023.
+MIR_HD inline Vec3 ggx_sample_reflection(Vec3 wo, float alpha, Vec2 u) {
+    const Vec3 stretched = glm::normalize(Vec3(alpha * wo.x, alpha * wo.y, wo.z));
+    const float phi = 2.0f * pi * u.x;
+    const float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
+    const float s = sqrtf(smaller(larger(1.0f - z * z, 0.0f), 1.0f));
+    const Vec3 half = Vec3(s * cosf(phi), s * sinf(phi), z) + stretched;
+    const Vec3 h = glm::normalize(Vec3(alpha * half.x, alpha * half.y, larger(half.z, 0.0f)));
+    return 2.0f * glm::dot(wo, h) * h - wo;
+}
+
+}  // namespace mir

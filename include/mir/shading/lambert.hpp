@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/frame.hpp"
+#include "mir/core/rgb.hpp"
+#include "mir/core/warp.hpp"
+#include "mir/shading/bsdf_sample.hpp"
+
+namespace mir {
+
+/// Ideal diffuse reflection: f = reflectance / pi, sr^-1. Model of Bsdf.
+struct Lambert {
+    struct Params {
+        Rgb reflectance;  ///< hemispherical albedo, 0..1
+    };
+
+    /// f(wi, wo); the caller has made sure that both lie above `n`.
+    [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 /*n*/, Vec3 /*wi*/, Vec3 /*wo*/) {
+        return p.reflectance * inv_pi;
+    }
+
+    /// Density of sample() at `wi`, per steradian.
+    MIR_HD static float pdf(const Params& /*p*/, Vec3 n, Vec3 wi, Vec3 /*wo*/) {
+        return cosine_hemisphere_pdf(glm::dot(n, wi));
+    }
+
+    /// Hemispherical reflectance.
+    MIR_HD static Rgb albedo(const Params& p, Vec3 /*n*/, Vec3 /*wo*/) { return p.reflectance; }
+
+    MIR_HD static BsdfSample sample(const Params& p, Vec3 n, Vec3 /*wo*/, Vec2 u, float /*lobe*/) {
+        const Vec3 wi = Frame::around(n).to_world(square_to_cosine_hemisphere(u));
+        return {wi, p.reflectance, pdf(p, n, wi, {})};
+    }
+};
+
+}  // namespace mir

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/bsdf.hpp"
+#include "mir/data/luxel.hpp"
+#include "mir/data/vpl.hpp"
+
+#include <limits>
+
+namespace mir {
+
+/// Geometry term of a luxel and a VPL, m^-2: cos cos / d^2 with the shading normal at the luxel
+/// and the geometric one at the VPL; 0 when either points away (algorithms note 2.1).
+MIR_HD inline float geometry_term(Vec3 wi, float distance_squared, Vec3 luxel_normal,
+                                  Vec3 vpl_normal) {
+    const float cos_l = larger(glm::dot(wi, luxel_normal), 0.0f);
+    const float cos_v = larger(-glm::dot(wi, vpl_normal), 0.0f);
+    return cos_l * cos_v / distance_squared;
+}
+
+/// J f min(G, bound): what an unoccluded VPL adds to a luxel's radiance. Model of Shading for any
+/// Bsdf. The bound tames 1/d^2 next to a VPL at the price of removed energy, which
+/// RemovedByBound measures.
+template <Bsdf B>
+struct VplShading {
+    using Surface = mir::Surface<typename B::Params>;
+
+    float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
+
+    [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s, const Vpl& vpl) const {
+        const Vec3 d = vpl.position - hit.position;
+        const float d2 = length_squared(d);
+        const Vec3 wi = d * (1.0f / sqrtf(d2));
+        const float g = smaller(geometry_term(wi, d2, s.normal, vpl.normal), bound);
+        return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * g;
+    }
+};
+
+/// J f max(G - bound, 0): the part of a contribution that VplShading leaves out. Model of Shading;
+/// VplShading + RemovedByBound = unbounded shading.
+template <Bsdf B>
+struct RemovedByBound {
+    using Surface = mir::Surface<typename B::Params>;
+
+    float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
+
+    [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s, const Vpl& vpl) const {
+        const Vec3 d = vpl.position - hit.position;
+        const float d2 = length_squared(d);
+        const Vec3 wi = d * (1.0f / sqrtf(d2));
+        const float excess = geometry_term(wi, d2, s.normal, vpl.normal) - bound;
+        if (!(excess > 0.0f)) return {};
+        return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * excess;
+    }
+
+    /// No luxel farther than this from a VPL can lose anything: G <= 1/d^2.
+    [[nodiscard]] MIR_HD float reach_squared() const { return 1.0f / bound; }
+};
+
+}  // namespace mir

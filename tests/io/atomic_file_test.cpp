@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "mir/io/atomic_file.hpp"
+
+#include "support/catch.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <fstream>
+#include <iterator>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+std::string read(const fs::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TEST_CASE("a committed file has its name and its content and leaves nothing else") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    {
+        mir::AtomicFile file(folder / "picture.exr");
+        CHECK(file.temporary().parent_path() == (folder / "picture.exr").parent_path());
+        CHECK_FALSE(fs::exists(folder / "picture.exr"));
+        write(file.temporary(), "new");
+        file.commit();
+        file.commit();
+    }
+    CHECK(read(folder / "picture.exr") == "new");
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a file that is not committed leaves the older one as it was") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    write(folder / "picture.exr", "old");
+    {
+        mir::AtomicFile file(folder / "picture.exr");
+        write(file.temporary(), "half of the n");
+    }
+    CHECK(read(folder / "picture.exr") == "old");
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("two writers of one file do not share a temporary name") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    mir::AtomicFile first(folder / "a");
+    mir::AtomicFile second(folder / "a");
+    CHECK(first.temporary() != second.temporary());
+}
+
+TEST_CASE("a link is followed, so that it still is a link afterwards") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    write(folder / "real", "old");
+    fs::create_symlink(folder / "real", folder / "link");
+    mir::AtomicFile file(folder / "link");
+    write(file.temporary(), "new");
+    file.commit();
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK(read(folder / "real") == "new");
+}
+
+TEST_CASE("a target that cannot be written is refused by name and with a remedy") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    fs::create_directories(folder / "is_a_folder");
+    const auto target = GENERATE("missing/a.exr", "is_a_folder", "is_a_folder/");
+    try {
+        mir::AtomicFile file(folder / target);
+        FAIL("no error for " << target);
+    } catch (const mir::Error& error) {
+        CHECK(error.code() == mir::ErrorCode::io);
+        CHECK(std::string(error.what()).find(target) != std::string::npos);
+        CHECK(std::string(error.what()).find("; ") != std::string::npos);
+    }
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a device is not replaced by a file") {
+    if (!fs::exists("/dev/null")) return;
+    CHECK_THROWS_AS(mir::AtomicFile("/dev/null"), mir::Error);
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "options.hpp"
+
+namespace mirtool {
+
+/// What parsing the command line came to: a command to run, or an exit code because everything has
+/// been said already (help, version, wrong usage).
+using Parsed = std::variant<Command, int>;
+
+/// Parses the arguments. Help and version go to stdout, complaints to stderr.
+Parsed parse(int argc, char** argv);
+
+}  // namespace mirtool

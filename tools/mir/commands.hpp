@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "options.hpp"
+
+namespace mirtool {
+
+// Each runs one command and returns the exit code. They throw mir::Error, which main() reports.
+int run(const RenderOptions& options);
+int run(const InfoOptions& options);
+int run(const ExportOptions& options);
+int run(const DevicesOptions& options);
+
+}  // namespace mirtool

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "load_scene.hpp"
+#include "mir/io/gltf_writer.hpp"
+
+#include <cstdio>
+
+namespace mirtool {
+
+int run(const ExportOptions& options) {
+    const SceneAndReport loaded = load_scene(options.scene);
+    mir::write_glb(loaded.scene, options.output);
+    std::printf("%s\n", options.output.c_str());
+    return exit_done;
+}
+
+}  // namespace mirtool

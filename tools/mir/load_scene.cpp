@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "load_scene.hpp"
+
+#include "mir/io/gltf_reader.hpp"
+#include "mir/scene/builtin.hpp"
+
+#include <filesystem>
+
+namespace mirtool {
+namespace {
+
+constexpr std::string_view builtin_prefix = "builtin:";
+
+SceneAndReport load_builtin(const std::string& name) {
+    SceneAndReport loaded;
+    loaded.scene = mir::builtin::make(name);
+    mir::count_scene(loaded.scene, loaded.report);
+    for (std::uint32_t i = 0; i < loaded.scene.cameras.size(); ++i)
+        loaded.report.cameras.push_back({loaded.scene.cameras[i].name, "perspective", i});
+    return loaded;
+}
+
+SceneAndReport load_file(const std::string& name, const mir::Limits& limits) {
+    mir::LoadedScene loaded = mir::read_gltf(name, limits);
+    return {std::move(loaded.scene), std::move(loaded.report)};
+}
+
+}  // namespace
+
+SceneAndReport load_scene(const std::string& name, const mir::Limits& limits) {
+    try {
+        if (name.starts_with(builtin_prefix)) return load_builtin(name.substr(builtin_prefix.size()));
+        return load_file(name, limits);
+    } catch (const mir::Error& e) {
+        // Whatever a scene does wrong is the input's fault here, not that of the command line.
+        if (e.code() == mir::ErrorCode::limit_exceeded ||
+            e.code() == mir::ErrorCode::invalid_argument)
+            throw mir::Error(mir::ErrorCode::invalid_input, e.what(), e.where());
+        throw;
+    }
+}
+
+std::string stem_of(const std::string& name) {
+    if (name.starts_with(builtin_prefix)) return name.substr(builtin_prefix.size());
+    return std::filesystem::path(name).stem().string();
+}
+
+}  // namespace mirtool

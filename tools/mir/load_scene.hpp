@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/limits.hpp"
+#include "mir/io/scene_report.hpp"
+
+#include <string>
+
+namespace mirtool {
+
+/// A scene and what its file held.
+struct SceneAndReport {
+    mir::Scene scene;
+    mir::SceneReport report;
+};
+
+/// Loads `builtin:NAME` or a glTF file.
+/// @throws mir::Error(invalid_input) for whatever is wrong with it, limits included.
+SceneAndReport load_scene(const std::string& name, const mir::Limits& limits = {});
+
+/// The name without folder and extension, for default output names.
+std::string stem_of(const std::string& name);
+
+}  // namespace mirtool

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/settings.hpp"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace mirtool {
+
+/// `mir render`.
+struct RenderOptions {
+    std::string scene;
+    std::string output;                 ///< EXR; empty: named after the scene
+    std::string preview;                ///< PNG; empty: beside the EXR
+    std::string camera;                 ///< name or index; empty: the first
+    std::optional<std::uint32_t> width;
+    std::optional<std::uint32_t> height;
+    std::vector<std::string> layers{"albedo", "normal", "position", "depth",
+                                    "direct", "indirect", "emission"};
+    std::optional<float> exposure;      ///< EV of the preview; none: automatic
+    bool no_preview = false;
+    bool record_seconds = false;        ///< seconds in the EXR: its bytes then differ every time
+    bool quiet = false;
+    bool json = false;
+    mir::RenderSettings settings;
+};
+
+/// `mir info`.
+struct InfoOptions {
+    std::string scene;
+    bool json = false;
+};
+
+/// `mir export`.
+struct ExportOptions {
+    std::string scene;
+    std::string output;
+};
+
+/// `mir devices`.
+struct DevicesOptions {
+    bool json = false;
+};
+
+using Command = std::variant<RenderOptions, InfoOptions, ExportOptions, DevicesOptions>;
+
+}  // namespace mirtool

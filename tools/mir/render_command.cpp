@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "load_scene.hpp"
+#include "mir/cpu/register.hpp"
+#include "mir/runtime/check_scene.hpp"
+#include "mir/scene/framing.hpp"
+#include "progress.hpp"
+#include "render_output.hpp"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace mirtool {
+namespace {
+
+constexpr std::uint32_t default_height = 480;
+
+/// Position in the file's list of cameras of the one that was asked for.
+std::size_t find_camera(const RenderOptions& o, const mir::SceneReport& report) {
+    std::string names;
+    for (std::size_t i = 0; i < report.cameras.size(); ++i) {
+        if (report.cameras[i].name == o.camera) return i;
+        names += (i == 0 ? "'" : ", '") + report.cameras[i].name + "'";
+    }
+    std::size_t index = 0;
+    const char* end = o.camera.data() + o.camera.size();
+    const auto read = std::from_chars(o.camera.data(), end, index);
+    if (read.ec == std::errc() && read.ptr == end && index < report.cameras.size()) return index;
+    throw mir::Error(mir::ErrorCode::invalid_argument,
+                     o.scene + ": there is no camera '" + o.camera + "'; the scene has " +
+                         (names.empty() ? "none" : names));
+}
+
+/// Sets the scene's camera to the one to use and returns what the file says about it.
+std::optional<mir::CameraReport> choose_camera(RenderOptions& o, SceneAndReport& loaded) {
+    const auto& cameras = loaded.report.cameras;
+    if (!o.camera.empty()) {
+        const mir::CameraReport& chosen = cameras[find_camera(o, loaded.report)];
+        if (!chosen.index)
+            throw mir::Error(mir::ErrorCode::invalid_input,
+                             o.scene + ": camera '" + chosen.name + "' is " + chosen.kind +
+                                 ", which is not supported; choose a perspective one");
+        o.settings.camera = *chosen.index;
+        return chosen;
+    }
+    const auto usable = std::find_if(cameras.begin(), cameras.end(),
+                                     [](const mir::CameraReport& c) { return c.index.has_value(); });
+    if (usable == cameras.end()) return std::nullopt;
+    o.settings.camera = *usable->index;
+    return *usable;
+}
+
+/// Width and height: as asked, else those of the file, else its aspect ratio.
+mir::Extent choose_size(const RenderOptions& o, const std::optional<mir::CameraReport>& camera,
+                        const mir::Scene& scene) {
+    if (o.width && o.height) return {*o.width, *o.height};
+    float aspect = 4.0f / 3.0f;
+    if (camera) {
+        const float given = scene.cameras[*camera->index].aspect_ratio;
+        if (given > 0.0f) aspect = given;
+        if (camera->width > 0 && camera->height > 0) {
+            if (!o.width && !o.height) return {camera->width, camera->height};
+            aspect = static_cast<float>(camera->width) / static_cast<float>(camera->height);
+        }
+    }
+    const auto side = [](float length) {
+        return static_cast<std::uint32_t>(std::clamp(std::round(length), 1.0f, 65536.0f));
+    };
+    if (o.width) return {*o.width, side(static_cast<float>(*o.width) / aspect)};
+    const std::uint32_t height = o.height.value_or(default_height);
+    return {side(static_cast<float>(height) * aspect), height};
+}
+
+void prepare(RenderOptions& o, SceneAndReport& loaded) {
+    const auto camera = choose_camera(o, loaded);
+    o.settings.image = choose_size(o, camera, loaded.scene);
+    if (!camera) {
+        const float aspect = static_cast<float>(o.settings.image.width) /
+                             static_cast<float>(o.settings.image.height);
+        loaded.scene.cameras.push_back(mir::frame_bounds(loaded.report.bounds, aspect));
+        o.settings.camera = static_cast<std::uint32_t>(loaded.scene.cameras.size() - 1);
+    }
+    o.settings.bounce_layers =
+        std::find(o.layers.begin(), o.layers.end(), "bounces") != o.layers.end();
+    // Before the remarks, so that a scene that cannot be rendered is answered in one line.
+    mir::check_scene(loaded.scene, o.settings);
+    if (o.quiet) return;
+    for (const auto& [what, times] : loaded.report.ignored)
+        std::fprintf(stderr, "mir: %s: ignored: %s (%llu)\n", o.scene.c_str(), what.c_str(),
+                     static_cast<unsigned long long>(times));
+    if (!camera)
+        std::fprintf(stderr, "mir: %s: no usable camera; the bounding box is framed\n",
+                     o.scene.c_str());
+}
+
+mir::RenderResult render(const RenderOptions& o, const mir::Scene& scene, mir::Monitor& monitor) {
+    mir::Registry registry;
+    mir::cpu::add_to(registry);
+    const auto renderer = registry.make(o.settings.scheduler);
+    std::optional<Progress> progress;
+    if (!o.quiet) progress.emplace(monitor);
+    return renderer->render(scene, o.settings, &monitor);
+}
+
+/// Does `work`; a failure that is the fault of the scene names it.
+template <class Work>
+auto blaming(const std::string& scene, const Work& work) {
+    try {
+        return work();
+    } catch (const mir::Error& e) {
+        const std::string what = e.what();
+        if (e.code() != mir::ErrorCode::invalid_input || what.starts_with(scene)) throw;
+        throw mir::Error(e.code(), scene + ": " + what, e.where());
+    }
+}
+
+}  // namespace
+
+int run(const RenderOptions& options) {
+    RenderOptions o = options;
+    o.settings.validate();
+    const OutputPaths paths = choose_outputs(o);
+    // Bounds Embree's build too, which runs on the same library.
+    std::optional<tbb::global_control> threads;
+    if (o.settings.threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, o.settings.threads);
+    SceneAndReport loaded = load_scene(o.scene, o.settings.limits);
+    blaming(o.scene, [&] { prepare(o, loaded); });
+    // Also while files are written, since a signal that ended the program there would leave halves.
+    mir::Monitor monitor;
+    const CancelOnInterrupt cancel(monitor);
+    const mir::RenderResult result =
+        blaming(o.scene, [&] { return render(o, loaded.scene, monitor); });
+    monitor.check();
+    write_outputs(paths, result, o);
+    if (!o.quiet) print_summary(result);
+    if (o.json) {
+        print_json(paths, result, o);
+    } else {
+        std::printf("%s\n", paths.exr.c_str());
+        if (!paths.png.empty()) std::printf("%s\n", paths.png.c_str());
+    }
+    return exit_done;
+}
+
+}  // namespace mirtool

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "render_output.hpp"
+
+#include "load_scene.hpp"
+#include "mir/io/atomic_file.hpp"
+#include "mir/io/exr.hpp"
+#include "mir/io/png.hpp"
+#include "mir/version.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+namespace mirtool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* sampler_name(const mir::RenderSettings& s) {
+    return s.termination == mir::Termination::roulette ? "ir" : "keller";
+}
+
+bool wants(const RenderOptions& o, const char* layer) {
+    return std::find(o.layers.begin(), o.layers.end(), layer) != o.layers.end();
+}
+
+std::vector<mir::ExrLayer> layers_of(const mir::RenderResult& r, const RenderOptions& o) {
+    using mir::ExrPrecision;
+    std::vector<mir::ExrLayer> layers{{"", &r.beauty}};
+    if (wants(o, "albedo")) layers.push_back({"albedo", &r.guides.albedo, ExrPrecision::half});
+    if (wants(o, "normal")) layers.push_back({"normal", &r.guides.normal, ExrPrecision::half});
+    if (wants(o, "position")) layers.push_back({"position", &r.guides.position});
+    if (wants(o, "depth")) layers.push_back({"depth", &r.guides.depth});
+    if (wants(o, "direct")) layers.push_back({"direct", &r.direct});
+    if (wants(o, "indirect")) layers.push_back({"indirect", &r.indirect});
+    if (wants(o, "emission")) layers.push_back({"emission", &r.emission});
+    for (std::size_t i = 0; i < r.bounces.size(); ++i)
+        layers.push_back({"bounce" + std::to_string(i + 1), &r.bounces[i]});
+    return layers;
+}
+
+mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions& o) {
+    const mir::RenderStatistics& s = r.statistics;
+    mir::ExrAttributes all{
+        {"mir:version", std::string(mir::version)},
+        {"mir:scene_hash", s.scene_hash},
+        {"mir:seed", std::to_string(o.settings.seed)},
+        {"mir:sampler", std::string(sampler_name(o.settings))},
+        {"mir:filter", std::string(to_string(o.settings.filter.kind))},
+        {"mir:vpls", static_cast<int>(s.vpls)},
+        {"mir:light_paths", std::to_string(s.light_paths)},
+        {"mir:luxels_per_pixel", static_cast<int>(o.settings.luxels_per_pixel)},
+        {"mir:contributions", std::to_string(s.contributions)},
+        {"mir:bound", s.bound},
+        {"mir:removed_share", static_cast<float>(s.removed_share())},
+    };
+    if (o.record_seconds)
+        all.push_back({"mir:seconds", static_cast<float>(s.seconds.total)});
+    return all;
+}
+
+Json seconds_of(const mir::StageSeconds& t) {
+    return {{"build", t.build},       {"sampling", t.sampling},
+            {"gbuffer", t.gbuffer},   {"direct", t.direct},
+            {"reconstruction", t.reconstruction},
+            {"ledger", t.ledger},     {"film", t.film},
+            {"total", t.total}};
+}
+
+double rate_of(const mir::RenderStatistics& s) {
+    return s.seconds.reconstruction > 0.0
+               ? static_cast<double>(s.contributions) / s.seconds.reconstruction
+               : 0.0;
+}
+
+Json mean_of(const mir::Image<mir::Rgb>& image) {
+    double r = 0.0;
+    double g = 0.0;
+    double b = 0.0;
+    for (const mir::Rgb& p : image.pixels()) {
+        r += p.r;
+        g += p.g;
+        b += p.b;
+    }
+    const auto n = static_cast<double>(image.pixels().size());
+    return {r / n, g / n, b / n};
+}
+
+}  // namespace
+
+OutputPaths choose_outputs(const RenderOptions& o) {
+    OutputPaths paths{o.output.empty() ? stem_of(o.scene) + ".exr" : o.output, o.preview};
+    mir::expects(paths.exr != "-", "a picture cannot be written to standard output; name a file");
+    if (paths.png.empty() && !o.no_preview)
+        paths.png = std::filesystem::path(paths.exr).replace_extension(".png").string();
+    if (o.no_preview) paths.png.clear();
+    const auto place = [](const std::string& name) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
+    };
+    mir::expects(paths.png.empty() || place(paths.png) != place(paths.exr),
+                 "picture and preview have the same name; let the picture end in .exr");
+    const mir::AtomicFile exr(paths.exr);
+    if (!paths.png.empty()) const mir::AtomicFile png(paths.png);
+    return paths;
+}
+
+void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o) {
+    mir::write_exr(paths.exr, r.beauty.extent(), layers_of(r, o), attributes_of(r, o));
+    if (!paths.png.empty())
+        mir::write_png(paths.png, r.beauty,
+                       o.exposure ? *o.exposure : mir::auto_exposure(r.beauty));
+}
+
+void print_summary(const mir::RenderResult& r) {
+    const mir::RenderStatistics& s = r.statistics;
+    std::fprintf(stderr,
+                 "mir: %llu triangles, %llu luxels, %u VPLs from %llu light paths, %s\n"
+                 "mir: %.2f s (VPLs %.2f, camera rays %.2f, direct %.2f, reconstruction %.2f), "
+                 "%.1f M contributions/s\n",
+                 static_cast<unsigned long long>(s.triangles),
+                 static_cast<unsigned long long>(s.luxels), s.vpls,
+                 static_cast<unsigned long long>(s.light_paths), s.scheduler.c_str(),
+                 s.seconds.total, s.seconds.sampling, s.seconds.gbuffer, s.seconds.direct,
+                 s.seconds.reconstruction, 1e-6 * rate_of(s));
+    for (const std::string& warning : r.warnings)
+        std::fprintf(stderr, "mir: warning: %s\n", warning.c_str());
+}
+
+void print_json(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o) {
+    const mir::RenderStatistics& s = r.statistics;
+    Json out{{"version", mir::version}, {"scene", o.scene}, {"scene_hash", s.scene_hash},
+             {"picture", paths.exr}};
+    if (!paths.png.empty()) out["preview"] = paths.png;
+    out["width"] = r.beauty.width();
+    out["height"] = r.beauty.height();
+    out["seed"] = o.settings.seed;
+    out["sampler"] = sampler_name(o.settings);
+    out["scheduler"] = s.scheduler;
+    out["triangles"] = s.triangles;
+    out["dropped_triangles"] = s.dropped_triangles;
+    out["luxels"] = s.luxels;
+    out["light_paths"] = s.light_paths;
+    out["vpls"] = s.vpls;
+    out["contributions"] = s.contributions;
+    out["contributions_per_second"] = rate_of(s);
+    out["emitted_power"] = s.emitted_power;
+    out["non_lambertian_share"] = s.non_lambertian_share;
+    out["bound"] = s.bound;
+    out["removed_share"] = s.removed_share();
+    out["mean_radiance"] = {{"beauty", mean_of(r.beauty)},
+                            {"emission", mean_of(r.emission)},
+                            {"direct", mean_of(r.direct)},
+                            {"indirect", mean_of(r.indirect)}};
+    out["seconds"] = seconds_of(s.seconds);
+    out["warnings"] = r.warnings;
+    std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+}  // namespace mirtool

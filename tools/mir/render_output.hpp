@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/result.hpp"
+#include "options.hpp"
+
+#include <string>
+
+namespace mirtool {
+
+/// Where the pictures of a render go.
+struct OutputPaths {
+    std::string exr;
+    std::string png;  ///< empty: no preview
+};
+
+/// Decides the names and makes sure that both can be written, before any work is done.
+/// @throws mir::Error(io or invalid_argument).
+OutputPaths choose_outputs(const RenderOptions& options);
+
+/// Writes EXR and preview. Both appear complete or not at all.
+void write_outputs(const OutputPaths& paths, const mir::RenderResult& result,
+                   const RenderOptions& options);
+
+/// Statistics for people, on stderr, and warnings.
+void print_summary(const mir::RenderResult& result);
+
+/// Statistics for programs, on stdout.
+void print_json(const OutputPaths& paths, const mir::RenderResult& result,
+                const RenderOptions& options);
+
+}  // namespace mirtool
