@@ -4,9 +4,11 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/visibility.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/core/random.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/image.hpp"
+#include "mir/film/luxel_grid.hpp"
 #include "mir/scene/light_table.hpp"
 #include "mir/shading/scene_light.hpp"
 
@@ -15,16 +17,30 @@ namespace mir {
 /// Where the rows of a G-buffer lie in the whole luxel image; random numbers are keyed by it.
 struct LuxelBand {
     std::uint32_t first_row = 0;
-    std::uint32_t luxels_per_row = 0;
+    LuxelGrid grid;
     std::uint64_t seed = 0;
+
+    /// Numbers of the pixel that holds luxel (x, y) of the band, the same for all its luxels.
+    [[nodiscard]] Random pixel_numbers(std::uint32_t x, std::uint32_t y) const {
+        const std::uint64_t pixel_row = (first_row + y) / grid.per_pixel_y;
+        return {seed, Stream::direct_light, pixel_row * grid.pixels.width + x / grid.per_pixel_x};
+    }
+
+    /// Number of the luxel inside its pixel.
+    [[nodiscard]] std::uint32_t cell(std::uint32_t x, std::uint32_t y) const {
+        return (first_row + y) % grid.per_pixel_y * grid.per_pixel_x + x % grid.per_pixel_x;
+    }
 };
 
 /// Direct light by next-event estimation: radiance towards the viewer of every luxel,
 /// W m^-2 sr^-1. `samples` points on emissive triangles per luxel, chosen by power; point, spot
-/// and directional lights are summed exactly. Unbiased. Emission is not included.
+/// and directional lights are summed exactly. Unbiased. Emission is not included. `monitor`
+/// may be null.
+/// @throws Error(cancelled) when the monitor says so.
 template <Bsdf B, TiledGBuffer G, Visibility V, Executor E>
 Image<Rgb> direct_light(const G& gbuffer, const LightTable& lights, const V& visibility,
-                        LuxelBand band, std::uint32_t samples, float ray_offset, E& executor) {
+                        LuxelBand band, std::uint32_t samples, float ray_offset, E& executor,
+                        const Monitor* monitor = nullptr) {
     Image<Rgb> image(gbuffer.extent());
     const EmitterLight<B, V> emitters{lights, visibility, samples, ray_offset};
     const DeltaLight<B, V> deltas{lights, visibility};
@@ -34,6 +50,7 @@ Image<Rgb> direct_light(const G& gbuffer, const LightTable& lights, const V& vis
 
     executor.for_each(rows.size(), [&](std::size_t i) {
         const auto [t, y] = rows[i];
+        if (monitor != nullptr) monitor->check();
         const Tile tile = gbuffer.tiles()[t];
         const auto luxels = gbuffer.view(t);
         const auto layout = BlockedLayout::of(tile);
@@ -41,11 +58,10 @@ Image<Rgb> direct_light(const G& gbuffer, const LightTable& lights, const V& vis
             const Hit hit = luxels.hit(layout(x, y));
             if (is_empty(hit)) continue;
             const auto surface = luxels.surface(layout(x, y));
-            const std::uint64_t row = band.first_row + tile.y + y;
-            Random random(band.seed, Stream::direct_light,
-                          row * band.luxels_per_row + tile.x + x);
+            const SharedSamples shared{band.grid.per_pixel(), band.cell(tile.x + x, tile.y + y)};
             image(tile.x + x, tile.y + y) =
-                emitters(hit, surface, random) + deltas(hit, surface);
+                emitters(hit, surface, shared, band.pixel_numbers(tile.x + x, tile.y + y)) +
+                deltas(hit, surface);
         }
     });
     return image;

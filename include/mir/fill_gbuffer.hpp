@@ -3,6 +3,7 @@
 
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/ray_caster.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/core/random.hpp"
 #include "mir/data/gbuffer.hpp"
 #include "mir/film/luxel_grid.hpp"
@@ -31,11 +32,12 @@ struct CameraRays {
 };
 
 /// First phase: traces the camera ray of every luxel of `gbuffer`, which holds the rows from
-/// `first_row` on of the luxel image. Points are lifted by `ray_offset` metres.
+/// `first_row` on of the luxel image. Points are lifted by `ray_offset` metres. `monitor` may be null.
+/// @throws Error(cancelled) when the monitor says so.
 template <Bsdf B, RayCaster R, Executor E>
 void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t first_row,
                   const CameraRays& rays, const R& caster, const SurfaceTable<B>& surfaces,
-                  float ray_offset, E& executor) {
+                  float ray_offset, E& executor, const Monitor* monitor = nullptr) {
     struct Row {
         TileIndex tile;
         std::uint32_t y;
@@ -46,6 +48,7 @@ void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t fir
 
     executor.for_each(rows.size(), [&](std::size_t i) {
         const Row row = rows[i];
+        if (monitor != nullptr) monitor->check();
         const Tile tile = gbuffer.tiles()[row.tile];
         const auto layout = BlockedLayout::of(tile);
         for (std::uint32_t x = 0; x < tile.width; ++x) {

@@ -20,6 +20,7 @@
 #include "mir/core/instruction_set.hpp"
 #include "mir/core/limits.hpp"
 #include "mir/core/math.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/core/random.hpp"
 #include "mir/core/ray.hpp"
 #include "mir/core/rgb.hpp"

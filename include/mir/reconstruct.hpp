@@ -26,6 +26,10 @@ struct Inputs {
 template <class S, TiledGBuffer G, VplSet P, Visibility V, Shading F>
 Image<Rgb> reconstruct(const S& scheduler, const G& gbuffer, P vpls, V visibility, F shading) {
     using In = Inputs<G, P, V, F>;
+    using Luxels = decltype(gbuffer.view(TileIndex{}));
+    static_assert(std::same_as<typename Luxels::Surface, typename F::Surface>,
+                  "mir: the shading reads other surface data than the G-buffer holds; use one Bsdf "
+                  "for both");
     static_assert(Scheduler<S, In>,
                   "mir: the first argument of reconstruct() is not a Scheduler for these inputs");
     const In in{gbuffer, vpls, visibility, shading};

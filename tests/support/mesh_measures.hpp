@@ -11,8 +11,8 @@ namespace mirtest {
 
 /// Unit normal of the front of a triangle, zero when it has no area.
 inline mir::Vec3 normal(const mir::Mesh& m, const mir::TriangleIndices& t) {
-    const mir::Vec3 n = glm::cross(m.positions[t[1]] - m.positions[t[0]],
-                                   m.positions[t[2]] - m.positions[t[0]]);
+    const mir::Vec3 n =
+        glm::cross(m.positions[t[1]] - m.positions[t[0]], m.positions[t[2]] - m.positions[t[0]]);
     const float length = glm::length(n);
     return length > 0.0f ? n / length : mir::Vec3(0);
 }
@@ -21,9 +21,9 @@ inline mir::Vec3 normal(const mir::Mesh& m, const mir::TriangleIndices& t) {
 inline double area(const mir::Mesh& m) {
     double sum = 0.0;
     for (const auto& t : m.triangles)
-        sum += 0.5 * static_cast<double>(
-                         glm::length(glm::cross(m.positions[t[1]] - m.positions[t[0]],
-                                                m.positions[t[2]] - m.positions[t[0]])));
+        sum += 0.5 *
+               static_cast<double>(glm::length(glm::cross(m.positions[t[1]] - m.positions[t[0]],
+                                                          m.positions[t[2]] - m.positions[t[0]])));
     return sum;
 }
 
@@ -31,8 +31,8 @@ inline double area(const mir::Mesh& m) {
 inline double volume(const mir::Mesh& m) {
     double sum = 0.0;
     for (const auto& t : m.triangles)
-        sum += static_cast<double>(glm::dot(
-                   m.positions[t[0]], glm::cross(m.positions[t[1]], m.positions[t[2]]))) /
+        sum += static_cast<double>(
+                   glm::dot(m.positions[t[0]], glm::cross(m.positions[t[1]], m.positions[t[2]]))) /
                6.0;
     return sum;
 }

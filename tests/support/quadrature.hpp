@@ -56,11 +56,10 @@ inline mir::Vec3 direction(double cosine, double phi) {
 template <class F>
 double integrate_directions(double low, double high, int pieces, const F& f) {
     // By angle, not cosine: integrands with square roots of 1 - cosine stay smooth.
-    return integrate(std::acos(high), std::acos(low), 0.0, 2 * pi, pieces,
-                     [&](double theta, double phi) {
-                         return std::sin(theta) *
-                                static_cast<double>(f(direction(std::cos(theta), phi)));
-                     });
+    return integrate(
+        std::acos(high), std::acos(low), 0.0, 2 * pi, pieces, [&](double theta, double phi) {
+            return std::sin(theta) * static_cast<double>(f(direction(std::cos(theta), phi)));
+        });
 }
 
 /// int of f(unit vector) over the hemisphere around +z.

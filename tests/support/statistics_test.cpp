@@ -29,8 +29,8 @@ double kolmogorov_distance(std::vector<double> p) {
     double worst = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double n = static_cast<double>(p.size());
-        worst = std::max({worst, p[i] - static_cast<double>(i) / n,
-                          static_cast<double>(i + 1) / n - p[i]});
+        worst = std::max(
+            {worst, p[i] - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - p[i]});
     }
     return worst;
 }

@@ -15,14 +15,15 @@
 namespace mirtool {
 namespace {
 
-const std::vector<std::string> layer_names{"albedo", "normal",   "position", "depth", "direct",
+const std::vector<std::string> layer_names{"albedo",   "normal",   "position", "depth", "direct",
                                            "indirect", "emission", "bounces",  "none"};
 
 /// A number within [low, high]; CLI11's own check prints bounds with hundreds of digits.
 CLI::Validator between(double low, double high, const std::string& text) {
     return {[=](std::string& value) {
                 double number = 0.0;
-                if (!CLI::detail::lexical_cast(value, number)) return "'" + value + "' is no number";
+                if (!CLI::detail::lexical_cast(value, number))
+                    return "'" + value + "' is no number";
                 if (number >= low && number <= high) return std::string();
                 return value + " is out of range; give " + text;
             },
@@ -71,8 +72,8 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target,
             [&target, choices, name, names](const std::string& text) {
                 const auto found = choices.find(text);
                 if (found == choices.end())
-                    throw CLI::ValidationError(name, "'" + text + "' is unknown; choose one of " +
-                                                         names);
+                    throw CLI::ValidationError(name,
+                                               "'" + text + "' is unknown; choose one of " + names);
                 target = found->second;
             },
             help)
@@ -163,8 +164,7 @@ void add_execution(CLI::App& app, RenderOptions& o) {
                    "cpu-blocks, tuned (default), or cpu, the plain loop; both give the same bytes")
         ->check(CLI::IsMember({"cpu", "cpu-blocks"}));
     app.add_option_function<std::string>(
-           "--tile",
-           [&s](const std::string& text) { s.tile = read_tile(text); },
+           "--tile", [&s](const std::string& text) { s.tile = read_tile(text); },
            "Luxels scheduled together (default 256x256); the picture does not depend on it")
         ->type_name("WxH");
     app.add_flag("--allow-no-light", s.allow_no_light, "Render a scene without light, black");
@@ -179,7 +179,8 @@ int complain(const CLI::App& app, const CLI::ParseError& e) {
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     for (const CLI::App* sub : used->get_subcommands({})) known.push_back(sub->get_name());
     for (const std::string& word : used->remaining(false))
-        if (const auto guess = nearest(word, known)) std::cerr << "; did you mean " << *guess << "?";
+        if (const auto guess = nearest(word.substr(0, word.find('=')), known))
+            std::cerr << "; did you mean " << *guess << "?";
     std::cerr << "\nmir: see 'mir" << (used == &app ? "" : " " + used->get_name()) << " --help'\n";
     return exit_usage;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/runtime/monitor.hpp"
+#include "mir/core/monitor.hpp"
 
 #include <chrono>
 #include <condition_variable>

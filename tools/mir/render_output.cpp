@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <sys/resource.h>
+
 namespace mirtool {
 namespace {
 
@@ -73,6 +75,13 @@ double rate_of(const mir::RenderStatistics& s) {
     return s.seconds.reconstruction > 0.0
                ? static_cast<double>(s.contributions) / s.seconds.reconstruction
                : 0.0;
+}
+
+/// Largest resident set of the process so far.
+std::uint64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 Json mean_of(const mir::Image<mir::Rgb>& image) {
@@ -154,6 +163,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
                             {"direct", mean_of(r.direct)},
                             {"indirect", mean_of(r.indirect)}};
     out["seconds"] = seconds_of(s.seconds);
+    out["peak_memory_bytes"] = peak_memory_bytes();
     out["warnings"] = r.warnings;
     std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }

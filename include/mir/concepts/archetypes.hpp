@@ -11,7 +11,6 @@
 #include "mir/concepts/visibility.hpp"
 #include "mir/concepts/vpl_set.hpp"
 
-
 /// The poorest legal model of each concept: it has what the concept names and nothing besides, not
 /// even a default constructor or an assignment. A generic function that compiles with these asks
 /// for no more than it says. They compute nothing useful and belong in tests, of this library and
@@ -27,7 +26,10 @@ class Value {
  public:
     explicit constexpr Value(Make) {}
     constexpr Value(const Value&) = default;
+    constexpr Value(Value&&) = default;
     Value& operator=(const Value&) = delete;
+    Value& operator=(Value&&) = delete;
+    ~Value() = default;
 };
 
 /// Base of archetypes that are only ever referred to.
@@ -36,6 +38,7 @@ class Pinned {
     explicit constexpr Pinned(Make) {}
     Pinned(const Pinned&) = delete;
     Pinned& operator=(const Pinned&) = delete;
+    ~Pinned() = default;
 };
 
 /// Reflects nothing. Never an object itself: a Bsdf is a set of static functions.
@@ -50,6 +53,7 @@ struct Bsdf {
     static float pdf(const Params&, Vec3, Vec3, Vec3) { return 0.0f; }
     static BsdfSample sample(const Params&, Vec3, Vec3, Vec2, float) { return {}; }
     static Rgb albedo(const Params&, Vec3, Vec3) { return {}; }
+    static bool is_black(const Params&) { return true; }
 };
 
 /// Nothing hides anything. Cannot answer packets.
@@ -89,6 +93,20 @@ struct Shading : Value {
     using Surface = archetype::Surface;
 
     Rgb operator()(const Hit&, const Surface&, const Vpl& vpl) const { return vpl.intensity; }
+};
+
+/// Shading that ends at a distance of ten metres.
+struct ReachLimitedShading : Shading {
+    using Shading::Shading;
+
+    [[nodiscard]] float reach_squared() const { return 100.0f; }
+};
+
+/// Shading that looks at surfaces first.
+struct SurfaceSelectiveShading : Shading {
+    using Shading::Shading;
+
+    [[nodiscard]] bool reflects(const Surface&) const { return true; }
 };
 
 /// Becomes a Vpl when asked, and is nothing else.

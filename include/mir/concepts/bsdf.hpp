@@ -14,8 +14,8 @@ namespace mir {
 ///
 /// Axioms (tests/conformance/bsdf_suite.hpp):
 ///  1. eval(wi, wo) = eval(wo, wi), finite and not negative;
-///  2. the directional albedo is at most 1;
-///  3. albedo() lies in [0, 1];
+///  2. the directional albedo is at most 1 (1.0025 where a model says so);
+///  3. albedo() lies in [0, 1]; is_black() only where eval() is zero for all directions;
 ///  4. sample() follows pdf(), and its weight is eval cos / pdf.
 template <class B>
 concept Bsdf = WordCopyable<typename B::Params> &&
@@ -24,6 +24,7 @@ concept Bsdf = WordCopyable<typename B::Params> &&
                    { B::pdf(p, n, wi, wo) } -> std::same_as<float>;
                    { B::sample(p, n, wo, u, v) } -> std::same_as<BsdfSample>;
                    { B::albedo(p, n, wo) } -> std::same_as<Rgb>;
+                   { B::is_black(p) } -> std::same_as<bool>;
                };
 
 }  // namespace mir

@@ -27,7 +27,7 @@ concept GBuffer = DeviceCopyable<G> && requires(const G g, LuxelIndex i) {
 template <class T>
 concept TiledGBuffer = requires(const T t, TileIndex i) {
     { t.extent() } -> std::same_as<Extent>;
-    { t.tiles() } -> std::convertible_to<const std::vector<Tile>&>;
+    { t.tiles() } -> std::same_as<const std::vector<Tile>&>;
     { t.view(i) } -> GBuffer;
 };
 

@@ -26,4 +26,12 @@ concept ReachLimitedShading = Shading<F> && requires(const F f) {
     { f.reach_squared() } -> std::same_as<float>;
 };
 
+/// Shading that can tell from the surface alone that it reflects nothing, so that no ray is traced
+/// for it. `reflects` may only be false where every contribution is zero.
+template <class F>
+concept SurfaceSelectiveShading =
+    Shading<F> && requires(const F f, const typename F::Surface& s) {
+        { f.reflects(s) } -> std::same_as<bool>;
+    };
+
 }  // namespace mir

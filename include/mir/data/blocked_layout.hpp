@@ -41,4 +41,15 @@ struct BlockedLayout {
     }
 };
 
+/// `size` rounded up to whole blocks. Tiles of such sizes cut an image into the same blocks, so
+/// that ray packets, and with them the answers of engines that decide ties by packet, do not depend
+/// on the tile size.
+constexpr Extent whole_blocks(Extent size) {
+    const auto round_up = [](std::uint32_t n) {
+        constexpr std::uint32_t mask = BlockedLayout::side - 1;
+        return n > ~mask ? ~mask : (n + mask) & ~mask;
+    };
+    return {round_up(size.width), round_up(size.height)};
+}
+
 }  // namespace mir

@@ -61,9 +61,10 @@ class VplList {
 };
 
 inline VplSpan<Space::host> VplList::bounce(std::uint8_t b) const {
-    const auto by_bounce = [](const VplOrigin& o, std::uint8_t value) { return o.bounce < value; };
-    const auto first = std::lower_bound(origins_.begin(), origins_.end(), b, by_bounce);
-    const auto last = std::lower_bound(first, origins_.end(), b + 1, by_bounce);
+    // As unsigned: one past the largest bounce must not wrap to 0.
+    const auto by_bounce = [](const VplOrigin& o, unsigned value) { return o.bounce < value; };
+    const auto first = std::lower_bound(origins_.begin(), origins_.end(), unsigned{b}, by_bounce);
+    const auto last = std::lower_bound(first, origins_.end(), unsigned{b} + 1, by_bounce);
     return {vpls_.data() + (first - origins_.begin()), static_cast<std::uint32_t>(last - first)};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/runtime/monitor.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
 #include "mir/scene/scene.hpp"

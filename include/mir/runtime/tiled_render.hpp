@@ -4,7 +4,7 @@
 #include "mir/direct_light.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/film/film.hpp"
-#include "mir/runtime/monitor.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
 #include "mir/runtime/stopwatch.hpp"
@@ -28,6 +28,7 @@ class TiledRender {
           engine_(engine),
           executor_(executor),
           monitor_(monitor),
+          tile_(whole_blocks(settings.tile)),
           make_scheduler_(make_scheduler),
           lights_(scene, geometry),
           surfaces_(scene),
@@ -64,6 +65,7 @@ class TiledRender {
     const Engine& engine_;
     E& executor_;
     Monitor* monitor_;
+    Extent tile_;
     MakeScheduler make_scheduler_;
     LightTable lights_;
     SurfaceTable<B> surfaces_;
@@ -139,7 +141,7 @@ std::uint32_t TiledRender<B, Engine, E, MakeScheduler>::rows_per_band() const {
     constexpr std::uint64_t luxels_per_band = 1u << 21;
     const std::uint64_t width = rays_.grid.luxels().width;
     const std::uint64_t pixel = rays_.grid.per_pixel_y;
-    const std::uint64_t grain = pixel * std::min<std::uint64_t>(settings_.tile.height, 256);
+    const std::uint64_t grain = pixel * std::min<std::uint64_t>(tile_.height, 256);
     const std::uint64_t rows = std::max<std::uint64_t>(luxels_per_band / width / grain, 1) * grain;
     return static_cast<std::uint32_t>(
         std::min<std::uint64_t>(rows, rays_.grid.luxels().height));
@@ -150,21 +152,20 @@ void TiledRender<B, Engine, E, MakeScheduler>::render_band(std::uint32_t first_r
                                                            std::uint32_t rows) {
     StageSeconds& seconds = result_.statistics.seconds;
     const std::uint32_t width = rays_.grid.luxels().width;
-    GBuffer gbuffer({width, rows}, settings_.tile);
+    GBuffer gbuffer({width, rows}, tile_);
     {
         const Stopwatch watch(seconds.gbuffer);
         fill_gbuffer<B>(gbuffer, first_row, rays_, engine_.ray_caster(), surfaces_,
-                        geometry_.ray_offset(), executor_);
+                        geometry_.ray_offset(), executor_, monitor_);
     }
-    if (monitor_ != nullptr) monitor_->check();
     Image<Rgb> direct;
     {
         const Stopwatch watch(seconds.direct);
         const bool sampled = settings_.direct == DirectLight::separate;
         direct = direct_light<B>(gbuffer, lights_, engine_.visibility(),
-                                 {first_row, width, settings_.seed},
+                                 {first_row, rays_.grid, settings_.seed},
                                  sampled ? settings_.direct_samples_per_luxel() : 0,
-                                 geometry_.ray_offset(), executor_);
+                                 geometry_.ray_offset(), executor_, monitor_);
     }
     const Image<Rgb> indirect = indirect_light(gbuffer, first_row);
     measure_removed(gbuffer, indirect);

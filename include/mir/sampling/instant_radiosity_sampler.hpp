@@ -7,6 +7,7 @@
 #include "mir/sampling/survivor_counts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mir {
 
@@ -106,7 +107,7 @@ std::uint64_t InstantRadiositySampler<B, R>::paths_for_target() const {
     // Nothing hit at all: the target cannot be met, so the count of paths is the target itself.
     const double per_path =
         records == 0 ? 1.0 : static_cast<double>(records) / static_cast<double>(pilot_paths);
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(options_.vpls / per_path + 0.5));
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(options_.vpls / per_path)));
 }
 
 template <Bsdf B, RayCaster R>
@@ -119,8 +120,9 @@ SurvivorCounts InstantRadiositySampler<B, R>::level_counts() const {
         reflected += a * world_.surfaces.mean_albedo(world_.geometry.material_of(t));
     }
     const double rho = area > 0.0 ? reflected / area : 0.0;
-    return SurvivorCounts::for_total(options_.vpls, rho, options_.max_bounce,
-                                     options_.emitter_vpls);
+    // The lamp is level 0 and bounce 1.
+    const auto max_level = static_cast<std::uint8_t>(options_.max_bounce - 1);
+    return SurvivorCounts::for_total(options_.vpls, rho, max_level, options_.emitter_vpls);
 }
 
 template <Bsdf B, RayCaster R>

@@ -35,7 +35,7 @@ double visible_area(const Camera& camera, float aspect, const R& caster) {
 }
 
 /// The scale-free default bound of the geometry term, m^-2: that of a VPL at the radius r0 at which
-/// `vpls` discs cover the visible area, 1 / (pi r0^2) = vpls / area (algorithms note 7.1).
+/// `vpls` discs cover the visible area, 1 / (pi r0^2) = vpls / area (docs/method.md, 4.3).
 inline float default_bound(double visible_area, std::uint32_t vpls) {
     if (!(visible_area > 0.0)) return std::numeric_limits<float>::max();
     return static_cast<float>(static_cast<double>(vpls) / visible_area);

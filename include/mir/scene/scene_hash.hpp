@@ -15,6 +15,10 @@ namespace mir {
 class SceneHash {
  public:
     explicit SceneHash(const Scene& scene) {
+        // The sizes first: without them a light could pass for one of another kind.
+        add_each(scene.meshes.size(), scene.instances.size(), scene.materials.size(),
+                 scene.point_lights.size(), scene.spot_lights.size(),
+                 scene.directional_lights.size(), scene.cameras.size());
         for (const Mesh& m : scene.meshes) {
             add_all(m.positions);
             add_all(m.normals);
@@ -26,14 +30,15 @@ class SceneHash {
             add(i.to_world);
         }
         for (const Material& m : scene.materials) add_material(m);
-        for (const PointLight& l : scene.point_lights) add_each(l.position, l.intensity);
+        for (const PointLight& l : scene.point_lights) add_each(l.position, l.intensity, l.light_group);
         for (const SpotLight& l : scene.spot_lights)
-            add_each(l.position, l.direction, l.intensity, l.cos_inner, l.cos_outer);
+            add_each(l.position, l.direction, l.intensity, l.cos_inner, l.cos_outer,
+                     l.light_group);
         for (const DirectionalLight& l : scene.directional_lights)
-            add_each(l.direction, l.irradiance);
+            add_each(l.direction, l.irradiance, l.light_group);
         for (const Camera& c : scene.cameras)
-            add_each(c.position, c.right, c.up, c.back, c.vertical_fov, c.lens_radius,
-                     c.focus_distance);
+            add_each(c.position, c.right, c.up, c.back, c.vertical_fov, c.aspect_ratio,
+                     c.lens_radius, c.focus_distance);
     }
 
     [[nodiscard]] std::string hex() const {

@@ -152,12 +152,10 @@ inline void WorldGeometry::place_vertices(const Mesh& mesh, const Mat4& to_world
         positions_.push_back(world);
         bounds_.add(world);
     }
-    // Cofactors instead of the inverse transpose: they exist for flattened instances too. Their
-    // sign follows the determinant, which a mirrored instance has to undo.
+    // Cofactors instead of the inverse transpose: they exist for flattened instances too. Their sign
+    // does not matter, surface_point() turns normals to the geometric side.
     const Mat3 m(to_world);
-    const float sign = glm::determinant(m) < 0.0f ? -1.0f : 1.0f;
-    const Mat3 cofactors(sign * glm::cross(m[1], m[2]), sign * glm::cross(m[2], m[0]),
-                         sign * glm::cross(m[0], m[1]));
+    const Mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Vec3 n = mesh.normals.empty() ? Vec3(0.0f) : cofactors * mesh.normals[i];
         const float length = glm::length(n);

@@ -3,7 +3,7 @@
 
 #include "mir/concepts/executor.hpp"
 #include "mir/reconstruct.hpp"
-#include "mir/runtime/monitor.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/sched/detail/block_list.hpp"
 #include "mir/shading/contribution.hpp"
 

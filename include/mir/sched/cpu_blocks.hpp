@@ -4,7 +4,7 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/reconstruct.hpp"
-#include "mir/runtime/monitor.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/sched/detail/block_list.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
 
@@ -12,8 +12,9 @@ namespace mir::sched {
 
 /// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
 /// luxels are found, their rays traced in packets of sixteen that start at the VPL, and the lit
-/// ones shaded, sixteen to a register. Same image as sched::Cpu in every bit, provided that the
-/// visibility's packet face keeps its axiom and the caller compiles with -ffp-contract=off.
+/// ones shaded, sixteen to a register. Same image as sched::Cpu in every bit where the visibility's
+/// packet face gives the bits of its single face, provided that the caller compiles with
+/// -ffp-contract=off.
 template <Executor E>
 struct CpuBlocks {
     E& executor;
@@ -36,18 +37,17 @@ struct CpuBlocks {
         }
 
      private:
-        using Hits = SoaView<const Hit>;
-        using Surfaces = SoaView<const typename decltype(In::shading)::Surface>;
+        using F = decltype(In::shading);
+        using LuxelBlock = detail::LuxelBlock<F>;
 
         void run(detail::Block b) const;
-        void add_vpl(Hits hits, Surfaces surfaces, const Vpl& vpl,
-                     detail::BlockRadiance& sum) const;
+        void add_vpl(const LuxelBlock& block, const Vpl& vpl, detail::BlockRadiance& sum) const;
         void store(detail::Block b, const detail::BlockRadiance& sum) const;
 
         /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing.
         bool is_out_of_reach(const detail::BlockBounds& bounds, const Vpl& vpl) const {
-            if (bounds.behind(vpl)) return true;
-            if constexpr (ReachLimitedShading<decltype(In::shading)>)
+            if (bounds.behind(vpl) || bounds.turned_away_from(vpl.position)) return true;
+            if constexpr (ReachLimitedShading<F>)
                 return bounds.distance_squared(vpl.position) >
                        in_.shading.reach_squared() * (1.0f + 0x1p-16f);
             return false;
@@ -66,6 +66,13 @@ struct CpuBlocks {
         static_assert(PacketVisibility<decltype(in.visibility)>,
                       "mir: sched::CpuBlocks needs a Visibility with visible_packet(); use "
                       "sched::Cpu for one that answers single segments only");
+        static_assert(
+            requires(TileIndex t) {
+                in.gbuffer.view(t).hits.planes;
+                in.gbuffer.view(t).surfaces.planes;
+            },
+            "mir: sched::CpuBlocks needs a G-buffer in planes, such as BlockedGBuffer; use "
+            "sched::Cpu for others");
         return {in, image, *this};
     }
 };
@@ -79,40 +86,33 @@ CpuBlocks(E&, Monitor*, InstructionSet) -> CpuBlocks<E>;
 template <Executor E>
 template <class In>
 void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
-    const std::uint32_t first = b.block * BlockedLayout::block_size;
-    const auto view = in_.gbuffer.view(b.tile);
-    const Hits hits = detail::starting_at(view.hits, first);
-    const Surfaces surfaces = detail::starting_at(view.surfaces, first);
     if (scheduler_.monitor != nullptr) scheduler_.monitor->check();
-
-    detail::BlockBounds bounds;
-    for (std::uint32_t i = 0; i < BlockedLayout::block_size; ++i) {
-        const Hit hit = hits.load(i);
-        if (!is_empty(hit)) bounds.add(hit.position);
-    }
+    const auto view = in_.gbuffer.view(b.tile);
+    const LuxelBlock block(view.hits, view.surfaces, b.block * BlockedLayout::block_size,
+                           in_.shading);
     detail::BlockRadiance sum;
-    if (!bounds.empty)
+    if (!block.bounds.empty)
         for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
             const Vpl vpl = in_.vpls[j];
-            if (!is_out_of_reach(bounds, vpl)) add_vpl(hits, surfaces, vpl, sum);
+            if (!is_out_of_reach(block.bounds, vpl)) add_vpl(block, vpl, sum);
         }
     store(b, sum);
 }
 
 template <Executor E>
 template <class In>
-void CpuBlocks<E>::Pipeline<In>::add_vpl(Hits hits, Surfaces surfaces, const Vpl& vpl,
+void CpuBlocks<E>::Pipeline<In>::add_vpl(const LuxelBlock& block, const Vpl& vpl,
                                          detail::BlockRadiance& sum) const {
     for (std::uint32_t group = 0; group < detail::groups_per_block; ++group) {
         const std::uint32_t first = group * detail::group_size;
-        const Hits group_hits = detail::starting_at(hits, first);
-        const std::uint32_t facing = detail::facing_mask(group_hits, vpl);
+        const auto hits = detail::starting_at(block.hits, first);
+        const std::uint32_t facing = detail::facing_mask(hits, vpl) & block.candidates[group];
         if (facing == 0) continue;
         PointPacket points;
-        detail::load_points(group_hits, points);
+        detail::load_points(hits, points);
         const std::uint32_t lit = in_.visibility.visible_packet(vpl.position, points, facing);
         if (lit == 0) continue;
-        detail::add_shaded(group_hits, detail::starting_at(surfaces, first), vpl, in_.shading, lit,
+        detail::add_shaded(hits, detail::starting_at(block.surfaces, first), vpl, in_.shading, lit,
                            sum.r + first, sum.g + first, sum.b + first);
     }
 }

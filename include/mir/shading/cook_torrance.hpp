@@ -14,7 +14,8 @@ namespace mir {
 /// Specular: F D V with D and V of shading/ggx.hpp, F by Schlick between f0 and f90.
 /// Diffuse: base (1 - F(n.wi)) (1 - F(n.wo)) / (pi (1 - F_avg)), the reciprocal coupling of Kelemen
 /// and Szirmay-Kalos (2001): what the interface reflects does not reach the base, so a white base
-/// under a smooth interface reflects exactly all light. Reciprocal; directional albedo at most 1.
+/// under a smooth interface reflects exactly all light. Reciprocal. The directional albedo is at most
+/// 1.0025: over a rough lobe the mean of Schlick's convex term exceeds what the coupling takes away.
 struct CookTorrance {
     /// Eight words, made by material_params() so that eval() divides by no constant.
     struct Params {
@@ -41,6 +42,11 @@ struct CookTorrance {
 
     /// `u` picks the direction inside a lobe, `lobe` the lobe.
     MIR_HD static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe);
+
+    /// True when nothing is reflected in any direction.
+    MIR_HD static bool is_black(const Params& p) {
+        return p.f90 == 0.0f && mir::is_black(p.f0) && mir::is_black(p.diffuse);
+    }
 
     /// Reflectance towards `wo` for guide images and samplers: the diffuse base exactly, the
     /// interface without its roughness, 0..1.
@@ -71,8 +77,8 @@ struct CookTorrance {
     MIR_HD static float specular_share(const Params& p, float cos_o) {
         const float s = luminance(schlick(p, cos_o));
         const float d = luminance(p.diffuse) * (1.0f - s);
-        if (p.f90 <= 0.0f && is_black(p.f0)) return 0.0f;
-        if (is_black(p.diffuse)) return 1.0f;
+        if (p.f90 <= 0.0f && mir::is_black(p.f0)) return 0.0f;
+        if (mir::is_black(p.diffuse)) return 1.0f;
         return smaller(larger(s / (s + d), 0.1f), 0.9f);
     }
 };

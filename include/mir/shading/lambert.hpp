@@ -24,6 +24,9 @@ struct Lambert {
         return cosine_hemisphere_pdf(glm::dot(n, wi));
     }
 
+    /// True when nothing is reflected in any direction.
+    MIR_HD static bool is_black(const Params& p) { return mir::is_black(p.reflectance); }
+
     /// Hemispherical reflectance.
     MIR_HD static Rgb albedo(const Params& p, Vec3 /*n*/, Vec3 /*wo*/) { return p.reflectance; }
 

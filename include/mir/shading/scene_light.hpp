@@ -17,42 +17,58 @@ Rgb reflected(const Hit& hit, const Surface<typename B::Params>& s, Vec3 wi) {
     return B::eval(s.bsdf, s.normal, wi, s.wo) * cosine;
 }
 
+/// How the luxels of a pixel share one well-spread set of samples.
+struct SharedSamples {
+    std::uint32_t shares = 1;  ///< luxels of the pixel
+    std::uint32_t share = 0;   ///< which of them asks
+};
+
 /// Light of the emissive triangles at a luxel, estimated from `samples` points chosen by power:
-/// f L_e cos cos / (d^2 p) averaged over the samples. The points form a Kronecker sequence with a
-/// random shift per luxel: each is uniform, so the estimate is unbiased, and together they are
-/// spread evenly. Source of the sequence: Roberts, "The unreasonable effectiveness of quasirandom
-/// sequences", 2018.
+/// f L_e cos cos / (d^2 p) averaged over the samples. The samples of all luxels of a pixel are one
+/// Kronecker sequence with a random shift per pixel: each point is uniform, so the estimate is
+/// unbiased, and together they are spread evenly over the lamps. Source of the sequence: Roberts,
+/// "The unreasonable effectiveness of quasirandom sequences", 2018.
 template <Bsdf B, Visibility V>
 class EmitterLight {
  public:
     EmitterLight(const LightTable& lights, V visibility, std::uint32_t samples, float ray_offset)
         : lights_(&lights), visibility_(visibility), samples_(samples), offset_(ray_offset) {}
 
-    /// W m^-2 sr^-1 towards the viewer. Safe to call from any thread.
-    Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s, Random& random) const {
+    /// W m^-2 sr^-1 towards the viewer. `random` must be the same for all luxels that share.
+    /// Safe to call from any thread.
+    [[nodiscard]] Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
+                                 SharedSamples shared, Random random) const {
         Rgb sum;
         if (!lights_->has_emitters() || samples_ == 0) return sum;
-        const float pick = random.next();
-        const Vec2 shift = random.next_2d();
+        const Shift shift{random.next(), random.next_2d()};
         for (std::uint32_t first = 0; first < samples_; first += PointPacket::width)
-            sum += packet(hit, s, pick, shift, first);
+            sum += packet(hit, s, shift, shared, first);
         return sum * (1.0f / static_cast<float>(samples_));
     }
 
  private:
-    Rgb packet(const Hit& hit, const Surface<typename B::Params>& s, float pick, Vec2 shift,
-               std::uint32_t first) const {
+    struct Shift {
+        float pick;
+        Vec2 uv;
+    };
+
+    /// Sample `k` of the luxel: its lamps interleave with those of the pixel's other luxels.
+    [[nodiscard]] EmitterSample sample(Shift shift, SharedSamples shared, std::uint32_t k) const {
+        const auto i = static_cast<float>(k * shared.shares + shared.share);
+        const auto n = static_cast<float>(samples_ * shared.shares);
+        const Vec2 uv = glm::fract(shift.uv + i * Vec2(0.7548776662f, 0.5698402910f));
+        return lights_->sample_emitter(std::min((i + shift.pick) / n, 0x1.fffffep-1f), uv);
+    }
+
+    Rgb packet(const Hit& hit, const Surface<typename B::Params>& s, Shift shift,
+               SharedSamples shared, std::uint32_t first) const {
         PointPacket points{};
         Rgb light[PointPacket::width];
         std::uint32_t active = 0;
         const std::uint32_t count = std::min(samples_ - first, PointPacket::width);
         for (std::uint32_t k = 0; k < count; ++k) {
-            const float i = static_cast<float>(first + k);
-            const Vec2 uv = glm::fract(shift + i * Vec2(0.7548776662f, 0.5698402910f));
-            const EmitterSample e = lights_->sample_emitter(
-                std::min((i + pick) / static_cast<float>(samples_), 0x1.fffffep-1f), uv);
             Vec3 target{0};
-            light[k] = unshadowed(hit, s, e, target);
+            light[k] = unshadowed(hit, s, sample(shift, shared, first + k), target);
             if (is_black(light[k])) continue;
             points.x[k] = target.x;
             points.y[k] = target.y;
@@ -99,14 +115,14 @@ class EmitterLight {
 };
 
 /// Light of point, spot and directional lights at a luxel, exact. They have no extent, so they are
-/// never VPLs (algorithms note 1.7).
+/// never VPLs (docs/method.md, 5.2).
 template <Bsdf B, Visibility V>
 class DeltaLight {
  public:
     DeltaLight(const LightTable& lights, V visibility) : lights_(&lights), visibility_(visibility) {}
 
     /// W m^-2 sr^-1 towards the viewer. Safe to call from any thread.
-    Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s) const {
+    [[nodiscard]] Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s) const {
         Rgb sum;
         for (const PointLight& l : lights_->point_lights())
             sum += from_point(hit, s, l.position, l.intensity);

@@ -10,7 +10,7 @@
 namespace mir {
 
 /// Geometry term of a luxel and a VPL, m^-2: cos cos / d^2 with the shading normal at the luxel
-/// and the geometric one at the VPL; 0 when either points away (algorithms note 2.1).
+/// and the geometric one at the VPL; 0 when either points away (docs/method.md, 4.2).
 MIR_HD inline float geometry_term(Vec3 wi, float distance_squared, Vec3 luxel_normal,
                                   Vec3 vpl_normal) {
     const float cos_l = larger(glm::dot(wi, luxel_normal), 0.0f);
@@ -27,7 +27,11 @@ struct VplShading {
 
     float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
 
-    [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s, const Vpl& vpl) const {
+    [[nodiscard]] MIR_HD bool reflects(const Surface& s) const { return !B::is_black(s.bsdf); }
+
+    // Inlined by force: a call would keep loops over luxels from being vectorised.
+    [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
+                                                 const Vpl& vpl) const {
         const Vec3 d = vpl.position - hit.position;
         const float d2 = length_squared(d);
         const Vec3 wi = d * (1.0f / sqrtf(d2));
@@ -44,7 +48,8 @@ struct RemovedByBound {
 
     float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
 
-    [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s, const Vpl& vpl) const {
+    [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
+                                                 const Vpl& vpl) const {
         const Vec3 d = vpl.position - hit.position;
         const float d2 = length_squared(d);
         const Vec3 wi = d * (1.0f / sqrtf(d2));
@@ -52,6 +57,8 @@ struct RemovedByBound {
         if (!(excess > 0.0f)) return {};
         return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * excess;
     }
+
+    [[nodiscard]] MIR_HD bool reflects(const Surface& s) const { return !B::is_black(s.bsdf); }
 
     /// No luxel farther than this from a VPL can lose anything: G <= 1/d^2.
     [[nodiscard]] MIR_HD float reach_squared() const { return 1.0f / bound; }

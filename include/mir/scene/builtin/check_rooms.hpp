@@ -6,7 +6,7 @@
 
 namespace mir::builtin {
 
-// Scenes whose light is known in closed form. algorithms: form factors of Howell's catalogue.
+// Scenes whose light is known in closed form (docs/method.md, 9).
 
 /// Closed box of 2 m seen from its centre, every wall with the same reflectance and emission: the
 /// radiance is emission / (1 - reflectance) everywhere (the furnace).

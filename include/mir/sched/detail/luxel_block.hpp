@@ -21,32 +21,85 @@ struct alignas(64) BlockRadiance {
     float b[BlockedLayout::block_size] = {};
 };
 
-/// Box around the luxels of a block that see something.
+/// What the luxels of a block have in common, for tests that throw whole blocks away. Every test is
+/// lossless: it is true only if faces() is false for every luxel of the block.
 struct BlockBounds {
-    Vec3 low{std::numeric_limits<float>::max()};
+    Vec3 low{std::numeric_limits<float>::max()};      ///< corners of a box around the positions
     Vec3 high{std::numeric_limits<float>::lowest()};
+    Vec3 normal_low{1.0f};                            ///< and of one around the normals
+    Vec3 normal_high{-1.0f};
     bool empty = true;
 
-    void add(Vec3 p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
+    void add(const Hit& hit) {
+        low = glm::min(low, hit.position);
+        high = glm::max(high, hit.position);
+        normal_low = glm::min(normal_low, hit.normal);
+        normal_high = glm::max(normal_high, hit.normal);
         empty = false;
     }
 
-    /// True when no point of the box lies in front of the VPL: not even the farthest corner along
-    /// its normal. The margin covers the rounding of both this test and faces(), so that no pair
-    /// that faces() accepts is ever lost.
+    /// True when every luxel lies behind the VPL's tangent plane.
     [[nodiscard]] bool behind(const Vpl& vpl) const {
-        const Vec3 centre = 0.5f * (low + high);
-        const Vec3 half = 0.5f * (high - low);
-        const float reach = glm::dot(glm::abs(vpl.normal), half);
-        const float magnitude = max_abs(low) + max_abs(high) + max_abs(vpl.position);
-        return glm::dot(centre - vpl.position, vpl.normal) + reach < -32.0f * 0x1p-24f * magnitude;
+        return largest_dot(low - vpl.position, high - vpl.position, vpl.normal, vpl.normal) <
+               -rounding(vpl.position);
+    }
+
+    /// True when the VPL lies behind every luxel's tangent plane.
+    [[nodiscard]] bool turned_away_from(Vec3 position) const {
+        return largest_dot(position - high, position - low, normal_low, normal_high) <
+               -rounding(position);
     }
 
     /// Squared distance from a point to the box.
     [[nodiscard]] float distance_squared(Vec3 p) const {
         return length_squared(glm::max(glm::max(low - p, p - high), Vec3(0.0f)));
+    }
+
+ private:
+    /// Upper bound of a dot product of two vectors that lie in boxes, by interval arithmetic.
+    static float largest_dot(Vec3 a_low, Vec3 a_high, Vec3 b_low, Vec3 b_high) {
+        const Vec3 largest = glm::max(glm::max(a_low * b_low, a_low * b_high),
+                                      glm::max(a_high * b_low, a_high * b_high));
+        return largest.x + largest.y + largest.z;
+    }
+
+    /// More than the rounding of the bound above and of the dot products in faces() together: both
+    /// are sums of three products of differences, each off by a few units of the coordinates' last
+    /// place.
+    [[nodiscard]] float rounding(Vec3 position) const {
+        return 64.0f * 0x1p-24f * (max_abs(low) + max_abs(high) + max_abs(position));
+    }
+};
+
+/// The luxels of `view` from `first` on, in the same planes.
+template <class T>
+SoaView<T> starting_at(SoaView<T> view, std::uint32_t first) {
+    return {view.planes + first, view.stride};
+}
+
+/// One 16x16 block ready to meet VPLs.
+template <Shading F>
+struct LuxelBlock {
+    SoaView<const Hit> hits;
+    SoaView<const typename F::Surface> surfaces;
+    BlockBounds bounds;
+    std::uint32_t candidates[groups_per_block] = {};  ///< luxels that may reflect, a bit each
+
+    LuxelBlock(SoaView<const Hit> all_hits, SoaView<const typename F::Surface> all_surfaces,
+               std::uint32_t first, const F& shade)
+        : hits(starting_at(all_hits, first)), surfaces(starting_at(all_surfaces, first)) {
+        for (std::uint32_t i = 0; i < BlockedLayout::block_size; ++i) {
+            const Hit hit = hits.load(i);
+            if (is_empty(hit) || !reflects(shade, i)) continue;
+            bounds.add(hit);
+            candidates[i / group_size] |= 1u << (i % group_size);
+        }
+    }
+
+ private:
+    [[nodiscard]] bool reflects(const F& shade, std::uint32_t i) const {
+        if constexpr (SurfaceSelectiveShading<F>) return shade.reflects(surfaces.load(i));
+        return true;
     }
 };
 
@@ -98,12 +151,6 @@ template <Shading F>
     for (std::uint32_t k = 0; k < group_size; ++k) r[k] += red[k];
     for (std::uint32_t k = 0; k < group_size; ++k) g[k] += green[k];
     for (std::uint32_t k = 0; k < group_size; ++k) b[k] += blue[k];
-}
-
-/// The luxels from `first` on, in the same planes.
-template <class T>
-SoaView<T> starting_at(SoaView<T> view, std::uint32_t first) {
-    return {view.planes + first, view.stride};
 }
 
 }  // namespace mir::sched::detail

@@ -6,6 +6,8 @@
 #include "mir/cpu/embree_visibility.hpp"
 #include "mir/scene/world_geometry.hpp"
 
+#include <atomic>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -29,9 +31,12 @@ static_assert(RayCaster<EmbreeRayCaster>);
 /// owner; the handles it gives out may be used from any thread.
 class EmbreeScene {
  public:
-    /// Builds the acceleration structure, on the threads of the task library.
-    /// @throws Error(device) with Embree's words when it reports a failure.
-    explicit EmbreeScene(const WorldGeometry& geometry);
+    /// Builds the acceleration structure, on the threads of the task library, in at most
+    /// `max_bytes` of memory.
+    /// @throws Error(device) with Embree's words when it reports a failure, the memory bound
+    ///         included.
+    explicit EmbreeScene(const WorldGeometry& geometry,
+                         std::int64_t max_bytes = std::numeric_limits<std::int64_t>::max());
 
     [[nodiscard]] EmbreeVisibility visibility() const { return {scene_.get()}; }
     [[nodiscard]] EmbreeRayCaster ray_caster() const { return {scene_.get(), geometry_}; }
@@ -51,13 +56,20 @@ class EmbreeScene {
         std::mutex mutex;
         std::string first;
     };
+    /// Bytes that Embree holds and may hold; counted from any of its threads.
+    struct MemoryBudget {
+        std::atomic<std::int64_t> used{0};
+        std::int64_t most = 0;
+    };
 
     void add_triangles();
     void throw_if_failed() const;
     static void remember(void* errors, RTCError code, const char* text);
+    static bool account(void* budget, ssize_t bytes, bool after);
 
     const WorldGeometry* geometry_;
     std::unique_ptr<DeviceErrors> errors_ = std::make_unique<DeviceErrors>();
+    std::unique_ptr<MemoryBudget> budget_ = std::make_unique<MemoryBudget>();
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device_;
     std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene_;
 };
@@ -79,7 +91,7 @@ inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray) const {
     return geometry->surface_point(query.hit.primID, {query.hit.u, query.hit.v}, ray.direction);
 }
 
-inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry)
+inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
     : geometry_(&geometry), device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr)
         throw Error(ErrorCode::device,
@@ -87,6 +99,8 @@ inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry)
                         std::to_string(rtcGetDeviceError(nullptr)) +
                         "); check that its library matches the machine");
     rtcSetDeviceErrorFunction(device_.get(), &EmbreeScene::remember, errors_.get());
+    budget_->most = max_bytes;
+    rtcSetDeviceMemoryMonitorFunction(device_.get(), &EmbreeScene::account, budget_.get());
     scene_.reset(rtcNewScene(device_.get()));
     throw_if_failed();
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -123,6 +137,13 @@ inline void EmbreeScene::throw_if_failed() const {
         throw Error(ErrorCode::device, "Embree reported: " + errors_->first +
                                            " (the scene could not be prepared for ray tracing); "
                                            "try a smaller scene or more memory");
+}
+
+inline bool EmbreeScene::account(void* budget, ssize_t bytes, bool /*after*/) {
+    auto* b = static_cast<MemoryBudget*>(budget);
+    const std::int64_t used = b->used.fetch_add(bytes) + bytes;
+    // Embree ignores the answer for memory that is given back.
+    return used <= b->most;
 }
 
 inline void EmbreeScene::remember(void* errors, RTCError code, const char* text) {

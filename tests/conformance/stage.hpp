@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "conformance/worlds.hpp"
+#include "mir/data/gbuffer.hpp"
+#include "mir/data/image.hpp"
+#include "mir/data/vpl_list.hpp"
+#include "mir/fill_gbuffer.hpp"
+#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/shading/surface_table.hpp"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace mirtest {
+
+/// The Cornell box with its blocks and walls made glossy.
+inline mir::Scene glossy_box() {
+    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    float roughness = 0.3f;
+    for (mir::Material& m : scene.materials) {
+        m.specular = 1.0f;
+        m.roughness = roughness;
+        roughness += 0.2f;
+    }
+    return scene;
+}
+
+/// Everything a scheduler needs, in a scene small enough for brute force: luxels that the box's
+/// camera sees (those left and right of the box are empty) and VPLs spread over all surfaces. The
+/// luxels depend on the extent alone, not on the tiles. `Engine` gives visibility and ray caster.
+template <mir::Bsdf B, class Engine>
+class Stage {
+ public:
+    using Params = typename B::Params;
+
+    Stage(mir::Extent extent, mir::Extent tile, std::uint32_t vpls)
+        : world_(glossy_box()), engine_(world_.geometry), gbuffer_(extent, tile) {
+        mir::CameraRays rays;
+        rays.camera = world_.scene.cameras.front();
+        rays.grid.pixels = extent;
+        mir::InlineExecutor executor;
+        mir::fill_gbuffer<B>(gbuffer_, 0, rays, engine_.ray_caster(),
+                             mir::SurfaceTable<B>(world_.scene), world_.geometry.ray_offset(),
+                             executor);
+        mir::Random random = test_random(51);
+        for (std::uint32_t j = 0; j < vpls; ++j) {
+            const mir::SurfacePoint p = random_surface_point(world_.geometry, random);
+            const mir::Vec3 n = p.geometric_normal;
+            const mir::Vec3 at = mir::lift(p.position, n, world_.geometry.ray_offset());
+            vpls_.push_back({at, n, {random.next(), random.next(), 1.0f}}, {});
+        }
+    }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+    ~Stage() = default;
+
+    [[nodiscard]] const mir::BlockedGBuffer<Params>& gbuffer() const { return gbuffer_; }
+    [[nodiscard]] mir::VplSpan<mir::Space::host> vpls() const { return vpls_.span(); }
+    [[nodiscard]] auto visibility() const { return engine_.visibility(); }
+
+ private:
+    World world_;
+    Engine engine_;
+    mir::BlockedGBuffer<Params> gbuffer_;
+    mir::VplList vpls_;
+};
+
+inline auto bits_of(const mir::Rgb& c) { return std::bit_cast<std::array<std::uint32_t, 3>>(c); }
+
+/// Pixels that differ in at least one bit.
+inline std::size_t pixels_that_differ(const mir::Image<mir::Rgb>& a,
+                                      const mir::Image<mir::Rgb>& b) {
+    if (!(a.extent() == b.extent())) return static_cast<std::size_t>(-1);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i)
+        count += bits_of(a.pixels()[i]) == bits_of(b.pixels()[i]) ? 0 : 1;
+    return count;
+}
+
+}  // namespace mirtest

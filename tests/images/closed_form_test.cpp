@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+//
+// Whole renders against numbers known in closed form.
+#include "support.hpp"
+#include "support/catch.hpp"
+
+using namespace mirtest;
+
+namespace {
+
+/// Mean radiance of all pixels that see the material whose reflectance is 1 and that shines not.
+double mean_of_receiver(const mir::RenderResult& r, const mir::Image<mir::Rgb>& light) {
+    double sum = 0.0;
+    std::uint64_t n = 0;
+    for (std::size_t i = 0; i < light.pixels().size(); ++i) {
+        if (r.guides.albedo.pixels()[i].r < 0.999f) continue;
+        sum += light.pixels()[i].r;
+        ++n;
+    }
+    REQUIRE(n > 100);
+    return sum / static_cast<double>(n);
+}
+
+/// Looks straight down on the unit square receiver so that pixels cover it evenly, from below the
+/// lamp's plane: for a receiver of albedo 1 the mean radiance is the form factor times L.
+mir::Scene seen_from_above(mir::Scene scene, mir::Vec3 centre, float height) {
+    scene.cameras = {mir::Camera::look_at(centre + mir::Vec3(0, height, 0), centre, {0, 0, -1},
+                                          2.0f * std::atan(0.5f / height))};
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("facing unit squares exchange light by their form factor", "[statistical]") {
+    // H0: mean radiance of the receiver is F = 0.199824896 (Howell). The pixels cover it evenly
+    // and their next-event samples are independent: z over 16 seeds, level 0.1 % (|z| < 3.29).
+    // The lamp of the scene is seen through, because the camera stands between the squares.
+    const mir::Scene scene = seen_from_above(mir::builtin::parallel_squares(), {0, 0, 0}, 0.9f);
+    std::vector<double> values;
+    for (std::uint64_t seed = 0; seed < 16; ++seed) {
+        auto settings = small_settings(64, 16);
+        settings.seed = seed;
+        settings.luxels_per_pixel = 4;
+        const auto r = render(scene, settings);
+        values.push_back(mean_of_receiver(r, r.direct));
+    }
+    const Estimate e = estimate(values);
+    CHECK(e.error < 2e-4);
+    CHECK(std::abs(e.mean - 0.199824896) < 3.29 * e.error + 1e-5);
+}
+
+TEST_CASE("VPLs on the lamp give the same form factor", "[statistical]") {
+    // H0: as above, with direct light by 512 VPLs on the lamp; z over 16 seeds, level 0.1 %.
+    const mir::Scene scene = seen_from_above(mir::builtin::parallel_squares(), {0, 0, 0}, 0.9f);
+    std::vector<double> values;
+    for (std::uint64_t seed = 0; seed < 16; ++seed) {
+        auto settings = small_settings(32, 512);
+        settings.seed = seed;
+        settings.direct = mir::DirectLight::vpl;
+        settings.max_bounce = 1;
+        const auto r = render(scene, settings);
+        REQUIRE(mean_luminance(r.direct) == 0.0);
+        values.push_back(mean_of_receiver(r, r.indirect));
+    }
+    const Estimate e = estimate(values);
+    CHECK(std::abs(e.mean - 0.199824896) < 3.29 * e.error + 1e-4);
+}
+
+TEST_CASE("the furnace has radiance L / (1 - rho) in every bounce", "[statistical]") {
+    // H0: D_0 = L, D_1 = rho L, D_b = rho^b L with rho = L = 0.5; z over 32 seeds with Sidak's
+    // level for 5 tests of a family at 1 % (|z| < 3.09). No bound, so nothing is removed.
+    const mir::Scene scene = mir::builtin::furnace_box(0.5f, 0.5f);
+    std::vector<std::vector<double>> d(6);
+    for (std::uint64_t seed = 0; seed < 32; ++seed) {
+        auto settings = small_settings(24, 512);
+        settings.seed = seed;
+        settings.bounce_layers = true;
+        settings.direct_samples = 16;
+        const auto r = render(scene, settings);
+        CHECK(mean_luminance(r.emission) == mirtest::Approx(0.5).epsilon(1e-6));
+        d[1].push_back(mean_luminance(r.direct));
+        for (std::size_t b = 2; b <= 4; ++b)
+            d[b].push_back(b - 1 < r.bounces.size() ? mean_luminance(r.bounces[b - 1]) : 0.0);
+        d[5].push_back(mean_luminance(r.beauty));
+    }
+    const double expected[] = {0.5, 0.25, 0.125, 0.0625, 0.03125, 1.0};
+    for (std::size_t b = 1; b < d.size(); ++b) {
+        const Estimate e = estimate(d[b]);
+        CAPTURE(b, e.mean, e.error);
+        CHECK(std::abs(e.mean - expected[b]) < 3.09 * e.error);
+    }
+}
+
+TEST_CASE("shading and its remainder under a bound add up to unbounded shading") {
+    auto settings = small_settings(32, 64);
+    const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    const auto free = render(scene, settings);
+    settings.bound = {mir::BoundPolicy::Kind::fixed, 2.0f};
+    const auto bounded = render(scene, settings);
+    CHECK(bounded.statistics.removed_share() > 0.01);
+    CHECK(bounded.statistics.indirect_luminance + bounded.statistics.removed_luminance ==
+          mirtest::Approx(free.statistics.indirect_luminance).epsilon(1e-5));
+}
+
+TEST_CASE("the layers add up to the beauty and the bounces to the indirect light") {
+    auto settings = small_settings(32, 64);
+    settings.luxels_per_pixel = 4;
+    settings.bounce_layers = true;
+    settings.filter = mir::default_filter(mir::FilterKind::lanczos);
+    const auto r = render(mir::builtin::sphere_room(mir::builtin::Lamp::down), settings);
+    mir::Image<mir::Rgb> sum = r.emission;
+    mir::Image<mir::Rgb> bounces(r.indirect.extent());
+    for (std::size_t i = 0; i < sum.pixels().size(); ++i) {
+        sum.pixels()[i] += r.direct.pixels()[i] + r.indirect.pixels()[i];
+        for (const auto& b : r.bounces) bounces.pixels()[i] += b.pixels()[i];
+    }
+    CHECK(relative_difference(r.beauty, sum) < 1e-6);
+    CHECK(relative_difference(r.indirect, bounces) < 1e-6);
+    REQUIRE(r.bounces.size() > 2);
+    CHECK(mean_luminance(r.bounces[0]) == 0.0);  // bounce 1 is direct light, sampled separately
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+//
+// What must not change a picture (docs/validation.md, "Invariances"). Equal seeds give equal random
+// numbers, so pictures are compared directly and no test here is statistical.
+#include "support.hpp"
+#include "support/catch.hpp"
+
+using namespace mirtest;
+
+namespace {
+
+/// The whole scene under x -> scale x + shift.
+mir::Scene transformed(mir::Scene scene, float scale, mir::Vec3 shift) {
+    mir::Mat4 m(scale);
+    m[3] = mir::Vec4(shift, 1.0f);
+    for (mir::Instance& i : scene.instances) i.to_world = m * i.to_world;
+    for (mir::Camera& c : scene.cameras) c.position = scale * c.position + shift;
+    return scene;
+}
+
+/// The whole scene turned by `angle` about the axis (1, 2, 3).
+mir::Scene turned(mir::Scene scene, float angle) {
+    const mir::Vec3 axis = glm::normalize(mir::Vec3(1, 2, 3));
+    const float c = std::cos(angle);
+    const float s = std::sin(angle);
+    const auto turn = [&](mir::Vec3 v) {
+        return c * v + s * glm::cross(axis, v) + (1.0f - c) * glm::dot(axis, v) * axis;
+    };
+    const mir::Mat4 m(mir::Vec4(turn({1, 0, 0}), 0), mir::Vec4(turn({0, 1, 0}), 0),
+                      mir::Vec4(turn({0, 0, 1}), 0), mir::Vec4(0, 0, 0, 1));
+    for (mir::Instance& i : scene.instances) i.to_world = m * i.to_world;
+    for (mir::Camera& k : scene.cameras) {
+        k.position = turn(k.position);
+        k.right = turn(k.right);
+        k.up = turn(k.up);
+        k.back = turn(k.back);
+    }
+    return scene;
+}
+
+/// Every triangle cut into four: the surface stays, the sampling numbers lead elsewhere.
+mir::Scene subdivided(mir::Scene scene) {
+    for (mir::Mesh& m : scene.meshes) {
+        std::vector<mir::TriangleIndices> finer;
+        for (const mir::TriangleIndices& t : m.triangles) {
+            const auto first = static_cast<std::uint32_t>(m.positions.size());
+            for (std::uint32_t k = 0; k < 3; ++k)
+                m.positions.push_back(0.5f * (m.positions[t[k]] + m.positions[t[(k + 1) % 3]]));
+            finer.push_back({t[0], first, first + 2});
+            finer.push_back({first, t[1], first + 1});
+            finer.push_back({first + 2, first + 1, t[2]});
+            finer.push_back({first, first + 1, first + 2});
+        }
+        m.triangles = finer;
+        m.normals.clear();
+    }
+    return scene;
+}
+
+mir::Scene two_lamps(float first, float second) {
+    mir::Scene s = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    const mir::Rgb radiance = s.materials[s.meshes.back().material].emission;
+    const std::uint32_t a = s.add(mir::emitter("a", {}, radiance * first));
+    const std::uint32_t b = s.add(mir::emitter("b", {}, radiance * second));
+    s.meshes.back().material = a;
+    mir::Mesh twin = s.meshes.back();
+    twin.material = b;
+    for (mir::Vec3& p : twin.positions) p.y -= 1e-3f;
+    if (second > 0.0f) s.place(twin);
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("a picture does not depend on the scale of the scene") {
+    const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    auto settings = small_settings(48, 64);
+    settings.bound.kind = mir::BoundPolicy::Kind::automatic;
+    const auto reference = render(scene, settings);
+    for (float scale : {0x1p-10f, 0x1p-4f, 0x1p4f, 0x1p10f}) {
+        // Powers of two change no digit of any coordinate: the pictures agree to rounding of sums.
+        const auto scaled = render(transformed(scene, scale, {0, 0, 0}), settings);
+        CAPTURE(scale);
+        CHECK(relative_difference(reference.beauty, scaled.beauty) < 1e-6);
+    }
+    for (float scale : {1e-3f, 1e3f}) {
+        const auto scaled = render(transformed(scene, scale, {0, 0, 0}), settings);
+        CAPTURE(scale);
+        CHECK(relative_difference(reference.beauty, scaled.beauty) < 2e-3);
+    }
+}
+
+TEST_CASE("a scene far from the origin looks the same and does not leak") {
+    const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    auto settings = small_settings(48, 2048);
+    settings.bound.kind = mir::BoundPolicy::Kind::automatic;
+    const auto reference = render(scene, settings);
+    for (float away : {8.0f, 128.0f, 1024.0f}) {
+        // At 1024 m a 2 m room keeps 2^-14 m of resolution: shadow edges move by some of that, and
+        // now and then a light path takes another turn.
+        const auto far = render(transformed(scene, 1.0f, away * mir::Vec3(1, -0.5f, 2)), settings);
+        CAPTURE(away);
+        CHECK(mean_luminance(far.direct) ==
+              mirtest::Approx(mean_luminance(reference.direct)).epsilon(2e-3));
+        CHECK(mean_luminance(far.indirect) ==
+              mirtest::Approx(mean_luminance(reference.indirect)).epsilon(1e-2));
+    }
+}
+
+TEST_CASE("a picture does not depend on a rigid motion of scene and camera") {
+    const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    auto settings = small_settings(48, 64);
+    const auto reference = render(scene, settings);
+    // The turned frames around normals send the same numbers into other directions: only the light
+    // that does not depend on them is equal. Rounding moves a few pixels across an edge.
+    const auto other = render(turned(scene, 1.0f), settings);
+    CHECK(share_of_changed_pixels(reference.direct, other.direct, 1e-3f) < 0.005);
+    CHECK(share_of_changed_pixels(reference.emission, other.emission, 1e-3f) < 0.005);
+}
+
+TEST_CASE("twice the power gives twice the picture, in every bit") {
+    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    const auto settings = small_settings(32, 64);
+    const auto once = render(scene, settings);
+    for (mir::Material& m : scene.materials) m.emission = m.emission * 2.0f;
+    const auto twice = render(scene, settings);
+    mir::Image<mir::Rgb> expected = once.beauty;
+    for (mir::Rgb& p : expected.pixels()) p = p * 2.0f;
+    CHECK(same_bits(expected, twice.beauty));
+}
+
+TEST_CASE("splitting a lamp in two leaves the light as it was",
+          "[statistical]") {
+    // H0: equal mean luminance. Welch's z over 24 seeds each, level 0.1 % two-sided (|z| < 3.29).
+    std::vector<double> one;
+    std::vector<double> two;
+    for (std::uint64_t seed = 0; seed < 24; ++seed) {
+        auto settings = small_settings(24, 256);
+        settings.seed = seed;
+        one.push_back(mean_luminance(render(two_lamps(1.0f, 0.0f), settings).indirect));
+        settings.seed = seed + 1000;
+        two.push_back(mean_luminance(render(two_lamps(0.0f, 1.0f), settings).indirect));
+    }
+    const Estimate a = estimate(one);
+    const Estimate b = estimate(two);
+    CHECK(std::abs(a.mean - b.mean) < 3.29 * std::hypot(a.error, b.error));
+}
+
+TEST_CASE("cutting triangles does not change the light", "[statistical]") {
+    // H0: equal mean luminance. Welch's z over 24 seeds each, level 0.1 % two-sided (|z| < 3.29).
+    const mir::Scene coarse = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    const mir::Scene fine = subdivided(coarse);
+    std::vector<double> a;
+    std::vector<double> b;
+    for (std::uint64_t seed = 0; seed < 24; ++seed) {
+        auto settings = small_settings(24, 256);
+        settings.seed = seed;
+        a.push_back(mean_luminance(render(coarse, settings).beauty));
+        settings.seed = seed + 1000;
+        b.push_back(mean_luminance(render(fine, settings).beauty));
+    }
+    const Estimate x = estimate(a);
+    const Estimate y = estimate(b);
+    CHECK(std::abs(x.mean - y.mean) < 3.29 * std::hypot(x.error, y.error));
+}
+
+TEST_CASE("threads, tiles and scheduler change no bit of any layer") {
+    mir::Scene scene = mir::builtin::sphere_room(mir::builtin::Lamp::up);
+    for (mir::Material& m : scene.materials) m.specular = 1.0f;  // the full shading model
+    for (mir::Material& m : scene.materials) m.roughness = 0.4f;
+    auto settings = small_settings(50, 48);
+    settings.image = {70, 50};
+    settings.luxels_per_pixel = 3;
+    settings.bound.kind = mir::BoundPolicy::Kind::automatic;
+    settings.filter = mir::default_filter(mir::FilterKind::lanczos);
+    settings.threads = 1;
+    const auto reference = render(scene, settings);
+    for (unsigned threads : {1u, 2u})
+        for (std::uint32_t tile : {16u, 64u, 256u})
+            for (const char* scheduler : {"cpu", "cpu-blocks"}) {
+                settings.threads = threads;
+                settings.tile = {tile, tile};
+                settings.scheduler = scheduler;
+                const auto other = render(scene, settings);
+                CAPTURE(threads, tile, scheduler);
+                CHECK(same_bits(reference.beauty, other.beauty));
+                CHECK(same_bits(reference.indirect, other.indirect));
+                CHECK(same_bits(reference.guides.albedo, other.guides.albedo));
+                CHECK(reference.statistics.removed_luminance ==
+                      other.statistics.removed_luminance);
+            }
+}

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: MIT
+# Apart from details, the archetypes for tests and what other umbrellas or components include.
+file(GLOB_RECURSE headers RELATIVE ${INCLUDE_FOLDER} ${INCLUDE_FOLDER}/mir/*.hpp)
+list(FILTER headers EXCLUDE REGEX
+     "/detail/|^mir/(io|runtime|scene/builtin)/|^mir/mir\\.hpp$|/archetypes\\.hpp$")
+file(READ ${INCLUDE_FOLDER}/mir/mir.hpp umbrella)
+foreach(header IN LISTS headers)
+    string(FIND "${umbrella}" "#include \"${header}\"" found)
+    if(found EQUAL -1)
+        message(SEND_ERROR "mir/mir.hpp does not include ${header}; add it")
+    endif()
+endforeach()

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+# A project outside builds against the installation and runs, then again after a move.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+
+function(use_prefix prefix build)
+    build_project(${MIR_SOURCE_DIR}/examples/use_installed ${build} ${prefix})
+    run(said ${build}/mean_radiance ${build}/furnace.exr)
+    expect("${said}" "^mean radiance (0\\.9[5-9]|1 |1\\.0[0-5])")
+    if(NOT EXISTS ${build}/furnace.exr)
+        message(FATAL_ERROR "mean_radiance wrote no picture")
+    endif()
+    run(said ${build}/own_renderer)
+    expect("${said}" "^below the VPL 0\\.25")
+endfunction()
+
+install_mir(${SCRATCH}/prefix)
+use_prefix(${SCRATCH}/prefix ${SCRATCH}/first)
+
+file(GLOB_RECURSE config ${SCRATCH}/prefix/*.cmake)
+foreach(file IN LISTS config)
+    file(STRINGS ${file} absolute REGEX "${SCRATCH}|${MIR_SOURCE_DIR}|${MIR_BUILD_DIR}")
+    if(absolute)
+        message(FATAL_ERROR "${file} holds a path of this machine: ${absolute}")
+    endif()
+endforeach()
+
+file(RENAME ${SCRATCH}/prefix ${SCRATCH}/elsewhere)
+use_prefix(${SCRATCH}/elsewhere ${SCRATCH}/second)

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "mir/sched/cpu_blocks.hpp"
+
+#include "conformance/brute_force.hpp"
+#include "conformance/scheduler_suite.hpp"
+#include "support/catch.hpp"
+
+namespace {
+
+/// Instruction sets of this processor, the plainest first.
+std::vector<mir::InstructionSet> instruction_sets() {
+    using mir::InstructionSet;
+    std::vector<InstructionSet> sets;
+    for (auto set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512})
+        if (set <= mir::best_instruction_set()) sets.push_back(set);
+    return sets;
+}
+
+template <mir::Bsdf B>
+using BruteStage = mirtest::Stage<B, mirtest::BruteForceScene>;
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms of Scheduler with every instruction set", "",
+                   mir::Lambert, mir::CookTorrance) {
+    const BruteStage<TestType> stage({100, 70}, {48, 32}, 37);
+    mir::InlineExecutor executor;
+    for (mir::InstructionSet set : instruction_sets()) {
+        INFO("instruction set " << static_cast<int>(set));
+        mirtest::scheduler_suite(mir::sched::CpuBlocks{executor, nullptr, set}, stage);
+    }
+}
+
+TEST_CASE("The image of sched::CpuBlocks does not depend on the size of tiles") {
+    const mir::VplShading<mir::CookTorrance> shading{2.0f};
+    const auto wanted =
+        mirtest::oracle(BruteStage<mir::CookTorrance>({100, 70}, {48, 32}, 37), shading);
+    const std::uint32_t side = GENERATE(5u, 16u, 64u, 256u);
+    const BruteStage<mir::CookTorrance> stage({100, 70}, {side, side}, 37);
+    mir::InlineExecutor executor;
+    const auto found = mir::reconstruct(mir::sched::CpuBlocks{executor}, stage.gbuffer(),
+                                        stage.vpls(), stage.visibility(), shading);
+    CHECK(mirtest::pixels_that_differ(found, wanted) == 0);
+}
+
+TEST_CASE("sched::CpuBlocks counts contributions and stops when it is told to") {
+    const BruteStage<mir::Lambert> stage({20, 20}, {16, 16}, 3);
+    mir::InlineExecutor executor;
+    mir::Monitor monitor;
+    const auto run = [&] {
+        return mir::reconstruct(mir::sched::CpuBlocks{executor, &monitor}, stage.gbuffer(),
+                                stage.vpls(), stage.visibility(), mir::VplShading<mir::Lambert>{});
+    };
+    static_cast<void>(run());
+    CHECK(monitor.contributions == 1200);
+    monitor.cancelled = true;
+    CHECK_THROWS_AS(run(), mir::Error);
+}
+
+TEST_CASE("A block's bounds never reject a VPL that faces one of its luxels") {
+    mir::Random random = mirtest::test_random(61);
+    std::size_t behind = 0;
+    std::size_t turned_away = 0;
+    std::size_t rejected_wrongly = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const mir::Vec3 centre = mirtest::point_in_cube(random);
+        const mir::Vec3 normal = mirtest::direction(random);
+        // From a flat block to one around a corner.
+        const float spread = i % 3 == 0 ? 0.0f : random.next();
+        mir::sched::detail::BlockBounds bounds;
+        std::vector<mir::Hit> hits;
+        for (int k = 0; k < 8; ++k) {
+            const mir::Vec3 position = centre + 0.1f * mirtest::point_in_cube(random);
+            const mir::Vec3 tilt = spread * mirtest::point_in_cube(random);
+            hits.push_back({position, glm::normalize(normal + 0.5f * tilt)});
+            bounds.add(hits.back());
+        }
+        // Half of the VPLs lie on a luxel, so that rounding decides.
+        const mir::Vec3 anywhere = mirtest::point_in_cube(random);
+        const mir::Vpl vpl{
+            i % 2 == 0 ? hits[0].position : anywhere, mirtest::direction(random), {}};
+        behind += bounds.behind(vpl) ? 1 : 0;
+        turned_away += bounds.turned_away_from(vpl.position) ? 1 : 0;
+        const bool rejected = bounds.behind(vpl) || bounds.turned_away_from(vpl.position);
+        for (const mir::Hit& hit : hits) {
+            rejected_wrongly += rejected && faces(hit, vpl) ? 1 : 0;
+            // The slack is for the rounding of both sides.
+            const float d2 = mir::length_squared(vpl.position - hit.position);
+            if (bounds.distance_squared(vpl.position) > d2 * (1.0f + 0x1p-16f)) ++rejected_wrongly;
+        }
+    }
+    CHECK(behind > 1000);
+    CHECK(turned_away > 1000);
+    CHECK(rejected_wrongly == 0);
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "mir/shading/scene_light.hpp"
+
+#include "mir/scene/builtin.hpp"
+#include "mir/shading/lambert.hpp"
+#include "support/catch.hpp"
+#include "support/free_sight.hpp"
+#include "support/statistics.hpp"
+
+namespace {
+
+using mir::Hit;
+using mir::Lambert;
+using mir::Rgb;
+using mir::Scene;
+using mir::Vec3;
+using mirtest::Approx;
+using mirtest::FreeSight;
+using mirtest::Moments;
+
+// Every test of a mean in this file belongs to one family of level 1 %.
+const double level = mirtest::sidak(0.01, 8);
+
+/// A scene with what light needs of it. Radiance of a receiver with f = 1 is its irradiance.
+struct Lit {
+    Scene scene;
+    mir::WorldGeometry geometry{scene};
+    mir::LightTable lights{scene, geometry};
+
+    explicit Lit(Scene s) : scene(std::move(s)) {}
+
+    float from_emitters(Vec3 at, Vec3 normal, std::uint32_t samples, mir::Random& random) const {
+        const mir::EmitterLight<Lambert, FreeSight> light{
+            lights, {}, samples, geometry.ray_offset()};
+        return light({at, normal}, receiver(normal), {}, random).r;
+    }
+    float from_deltas(Vec3 at, Vec3 normal) const {
+        const mir::DeltaLight<Lambert, FreeSight> light{lights, {}};
+        return light({at, normal}, receiver(normal)).r;
+    }
+    static mir::Surface<Lambert::Params> receiver(Vec3 normal) {
+        return {normal, normal, {}, {{mir::pi, mir::pi, mir::pi}}};
+    }
+};
+
+const Vec3 up(0, 1, 0);
+
+/// Estimates of the irradiance at a point from independent seeds.
+Moments irradiance(const Lit& lit, Vec3 at, Vec3 normal, std::uint64_t seed,
+                   std::uint32_t samples = 16) {
+    Moments m;
+    for (std::uint64_t i = 0; i < 4000; ++i) {
+        mir::Random random(seed, mir::Stream::test, i);
+        m.add(static_cast<double>(lit.from_emitters(at, normal, samples, random)));
+    }
+    return m;
+}
+
+/// Estimates of the form factor of a receiver in the plane y = 0, a unit square over x in
+/// [-1/2, 1/2] whose side of smallest z is `nearest`. Points crowd there: in a corner the light's
+/// second moment grows as 1 / z, and uniform points would have no finite variance.
+Moments form_factor(const Lit& lit, float nearest, std::uint64_t seed) {
+    Moments m;
+    for (std::uint64_t i = 0; i < 40'000; ++i) {
+        mir::Random random(seed, mir::Stream::test, i);
+        const mir::Vec2 u = random.next_2d();
+        const Vec3 at(u.x - 0.5f, 0, nearest + u.y * u.y);
+        const float weight = 2 * u.y / mir::pi;
+        m.add(static_cast<double>(weight * lit.from_emitters(at, up, 1, random)));
+    }
+    return m;
+}
+
+/// Square lamp of radiance 1 and 2 m width, 1 m above the origin, facing down.
+Scene square_lamp(bool both_sides = false) {
+    Scene s;
+    mir::Material m = mir::emitter("lamp", {}, {1, 1, 1});
+    m.emits_from_both_sides = both_sides;
+    const std::uint32_t lamp = s.add(m);
+    s.place(mir::builtin::quad("lamp", lamp, {-1, 1, -1}, {2, 0, 0}, {0, 0, 2}));
+    return s;
+}
+
+}  // namespace
+
+// H0: the mean irradiance is the closed form, for 1 and for 16 samples. Student's t over 4000
+// seeds, family level 1 %; twice the level of rounding, 2e-6, is allowed. A value 1 % off is
+// rejected.
+TEST_CASE("a disc lights the point below its centre with pi L R^2 / (R^2 + h^2)", "[statistical]") {
+    const auto [radius, height, samples] =
+        GENERATE(std::tuple(1.0f, 1.0f, 16u), std::tuple(0.5f, 2.0f, 1u));
+    const Lit lit(mir::builtin::disc_above_plane(radius, height));
+    const Moments m = irradiance(lit, {0, 0, 0}, up, 121, samples);
+    const auto r2 = static_cast<double>(radius * radius);
+    const double expected = mirtest::pi * r2 / (r2 + static_cast<double>(height * height));
+    CHECK(mirtest::mean_p_value(m, expected, 2e-6) > level);
+    CHECK(mirtest::mean_p_value(m, 1.01 * expected, 2e-6) < level);
+}
+
+TEST_CASE("a square lights the point below its centre as Lambert's formula says", "[statistical]") {
+    const Moments m = irradiance(Lit(square_lamp()), {0, 0, 0}, up, 122);
+    CHECK(mirtest::mean_p_value(m, 1.740839503, 2e-6) > level);
+    CHECK(mirtest::mean_p_value(m, 1.01 * 1.740839503, 2e-6) < level);
+}
+
+TEST_CASE("an emitter of both sides lights both sides, another only its front", "[statistical]") {
+    const Lit both(square_lamp(true));
+    CHECK(mirtest::mean_p_value(irradiance(both, {0, 0, 0}, up, 123), 1.740839503, 2e-6) > level);
+    CHECK(mirtest::mean_p_value(irradiance(both, {0, 2, 0}, -up, 124), 1.740839503, 2e-6) > level);
+    CHECK(irradiance(Lit(square_lamp()), {0, 2, 0}, -up, 125).mean() == 0.0);
+}
+
+// H0: the mean over receiver and emitter is the form factor. 40 000 pairs, seeds 126 and 127.
+TEST_CASE("parallel unit squares exchange 0.199824896", "[statistical]") {
+    const Moments m = form_factor(Lit(mir::builtin::parallel_squares()), -0.5f, 126);
+    CHECK(mirtest::mean_p_value(m, 0.199824896) > level);
+    CHECK(mirtest::mean_p_value(m, 1.03 * 0.199824896) < level);
+}
+
+TEST_CASE("perpendicular unit squares with a common edge exchange 0.200043776", "[statistical]") {
+    const Moments m = form_factor(Lit(mir::builtin::perpendicular_squares()), 0.0f, 127);
+    CHECK(mirtest::mean_p_value(m, 0.200043776) > level);
+    CHECK(mirtest::mean_p_value(m, 1.05 * 0.200043776) < level);
+}
+
+TEST_CASE("many samples of one luxel vary less than independent ones") {
+    const Lit lit(square_lamp());
+    const Vec3 at(0.3f, 0, 0.2f);
+    CHECK(irradiance(lit, at, up, 128, 16).variance() <
+          0.5 * irradiance(lit, at, up, 129, 1).variance() / 16);
+}
+
+TEST_CASE("light from below the surface or without samples or lamps is black") {
+    const Lit lit(square_lamp());
+    mir::Random random(1, mir::Stream::test, 0);
+    CHECK(lit.from_emitters({0, 0, 0}, -up, 16, random) == 0.0f);
+    CHECK(lit.from_emitters({0, 0, 0}, up, 0, random) == 0.0f);
+    const Lit dark(mir::Scene{});
+    CHECK(dark.from_emitters({0, 0, 0}, up, 16, random) == 0.0f);
+    CHECK(dark.from_deltas({0, 0, 0}, up) == 0.0f);
+}
+
+TEST_CASE("a point light's irradiance is I cos / d^2") {
+    Scene s;
+    s.point_lights.push_back({"bulb", {3, 4, 0}, {10, 10, 10}});
+    const Lit lit(s);
+    CHECK(lit.from_deltas({0, 0, 0}, up) == Approx(10 * 0.8 / 25));
+    CHECK(lit.from_deltas({0, 0, 0}, -up) == 0.0f);
+    CHECK(lit.from_deltas({3, 2, 0}, up) == Approx(10.0 / 4));
+}
+
+TEST_CASE("a spot light's falloff is glTF's: full inside, none outside, squared ramp between") {
+    mir::SpotLight spot;
+    spot.position = {0, 2, 0};
+    spot.direction = {0, -1, 0};
+    spot.intensity = {8, 8, 8};
+    spot.cos_inner = 0.9f;
+    spot.cos_outer = 0.5f;
+    Scene s;
+    s.spot_lights.push_back(spot);
+    const Lit lit(s);
+    CHECK(lit.from_deltas({0, 0, 0}, up) == Approx(8.0 / 4));
+    for (double cosine : {0.95, 0.8, 0.7, 0.6, 0.4}) {
+        const double tangent = std::sqrt(1 / (cosine * cosine) - 1);
+        const Vec3 at(static_cast<float>(2 * tangent), 0, 0);
+        const double ramp = std::clamp((cosine - 0.5) / 0.4, 0.0, 1.0);
+        const double d2 = 4 / (cosine * cosine);
+        CHECK(lit.from_deltas(at, up) == Approx(8 * ramp * ramp * cosine / d2).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("a spot with equal angles has a hard edge") {
+    mir::SpotLight spot;
+    spot.cos_inner = spot.cos_outer = 0.8f;
+    CHECK(mir::spot_falloff(spot, mirtest::direction(-0.79, 0)) == 0.0f);
+    CHECK(mir::spot_falloff(spot, mirtest::direction(-0.81, 0)) == 1.0f);
+}
+
+TEST_CASE("a directional light's irradiance is E cos, at any distance") {
+    Scene s = square_lamp();
+    s.directional_lights.push_back({"sun", glm::normalize(Vec3(0, -3, 4)), {5, 5, 5}});
+    const Lit lit(s);
+    CHECK(lit.from_deltas({0, 0, 0}, up) == Approx(5 * 0.6));
+    CHECK(lit.from_deltas({1e4f, -1e4f, 0}, up) == Approx(5 * 0.6));
+    CHECK(lit.from_deltas({0, 0, 0}, -up) == 0.0f);
+}
+
+TEST_CASE("delta lights of all kinds add up") {
+    Scene s = square_lamp();
+    s.directional_lights.push_back({"sun", {0, -1, 0}, {5, 5, 5}});
+    s.point_lights.push_back({"bulb", {0, 2, 0}, {4, 4, 4}});
+    s.point_lights.push_back({"bulb", {0, 1, 0}, {2, 2, 2}});
+    CHECK(Lit(s).from_deltas({0, 0, 0}, up) == Approx(5.0 + 1.0 + 2.0));
+}
+
+TEST_CASE("light that the shading or the geometric normal turns away from is not reflected") {
+    const Vec3 tilted = glm::normalize(Vec3(1, 1, 0));
+    auto s = Lit::receiver(tilted);
+    const Hit hit{{0, 0, 0}, up};
+    CHECK_FALSE(is_black(mir::reflected<Lambert>(hit, s, up)));
+    CHECK(is_black(mir::reflected<Lambert>(hit, s, glm::normalize(Vec3(-1, 0.5f, 0)))));
+    CHECK(is_black(mir::reflected<Lambert>(hit, s, glm::normalize(Vec3(1, -0.5f, 0)))));
+    CHECK(mir::reflected<Lambert>(hit, s, tilted).r == Approx(1.0f));
+    CHECK(mir::reflected<Lambert>(hit, s, up).r == Approx(std::sqrt(0.5f)));
+}

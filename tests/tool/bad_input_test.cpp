@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_fixture.hpp"
+#include "mir/io/exr.hpp"
+#include "support/shared_scenes.hpp"
+#include "tool/mir_program.hpp"
+
+#include <limits>
+
+using namespace mirtest;
+
+namespace {
+
+/// A folder with the file scene.gltf, a triangle by default, and its buffer.
+class SceneFolder {
+ public:
+    explicit SceneFolder(const std::string& json, const std::string& bytes = triangle_bytes()) {
+        write_file(folder_ / "scene.gltf", json);
+        write_file(folder_ / "data.bin", bytes);
+    }
+    [[nodiscard]] std::string scene() const { return (folder_ / "scene.gltf").string(); }
+
+ private:
+    TemporaryFolder folder_{"tool_scene"};
+};
+
+/// The triangle, shining from both sides.
+std::string lamp_json() {
+    return with(with(triangle_json(), R"("indices":1)", R"("indices":1,"material":0)"),
+                R"("scene":0)",
+                R"("materials":[{"emissiveFactor":[1,1,1],"doubleSided":true}],"scene":0)");
+}
+
+/// Neither `mir info` nor `mir render` accepts the file, and both say `part`.
+void check_refused(const std::string& scene, const std::string& part) {
+    INFO(scene);
+    check_failure(run_mir({"info", scene}), 3, part);
+    check_failing_render({scene}, 3, part);
+}
+
+}  // namespace
+
+TEST_CASE("a file that does not exist, is a folder or no glTF is named") {
+    const TemporaryFolder folder("tool_no_scene");
+    check_refused((folder / "missing.glb").string(), "missing.glb: ");
+    check_refused((folder / "").string(), "mir_test_tool_no_scene");
+    write_file(folder / "words.gltf", "these are words");
+    check_refused((folder / "words.gltf").string(), "words.gltf: ");
+    write_file(folder / "empty.glb", "");
+    check_refused((folder / "empty.glb").string(), "empty.glb: ");
+    write_file(folder / "scene.obj", "v 0 0 0\n");
+    check_refused((folder / "scene.obj").string(), "scene.obj: ");
+}
+
+TEST_CASE("a truncated binary file is refused, wherever it ends") {
+    const TemporaryFolder folder("tool_truncated");
+    const std::string scene = (folder / "box.glb").string();
+    REQUIRE(run_mir({"export", "builtin:cornell-box", "-o", scene}).exit_code == 0);
+    const std::string whole = file_bytes(scene);
+    for (const std::size_t size :
+         {std::size_t{3}, std::size_t{12}, std::size_t{20}, whole.size() / 2, whole.size() - 1}) {
+        INFO(size << " bytes of " << whole.size());
+        write_file(scene, whole.substr(0, size));
+        check_refused(scene, "box.glb: ");
+    }
+}
+
+TEST_CASE("broken geometry is refused with its place") {
+    const SceneFolder indices(
+        triangle_json(), triangle_bytes().substr(0, 36) + bytes_of<std::uint8_t>({0, 1, 9, 0}));
+    check_refused(indices.scene(), "vertex 9");
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const SceneFolder positions(triangle_json(), bytes_of<float>({0, 0, 0, 1, nan, 0, 0, 1, 0}) +
+                                                     bytes_of<std::uint8_t>({0, 1, 2, 0}));
+    check_refused(positions.scene(), "position 1");
+}
+
+TEST_CASE("a cycle of nodes is refused") {
+    const std::string node = R"({"name":"n","mesh":0})";
+    const SceneFolder cycle(with(triangle_json(), node, R"({"children":[1]},{"children":[0]})"));
+    check_refused(cycle.scene(), "cycle");
+}
+
+TEST_CASE("an extension that is required and not known is named") {
+    const SceneFolder required(
+        with(triangle_json(), R"("scene":0)", R"("extensionsRequired":["MY_ext"],"scene":0)"));
+    check_refused(required.scene(), "MY_ext");
+}
+
+TEST_CASE("a scene without camera is framed, and a word says so") {
+    const SceneFolder lamp(lamp_json());
+    const TemporaryFolder folder("tool_framed");
+    const Outcome quiet = run_mir(small_render(folder / "a.exr", lamp.scene()));
+    CHECK(quiet.exit_code == 0);
+    CHECK(quiet.err.empty());
+    Words loud = small_render(folder / "a.exr", lamp.scene());
+    loud.pop_back();
+    CHECK(has(run_mir(loud).err, "no usable camera; the bounding box is framed"));
+    float brightest = 0.0f;
+    const auto emission = mir::read_exr(folder / "a.exr", "emission").image;
+    for (const mir::Rgb& pixel : emission.pixels()) brightest = std::max(brightest, pixel.g);
+    CHECK(brightest > 0.9f);
+}
+
+TEST_CASE("a scene without light is refused unless black is allowed") {
+    const SceneFolder dark(triangle_json());
+    check_failing_render({dark.scene()}, 3, "has no light");
+    check_failing_render({dark.scene()}, 3, dark.scene());
+    const TemporaryFolder folder("tool_dark");
+    const Words allowed = small_render(folder / "a.exr", dark.scene()) + Words{"--allow-no-light"};
+    const Outcome outcome = run_mir(allowed);
+    CHECK(outcome.exit_code == 0);
+    const auto picture = mir::read_exr(folder / "a.exr").image;
+    for (const mir::Rgb& pixel : picture.pixels()) CHECK(mir::is_black(pixel));
+    CHECK_FALSE(file_bytes(folder / "a.png").empty());
+}
+
+TEST_CASE("a scene without triangles is read but cannot be rendered") {
+    const SceneFolder empty(with(triangle_json(), R"("nodes":[0])", R"("nodes":[])"));
+    const Outcome info = run_mir({"info", empty.scene()});
+    CHECK(info.exit_code == 0);
+    CHECK(has(info.out, "no triangles"));
+    check_failing_render({empty.scene()}, 3, "no triangles");
+    check_failing_render({empty.scene(), "--allow-no-light"}, 3, "no triangles");
+}
+
+TEST_CASE("an output that cannot be written is known before the scene is read") {
+    const TemporaryFolder folder("tool_unwritable");
+    const auto render_to = [&](const std::string& name, const Words& more = {}) {
+        return run_mir(small_render(folder / name, "missing.glb") + more);
+    };
+    check_failure(render_to("none/a.exr"), 1, "none/a.exr");
+    std::filesystem::create_directory(folder / "there.exr");
+    check_failure(render_to("there.exr"), 1, "there.exr");
+    check_failure(render_to(""), 1);
+    check_failure(render_to("a.exr", {"--png", (folder / "none/b.png").string()}), 1, "none/b.png");
+    check_failure(run_mir({"render", "builtin:sphere", "-o", "-"}), 2, "standard output");
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("picture and preview cannot be one file") {
+    const TemporaryFolder folder("tool_one_file");
+    const std::string there = (folder / "").string();
+    const Words scene{"render", "builtin:sphere"};
+    check_failure(run_mir(scene + Words{"-o", there + "a.png"}), 2, "same");
+    check_failure(run_mir(scene + Words{"-o", there + "a.exr", "--png", there + "./a.exr"}), 2,
+                  "same");
+    CHECK(folder.files() == 0);
+}
+
+TEST_CASE("every malformed shared file is refused in one line") {
+    const auto scenes = shared_scenes();
+    if (!scenes || !std::filesystem::exists(*scenes / "malformed")) {
+        WARN("the shared folder 'malformed' is not on this machine; skipped");
+        return;
+    }
+    int files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(*scenes / "malformed")) {
+        if (entry.path().extension() != ".gltf") continue;
+        check_refused(entry.path().string(), entry.path().filename().string());
+        ++files;
+    }
+    CHECK(files == 9);
+}
+
+TEST_CASE("remarks on a scene are left out when it cannot be rendered") {
+    const auto scenes = shared_scenes();
+    const char* name = "gltf-features/09_texture_transform/09_texture_transform.gltf";
+    if (!scenes || !std::filesystem::exists(*scenes / name)) {
+        WARN("the shared scene '" << name << "' is not on this machine; skipped");
+        return;
+    }
+    check_failing_render({(*scenes / name).string()}, 3, "has no light");
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "tool/exr_file.hpp"
+#include "tool/mir_program.hpp"
+
+#include <nlohmann/json.hpp>
+
+using namespace mirtest;
+using nlohmann::json;
+
+TEST_CASE("a render's statistics come as JSON, and nothing else on standard output") {
+    const TemporaryFolder folder("render_json");
+    const Outcome outcome =
+        run_mir(small_render(folder / "a.exr") + Words{"--json", "--seed", "5"});
+    REQUIRE(outcome.exit_code == 0);
+    CHECK(outcome.err.empty());
+    const json all = json::parse(outcome.out);
+    CHECK(all.at("scene") == "builtin:cornell-box");
+    CHECK(all.at("scene_hash") == attribute_of(folder / "a.exr", "mir:scene_hash"));
+    CHECK(all.at("picture") == (folder / "a.exr").string());
+    CHECK(all.at("preview") == (folder / "a.png").string());
+    CHECK(all.at("width") == 24);
+    CHECK(all.at("height") == 18);
+    CHECK(all.at("seed") == 5);
+    CHECK(all.at("sampler") == "ir");
+    CHECK(all.at("scheduler") == "cpu-blocks");
+    CHECK(all.at("triangles") == 36);
+    CHECK(all.at("dropped_triangles") == 0);
+    CHECK(all.at("luxels") == 24 * 18);
+    CHECK(all.at("vpls").get<int>() > 0);
+    CHECK(all.at("light_paths").get<int>() > 0);
+    CHECK(all.at("contributions") == all.at("luxels").get<int>() * all.at("vpls").get<int>());
+    for (const char* key : {"contributions_per_second", "emitted_power", "bound"})
+        CHECK(all.at(key).get<double>() > 0.0);
+    CHECK(all.at("non_lambertian_share") == 0.0);
+    CHECK(all.at("removed_share").get<double>() >= 0.0);
+    CHECK(all.at("peak_memory_bytes").get<double>() > 1e6);
+    CHECK(all.at("warnings").is_array());
+    for (const char* key :
+         {"build", "sampling", "gbuffer", "direct", "reconstruction", "ledger", "film", "total"})
+        CHECK(all.at("seconds").at(key).get<double>() >= 0.0);
+}
+
+TEST_CASE("the mean radiance of the JSON is that of the file") {
+    const TemporaryFolder folder("render_json_mean");
+    const Outcome outcome = run_mir(small_render(folder / "a.exr") + Words{"--json"});
+    const json means = json::parse(outcome.out).at("mean_radiance");
+    for (const char* layer : {"beauty", "emission", "direct", "indirect"}) {
+        const std::string name = layer == std::string("beauty") ? "" : layer;
+        double red = 0.0;
+        const auto image = mir::read_exr(folder / "a.exr", name).image;
+        for (const mir::Rgb& pixel : image.pixels())
+            red += static_cast<double>(pixel.r) / (24 * 18);
+        CHECK(means.at(layer).at(0).get<double>() == Approx(red));
+        CHECK(means.at(layer).size() == 3);
+    }
+}
+
+TEST_CASE("warnings appear in the JSON even when the render is quiet") {
+    const TemporaryFolder folder("render_json_warning");
+    const Outcome outcome =
+        run_mir(small_render(folder / "a.exr") + Words{"--json", "--bound", "0.0001"});
+    CHECK(outcome.err.empty());
+    const json warnings = json::parse(outcome.out).at("warnings");
+    REQUIRE(warnings.size() == 1);
+    CHECK(has(warnings[0].get<std::string>(), "the bound removed"));
+}

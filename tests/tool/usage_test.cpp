@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "mir/scene/builtin.hpp"
+#include "mir/version.hpp"
+#include "tool/mir_program.hpp"
+
+using namespace mirtest;
+
+TEST_CASE("help goes to standard output, also that of each command") {
+    for (const Words& command :
+         {Words{}, Words{"render"}, Words{"info"}, Words{"export"}, Words{"devices"}}) {
+        const Outcome help = run_mir(command + Words{"--help"});
+        CHECK(help.exit_code == 0);
+        CHECK(has(help.out, "Usage: mir"));
+        CHECK(help.err.empty());
+    }
+}
+
+TEST_CASE("the help of render names every option") {
+    const std::string help = run_mir({"render", "--help"}).out;
+    for (const char* option :
+         {"--output",         "--png",     "--no-png",         "--exposure", "--aov",
+          "--record-seconds", "--json",    "--quiet",          "--width",    "--height",
+          "--luxels",         "--camera",  "--filter",         "--sampler",  "--sequence",
+          "--vpls",           "--direct",  "--direct-samples", "--bounces",  "--bound",
+          "--seed",           "--threads", "--scheduler",      "--tile",     "--allow-no-light"})
+        CHECK(has(help, option));
+}
+
+TEST_CASE("the version is that of the headers") {
+    const Outcome version = run_mir({"--version"});
+    CHECK(version.exit_code == 0);
+    CHECK(version.out.rfind("mir " + std::string(mir::version) + " (", 0) == 0);
+    CHECK(version.err.empty());
+}
+
+TEST_CASE("a command is required and mistyped ones are recognised") {
+    check_failure(run_mir({}), 2);
+    check_failure(run_mir({"rendr", "builtin:sphere"}), 2, "did you mean render?");
+    check_failure(run_mir({"render"}), 2, "scene is required");
+    check_failure(run_mir({"info"}), 2, "scene is required");
+    check_failure(run_mir({"export", "builtin:sphere"}), 2, "--output is required");
+    check_failing_render({"builtin:sphere", "builtin:sphere"}, 2, "builtin:sphere");
+}
+
+TEST_CASE("an unknown option names the nearest one") {
+    check_failing_render({"builtin:sphere", "--vlps", "3"}, 2, "did you mean --vpls?");
+    check_failing_render({"builtin:sphere", "--sede=3"}, 2, "did you mean --seed?");
+    check_failing_render({"builtin:sphere", "--widht", "3"}, 2, "did you mean --width?");
+    check_failure(run_mir({"info", "builtin:sphere", "--jsno"}), 2, "did you mean --json?");
+}
+
+TEST_CASE("an unknown option that resembles none is named without a guess") {
+    const Outcome outcome = run_mir({"render", "builtin:sphere", "--nonsense-of-mine"});
+    check_failure(outcome, 2, "--nonsense-of-mine");
+    CHECK_FALSE(has(outcome.err, "did you mean"));
+}
+
+TEST_CASE("values out of range are refused before any work") {
+    for (const Words& wrong :
+         {Words{"--vpls", "0"},           Words{"--vpls", "1000000000"},
+          Words{"--vpls", "-3"},          Words{"--vpls", "many"},
+          Words{"--vpls", "nan"},         Words{"--width", "0"},
+          Words{"--height", "0"},         Words{"--width", "65537"},
+          Words{"--luxels", "0"},         Words{"--luxels", "65"},
+          Words{"--direct-samples", "0"}, Words{"--direct-samples", "65537"},
+          Words{"--bounces", "0"},        Words{"--bounces", "255"},
+          Words{"--threads", "1025"},     Words{"--threads", "-1"},
+          Words{"--seed", "-1"},          Words{"--seed", "18446744073709551616"},
+          Words{"--exposure", "bright"},  Words{"--exposure", "nan"},
+          Words{"--bound", "0"},          Words{"--bound", "-1"},
+          Words{"--bound", "nan"},        Words{"--bound", "inf"},
+          Words{"--bound", "large"}}) {
+        INFO(wrong[0] << " " << wrong[1]);
+        check_failing_render(Words{"builtin:sphere"} + wrong, 2, wrong[0]);
+    }
+}
+
+TEST_CASE("a tile is two positive numbers and nothing more") {
+    for (const char* tile : {"0x16", "16x0", "16x", "x16", "16x16x16", "16x16 ", "-1x16", "16abc",
+                             "16 16", "65537x1", ""}) {
+        INFO(tile);
+        check_failing_render({"builtin:sphere", std::string("--tile=") + tile}, 2, "--tile");
+    }
+}
+
+TEST_CASE("unknown choices are refused with the list of known ones") {
+    check_failing_render({"builtin:sphere", "--sampler", "bdpt"}, 2, "keller");
+    check_failing_render({"builtin:sphere", "--sequence", "sobol"}, 2, "halton");
+    check_failing_render({"builtin:sphere", "--direct", "never"}, 2, "separate");
+    check_failing_render({"builtin:sphere", "--filter", "sinc"}, 2, "lanczos");
+    check_failing_render({"builtin:sphere", "--scheduler", "gpu"}, 2, "cpu-blocks");
+    check_failing_render({"builtin:sphere", "--aov", "albedo,shadow"}, 2, "albedo");
+}
+
+TEST_CASE("an image beyond the limit of pixels is refused") {
+    check_failing_render({"builtin:sphere", "--width", "65536", "--height", "65536"}, 2, "pixels");
+}
+
+TEST_CASE("an unknown built-in scene is answered with the names of all") {
+    const Outcome outcome = run_mir({"info", "builtin:teapot"});
+    check_failure(outcome, 3);
+    for (const auto& scene : mir::builtin::scenes) CHECK(has(outcome.err, std::string(scene.name)));
+}
+
+TEST_CASE("an unknown camera is answered with the names of all") {
+    check_failing_render({"builtin:sphere", "--camera", "kitchen"}, 2, "'room'");
+    check_failing_render({"builtin:sphere", "--camera", "1"}, 2, "'room'");
+}
