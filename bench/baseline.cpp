@@ -79,10 +79,9 @@ void tuned_over_occluded1(benchmark::State& state, const std::string& name) {
 const int registered = [] {
     for (const std::string& name : scenes_of_run())
         for (int threads : {1, 0})
-            benchmark::RegisterBenchmark(("tuned_over_occluded1/" + name).c_str(),
-                                         [name](benchmark::State& s) {
-                                             tuned_over_occluded1(s, name);
-                                         })
+            benchmark::RegisterBenchmark(
+                ("tuned_over_occluded1/" + name).c_str(),
+                [name](benchmark::State& s) { tuned_over_occluded1(s, name); })
                 ->ArgName("threads")
                 ->Arg(threads)
                 ->UseManualTime()

@@ -23,8 +23,7 @@ void contributions(benchmark::State& state, const std::string& name, MakeSchedul
     mir::cpu::TbbExecutor executor(static_cast<unsigned>(state.range(1)));
     for (auto _ : state)
         benchmark::DoNotOptimize(mir::reconstruct(make(executor), gbuffer, vpls.span(),
-                                                  s.engine.visibility(),
-                                                  s.shading(vpls.size())));
+                                                  s.engine.visibility(), s.shading(vpls.size())));
     const double pairs = static_cast<double>(image.area()) * vpls.size();
     state.counters["contributions/s"] =
         benchmark::Counter(pairs, benchmark::Counter::kIsIterationInvariantRate);

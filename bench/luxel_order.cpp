@@ -50,8 +50,7 @@ GBuffer reordered(const GBuffer& from, Order order) {
     GBuffer to(image, image);
     const std::vector<std::uint32_t> luxel_at = order_of(order);
     for (std::uint32_t i = 0; i < luxel_at.size(); ++i) {
-        const mir::LuxelIndex source =
-            layout(luxel_at[i] % image.width, luxel_at[i] / image.width);
+        const mir::LuxelIndex source = layout(luxel_at[i] % image.width, luxel_at[i] / image.width);
         to.store(0, i, view.hit(source), view.surface(source));
     }
     return to;
@@ -73,10 +72,8 @@ void luxel_order(benchmark::State& state, const std::string& name, Order order) 
 }
 
 const int registered = [] {
-    const std::pair<const char*, Order> orders[] = {{"squares", squares},
-                                                    {"block_rows", block_rows},
-                                                    {"rows", rows},
-                                                    {"shuffled", shuffled}};
+    const std::pair<const char*, Order> orders[] = {
+        {"squares", squares}, {"block_rows", block_rows}, {"rows", rows}, {"shuffled", shuffled}};
     for (const std::string& scene : scenes_of_run())
         for (const auto& [label, order] : orders)
             benchmark::RegisterBenchmark(

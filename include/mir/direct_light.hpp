@@ -4,7 +4,6 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/visibility.hpp"
-#include "mir/core/monitor.hpp"
 #include "mir/core/random.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/image.hpp"
@@ -34,13 +33,10 @@ struct LuxelBand {
 
 /// Direct light by next-event estimation: radiance towards the viewer of every luxel,
 /// W m^-2 sr^-1. `samples` points on emissive triangles per luxel, chosen by power; point, spot
-/// and directional lights are summed exactly. Unbiased. Emission is not included. `monitor`
-/// may be null.
-/// @throws Error(cancelled) when the monitor says so.
+/// and directional lights are summed exactly. Unbiased. Emission is not included.
 template <Bsdf B, TiledGBuffer G, Visibility V, Executor E>
 Image<Rgb> direct_light(const G& gbuffer, const LightTable& lights, const V& visibility,
-                        LuxelBand band, std::uint32_t samples, float ray_offset, E& executor,
-                        const Monitor* monitor = nullptr) {
+                        LuxelBand band, std::uint32_t samples, float ray_offset, E& executor) {
     Image<Rgb> image(gbuffer.extent());
     const EmitterLight<B, V> emitters{lights, visibility, samples, ray_offset};
     const DeltaLight<B, V> deltas{lights, visibility};
@@ -50,7 +46,6 @@ Image<Rgb> direct_light(const G& gbuffer, const LightTable& lights, const V& vis
 
     executor.for_each(rows.size(), [&](std::size_t i) {
         const auto [t, y] = rows[i];
-        if (monitor != nullptr) monitor->check();
         const Tile tile = gbuffer.tiles()[t];
         const auto luxels = gbuffer.view(t);
         const auto layout = BlockedLayout::of(tile);

@@ -3,7 +3,6 @@
 
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/ray_caster.hpp"
-#include "mir/core/monitor.hpp"
 #include "mir/core/random.hpp"
 #include "mir/data/gbuffer.hpp"
 #include "mir/film/luxel_grid.hpp"
@@ -22,8 +21,7 @@ struct CameraRays {
     [[nodiscard]] Ray operator()(std::uint32_t x, std::uint32_t y) const {
         const Extent pixels = grid.pixels;
         const Vec2 position = grid.position(x, y, seed);
-        const float aspect =
-            static_cast<float>(pixels.width) / static_cast<float>(pixels.height);
+        const float aspect = static_cast<float>(pixels.width) / static_cast<float>(pixels.height);
         Random random(seed, Stream::lens, std::uint64_t{y} * grid.luxels().width + x);
         return camera.ray({position.x / static_cast<float>(pixels.width),
                            position.y / static_cast<float>(pixels.height)},
@@ -32,12 +30,11 @@ struct CameraRays {
 };
 
 /// First phase: traces the camera ray of every luxel of `gbuffer`, which holds the rows from
-/// `first_row` on of the luxel image. Points are lifted by `ray_offset` metres. `monitor` may be null.
-/// @throws Error(cancelled) when the monitor says so.
+/// `first_row` on of the luxel image. Points are lifted by `ray_offset` metres.
 template <Bsdf B, RayCaster R, Executor E>
 void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t first_row,
                   const CameraRays& rays, const R& caster, const SurfaceTable<B>& surfaces,
-                  float ray_offset, E& executor, const Monitor* monitor = nullptr) {
+                  float ray_offset, E& executor) {
     struct Row {
         TileIndex tile;
         std::uint32_t y;
@@ -48,7 +45,6 @@ void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t fir
 
     executor.for_each(rows.size(), [&](std::size_t i) {
         const Row row = rows[i];
-        if (monitor != nullptr) monitor->check();
         const Tile tile = gbuffer.tiles()[row.tile];
         const auto layout = BlockedLayout::of(tile);
         for (std::uint32_t x = 0; x < tile.width; ++x) {

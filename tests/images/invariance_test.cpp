@@ -129,8 +129,7 @@ TEST_CASE("twice the power gives twice the picture, in every bit") {
     CHECK(same_bits(expected, twice.beauty));
 }
 
-TEST_CASE("splitting a lamp in two leaves the light as it was",
-          "[statistical]") {
+TEST_CASE("splitting a lamp in two leaves the light as it was", "[statistical]") {
     // H0: equal mean luminance. Welch's z over 24 seeds each, level 0.1 % two-sided (|z| < 3.29).
     std::vector<double> one;
     std::vector<double> two;
@@ -186,7 +185,6 @@ TEST_CASE("threads, tiles and scheduler change no bit of any layer") {
                 CHECK(same_bits(reference.beauty, other.beauty));
                 CHECK(same_bits(reference.indirect, other.indirect));
                 CHECK(same_bits(reference.guides.albedo, other.guides.albedo));
-                CHECK(reference.statistics.removed_luminance ==
-                      other.statistics.removed_luminance);
+                CHECK(reference.statistics.removed_luminance == other.statistics.removed_luminance);
             }
 }

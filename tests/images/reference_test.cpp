@@ -19,8 +19,7 @@ TEST_CASE("the Cornell box has the mean radiance of its reference picture", "[st
         return;
     }
     const mir::Scene scene = mir::read_gltf(*scenes / "cornell-box/cornell-box.glb").scene;
-    const Mean reference =
-        mean_of(mir::read_exr(*scenes / "cornell-box/reference.exr").image);
+    const Mean reference = mean_of(mir::read_exr(*scenes / "cornell-box/reference.exr").image);
     std::vector<double> r;
     std::vector<double> g;
     std::vector<double> b;
@@ -34,9 +33,9 @@ TEST_CASE("the Cornell box has the mean radiance of its reference picture", "[st
         b.push_back(m.b);
     }
     CHECK(reference.r == mirtest::Approx(0.19625).epsilon(1e-3));
-    for (const auto& [mine, theirs] :
-         {std::pair{estimate(r), reference.r}, {estimate(g), reference.g},
-          {estimate(b), reference.b}}) {
+    for (const auto& [mine, theirs] : {std::pair{estimate(r), reference.r},
+                                       {estimate(g), reference.g},
+                                       {estimate(b), reference.b}}) {
         CAPTURE(mine.mean, mine.error, theirs);
         CHECK(mine.error < 0.004 * theirs);
         CHECK(std::abs(mine.mean - theirs) < 0.01 * theirs);

@@ -14,7 +14,7 @@
 #include <array>
 
 // Light inside a sphere with Lambertian walls has no variance: whatever the VPLs, each lights every
-// point alike (algorithms note 8.1). What is left to see is an error.
+// point alike (docs/method.md, 9.3). What is left to see is an error.
 
 namespace {
 

@@ -55,6 +55,10 @@ TEST_CASE("an unknown option that resembles none is named without a guess") {
     CHECK_FALSE(has(outcome.err, "did you mean"));
 }
 
+TEST_CASE("no layers and a layer contradict each other") {
+    check_failing_render({"builtin:sphere", "--aov", "none,albedo"}, 2, "none goes with no other");
+}
+
 TEST_CASE("values out of range are refused before any work") {
     for (const Words& wrong :
          {Words{"--vpls", "0"},           Words{"--vpls", "1000000000"},

@@ -149,7 +149,8 @@ void add_output(CLI::App& app, RenderOptions& o) {
                    "Layers of the EXR: albedo, normal, position, depth, direct, indirect, "
                    "emission, bounces, or none (default: all but bounces)")
         ->delimiter(',')
-        ->check(CLI::IsMember(layer_names));
+        ->check(CLI::IsMember(layer_names))
+        ->each([&o](const std::string& name) { o.no_layers |= name == "none"; });
     app.add_flag("--record-seconds", o.record_seconds,
                  "Store the render time in the EXR (its bytes then differ every time)");
     app.add_flag("--json", o.json, "Print statistics as JSON on stdout");
@@ -161,7 +162,7 @@ void add_execution(CLI::App& app, RenderOptions& o) {
     app.add_option("--threads", s.threads, "Threads (default 0: every core)")
         ->check(between(0, 1024, "0 to 1024"));
     app.add_option("--scheduler", s.scheduler,
-                   "cpu-blocks, tuned (default), or cpu, the plain loop; both give the same bytes")
+                   "cpu-blocks, tuned (default), or cpu, the plain loop; the picture is the same")
         ->check(CLI::IsMember({"cpu", "cpu-blocks"}));
     app.add_option_function<std::string>(
            "--tile", [&s](const std::string& text) { s.tile = read_tile(text); },
@@ -170,15 +171,24 @@ void add_execution(CLI::App& app, RenderOptions& o) {
     app.add_flag("--allow-no-light", s.allow_no_light, "Render a scene without light, black");
 }
 
+/// The word to complain about: an option rather than the value behind it.
+std::string worst_of(const std::vector<std::string>& strangers) {
+    for (const std::string& word : strangers)
+        if (word.starts_with('-')) return word;
+    return strangers.back();
+}
+
 int complain(const CLI::App& app, const CLI::ParseError& e) {
     const CLI::App* used = &app;
     for (const CLI::App* sub : app.get_subcommands()) used = sub;
-    std::cerr << "mir: " << e.what();
+    const std::vector<std::string> strangers = used->remaining(false);
+    const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr;
+    std::cerr << "mir: " << (unknown ? "unknown argument '" + worst_of(strangers) + "'" : e.what());
     std::vector<std::string> known;
     for (const CLI::Option* option : used->get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     for (const CLI::App* sub : used->get_subcommands({})) known.push_back(sub->get_name());
-    for (const std::string& word : used->remaining(false))
+    for (const std::string& word : strangers)
         if (const auto guess = nearest(word.substr(0, word.find('=')), known))
             std::cerr << "; did you mean " << *guess << "?";
     std::cerr << "\nmir: see 'mir" << (used == &app ? "" : " " + used->get_name()) << " --help'\n";
@@ -226,6 +236,8 @@ Parsed parse(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return complain(app, e);
     }
+    if (render.no_layers && render.layers.size() > 1)
+        return complain(app, CLI::ValidationError("--aov", "none goes with no other layer"));
     if (r->parsed()) return Command{render};
     if (i->parsed()) return Command{info};
     if (x->parsed()) return Command{exporting};

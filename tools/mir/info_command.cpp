@@ -73,8 +73,7 @@ void print_text(const std::string& name, const SceneAndReport& loaded) {
         std::printf("%s\n", c.index ? "" : " (not supported)");
     }
     for (const auto& [what, times] : r.ignored)
-        std::printf("  ignored: %s (%llu)\n", what.c_str(),
-                    static_cast<unsigned long long>(times));
+        std::printf("  ignored: %s (%llu)\n", what.c_str(), static_cast<unsigned long long>(times));
     for (const std::string& note : r.notes) std::printf("  note: %s\n", note.c_str());
 }
 

@@ -29,7 +29,8 @@ SceneAndReport load_file(const std::string& name, const mir::Limits& limits) {
 
 SceneAndReport load_scene(const std::string& name, const mir::Limits& limits) {
     try {
-        if (name.starts_with(builtin_prefix)) return load_builtin(name.substr(builtin_prefix.size()));
+        if (name.starts_with(builtin_prefix))
+            return load_builtin(name.substr(builtin_prefix.size()));
         return load_file(name, limits);
     } catch (const mir::Error& e) {
         // Whatever a scene does wrong is the input's fault here, not that of the command line.

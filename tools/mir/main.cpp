@@ -22,9 +22,10 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "mir: %s\n", e.what());
         return mirtool::exit_code_of(e.code());
     } catch (const std::bad_alloc&) {
-        std::fputs("mir: out of memory (the picture or scene is too large for this machine); ask "
-                   "for fewer pixels, luxels or VPLs\n",
-                   stderr);
+        std::fputs(
+            "mir: out of memory (the picture or scene is too large for this machine); ask "
+            "for fewer pixels, luxels or VPLs\n",
+            stderr);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "mir: unexpected failure: %s\n", e.what());
     }

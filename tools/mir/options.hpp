@@ -13,16 +13,17 @@ namespace mirtool {
 /// `mir render`.
 struct RenderOptions {
     std::string scene;
-    std::string output;                 ///< EXR; empty: named after the scene
-    std::string preview;                ///< PNG; empty: beside the EXR
-    std::string camera;                 ///< name or index; empty: the first
+    std::string output;   ///< EXR; empty: named after the scene
+    std::string preview;  ///< PNG; empty: beside the EXR
+    std::string camera;   ///< name or index; empty: the first
     std::optional<std::uint32_t> width;
     std::optional<std::uint32_t> height;
-    std::vector<std::string> layers{"albedo", "normal", "position", "depth",
+    std::vector<std::string> layers{"albedo", "normal",   "position", "depth",
                                     "direct", "indirect", "emission"};
-    std::optional<float> exposure;      ///< EV of the preview; none: automatic
+    std::optional<float> exposure;  ///< EV of the preview; none: automatic
+    bool no_layers = false;         ///< --aov none
     bool no_preview = false;
-    bool record_seconds = false;        ///< seconds in the EXR: its bytes then differ every time
+    bool record_seconds = false;  ///< seconds in the EXR: its bytes then differ every time
     bool quiet = false;
     bool json = false;
     mir::RenderSettings settings;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "progress.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-
-#include <unistd.h>
 
 namespace mirtool {
 namespace {
@@ -16,6 +16,8 @@ bool stderr_is_terminal() {
     return isatty(STDERR_FILENO) != 0 && term != nullptr && std::strcmp(term, "dumb") != 0;
 }
 
+// A signal handler takes no argument: what it cancels has to be global.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<mir::Monitor*> interrupted_monitor{nullptr};
 
 extern "C" void on_interrupt(int signal) {

@@ -32,9 +32,9 @@ std::size_t find_camera(const RenderOptions& o, const mir::SceneReport& report) 
     const char* end = o.camera.data() + o.camera.size();
     const auto read = std::from_chars(o.camera.data(), end, index);
     if (read.ec == std::errc() && read.ptr == end && index < report.cameras.size()) return index;
-    throw mir::Error(mir::ErrorCode::invalid_argument,
-                     o.scene + ": there is no camera '" + o.camera + "'; the scene has " +
-                         (names.empty() ? "none" : names));
+    throw mir::Error(mir::ErrorCode::invalid_argument, o.scene + ": there is no camera '" +
+                                                           o.camera + "'; the scene has " +
+                                                           (names.empty() ? "none" : names));
 }
 
 /// Sets the scene's camera to the one to use and returns what the file says about it.
@@ -49,8 +49,9 @@ std::optional<mir::CameraReport> choose_camera(RenderOptions& o, SceneAndReport&
         o.settings.camera = *chosen.index;
         return chosen;
     }
-    const auto usable = std::find_if(cameras.begin(), cameras.end(),
-                                     [](const mir::CameraReport& c) { return c.index.has_value(); });
+    const auto usable =
+        std::find_if(cameras.begin(), cameras.end(),
+                     [](const mir::CameraReport& c) { return c.index.has_value(); });
     if (usable == cameras.end()) return std::nullopt;
     o.settings.camera = *usable->index;
     return *usable;

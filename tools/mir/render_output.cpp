@@ -8,12 +8,11 @@
 #include "mir/version.hpp"
 
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-
-#include <sys/resource.h>
 
 namespace mirtool {
 namespace {
@@ -58,16 +57,18 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
         {"mir:bound", s.bound},
         {"mir:removed_share", static_cast<float>(s.removed_share())},
     };
-    if (o.record_seconds)
-        all.push_back({"mir:seconds", static_cast<float>(s.seconds.total)});
+    if (o.record_seconds) all.push_back({"mir:seconds", static_cast<float>(s.seconds.total)});
     return all;
 }
 
 Json seconds_of(const mir::StageSeconds& t) {
-    return {{"build", t.build},       {"sampling", t.sampling},
-            {"gbuffer", t.gbuffer},   {"direct", t.direct},
+    return {{"build", t.build},
+            {"sampling", t.sampling},
+            {"gbuffer", t.gbuffer},
+            {"direct", t.direct},
             {"reconstruction", t.reconstruction},
-            {"ledger", t.ledger},     {"film", t.film},
+            {"ledger", t.ledger},
+            {"film", t.film},
             {"total", t.total}};
 }
 
@@ -97,6 +98,14 @@ Json mean_of(const mir::Image<mir::Rgb>& image) {
     return {r / n, g / n, b / n};
 }
 
+/// True when both names lead to the same place; an empty name leads nowhere.
+bool are_one_file(const std::string& a, const std::string& b) {
+    const auto place = [](const std::string& name) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
+    };
+    return !a.empty() && !b.empty() && place(a) == place(b);
+}
+
 }  // namespace
 
 OutputPaths choose_outputs(const RenderOptions& o) {
@@ -105,11 +114,10 @@ OutputPaths choose_outputs(const RenderOptions& o) {
     if (paths.png.empty() && !o.no_preview)
         paths.png = std::filesystem::path(paths.exr).replace_extension(".png").string();
     if (o.no_preview) paths.png.clear();
-    const auto place = [](const std::string& name) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
-    };
-    mir::expects(paths.png.empty() || place(paths.png) != place(paths.exr),
+    mir::expects(!are_one_file(paths.png, paths.exr),
                  "picture and preview have the same name; let the picture end in .exr");
+    mir::expects(!are_one_file(o.scene, paths.exr) && !are_one_file(o.scene, paths.png),
+                 "the picture would replace the scene that it shows; give another name with -o");
     const mir::AtomicFile exr(paths.exr);
     if (!paths.png.empty()) const mir::AtomicFile png(paths.png);
     return paths;
@@ -126,20 +134,23 @@ void print_summary(const mir::RenderResult& r) {
     const mir::RenderStatistics& s = r.statistics;
     std::fprintf(stderr,
                  "mir: %llu triangles, %llu luxels, %u VPLs from %llu light paths, %s\n"
-                 "mir: %.2f s (VPLs %.2f, camera rays %.2f, direct %.2f, reconstruction %.2f), "
+                 "mir: %.2f s (VPLs %.2f, camera rays %.2f, direct %.2f, reconstruction %.2f, "
+                 "ledger %.2f, film %.2f), "
                  "%.1f M contributions/s\n",
                  static_cast<unsigned long long>(s.triangles),
                  static_cast<unsigned long long>(s.luxels), s.vpls,
                  static_cast<unsigned long long>(s.light_paths), s.scheduler.c_str(),
                  s.seconds.total, s.seconds.sampling, s.seconds.gbuffer, s.seconds.direct,
-                 s.seconds.reconstruction, 1e-6 * rate_of(s));
+                 s.seconds.reconstruction, s.seconds.ledger, s.seconds.film, 1e-6 * rate_of(s));
     for (const std::string& warning : r.warnings)
         std::fprintf(stderr, "mir: warning: %s\n", warning.c_str());
 }
 
 void print_json(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o) {
     const mir::RenderStatistics& s = r.statistics;
-    Json out{{"version", mir::version}, {"scene", o.scene}, {"scene_hash", s.scene_hash},
+    Json out{{"version", mir::version},
+             {"scene", o.scene},
+             {"scene_hash", s.scene_hash},
              {"picture", paths.exr}};
     if (!paths.png.empty()) out["preview"] = paths.png;
     out["width"] = r.beauty.width();

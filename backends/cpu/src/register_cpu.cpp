@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mir/cpu/register.hpp"
-
 #include "mir/cpu/embree_scene.hpp"
+#include "mir/cpu/register.hpp"
 #include "mir/cpu/tbb_executor.hpp"
+#include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/tiled_render.hpp"
 #include "mir/sched/cpu.hpp"
@@ -19,8 +19,9 @@ template <Bsdf B, class MakeScheduler>
 RenderResult render_with(const Scene& scene, const RenderSettings& settings,
                          const WorldGeometry& geometry, const EmbreeScene& engine,
                          TbbExecutor& executor, Monitor* monitor, MakeScheduler make) {
-    return TiledRender<B, EmbreeScene, TbbExecutor, MakeScheduler>(scene, settings, geometry,
-                                                                   engine, executor, monitor, make)
+    CancellableExecutor cancellable(executor, monitor);
+    return TiledRender<B, EmbreeScene, decltype(cancellable), MakeScheduler>(
+               scene, settings, geometry, engine, cancellable, monitor, make)
         .run();
 }
 
@@ -59,8 +60,8 @@ class CpuRenderer : public Renderer {
     }
 
  private:
-    RenderResult timed_render(const Scene& scene, const RenderSettings& settings,
-                              Monitor* monitor, double& build) const {
+    RenderResult timed_render(const Scene& scene, const RenderSettings& settings, Monitor* monitor,
+                              double& build) const {
         TbbExecutor executor(settings.threads);
         std::optional<WorldGeometry> geometry;
         std::optional<EmbreeScene> engine;
@@ -81,9 +82,13 @@ class CpuRenderer : public Renderer {
                           TbbExecutor& executor, Monitor* monitor) const {
         if (arrangement_ == Arrangement::plain)
             return render_any(scene, settings, geometry, engine, executor, monitor,
-                              [](TbbExecutor& e, Monitor* m) { return sched::Cpu{e, m}; });
+                              [](auto& e, Monitor* m) {
+                                  return sched::Cpu{e, m};
+                              });
         return render_any(scene, settings, geometry, engine, executor, monitor,
-                          [](TbbExecutor& e, Monitor* m) { return sched::CpuBlocks{e, m}; });
+                          [](auto& e, Monitor* m) {
+                              return sched::CpuBlocks{e, m};
+                          });
     }
 
     Arrangement arrangement_;

@@ -19,12 +19,12 @@ namespace mir {
 ///  4. sample() follows pdf(), and its weight is eval cos / pdf.
 template <class B>
 concept Bsdf = WordCopyable<typename B::Params> &&
-               requires(const typename B::Params& p, Vec3 n, Vec3 wi, Vec3 wo, Vec2 u, float v) {
-                   { B::eval(p, n, wi, wo) } -> std::same_as<Rgb>;
-                   { B::pdf(p, n, wi, wo) } -> std::same_as<float>;
-                   { B::sample(p, n, wo, u, v) } -> std::same_as<BsdfSample>;
-                   { B::albedo(p, n, wo) } -> std::same_as<Rgb>;
-                   { B::is_black(p) } -> std::same_as<bool>;
-               };
+    requires(const typename B::Params& p, Vec3 n, Vec3 wi, Vec3 wo, Vec2 u, float v) {
+    { B::eval(p, n, wi, wo) } -> std::same_as<Rgb>;
+    { B::pdf(p, n, wi, wo) } -> std::same_as<float>;
+    { B::sample(p, n, wo, u, v) } -> std::same_as<BsdfSample>;
+    { B::albedo(p, n, wo) } -> std::same_as<Rgb>;
+    { B::is_black(p) } -> std::same_as<bool>;
+};
 
 }  // namespace mir

@@ -19,8 +19,8 @@ concept Pipeline = requires(P p, TileIndex t) {
 /// `Inputs` is mir::Inputs<...> of reconstruct.hpp.
 ///
 /// Axioms (tests/conformance/scheduler_suite.hpp): each luxel of each submitted tile is written
-/// exactly once; the order of tiles does not change the image; no VPLs give black; the image is that
-/// of sched::Cpu.
+/// exactly once; the order of tiles does not change the image; no VPLs give black; the image is
+/// that of sched::Cpu.
 template <class S, class Inputs>
 concept Scheduler = requires(const S s, const Inputs& in, Image<Rgb>& out) {
     { s.open(in, out) } -> Pipeline;

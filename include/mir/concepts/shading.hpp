@@ -15,8 +15,8 @@ namespace mir {
 /// Axioms (tests/conformance/shading_suite.hpp): finite, not negative, zero below either horizon,
 /// traces no ray.
 template <class F>
-concept Shading = DeviceCopyable<F> && requires(const F f, const Hit& h,
-                                                const typename F::Surface& s, const Vpl& v) {
+concept Shading = DeviceCopyable<F> &&
+    requires(const F f, const Hit& h, const typename F::Surface& s, const Vpl& v) {
     { f(h, s, v) } -> std::same_as<Rgb>;
 };
 
@@ -29,9 +29,8 @@ concept ReachLimitedShading = Shading<F> && requires(const F f) {
 /// Shading that can tell from the surface alone that it reflects nothing, so that no ray is traced
 /// for it. `reflects` may only be false where every contribution is zero.
 template <class F>
-concept SurfaceSelectiveShading =
-    Shading<F> && requires(const F f, const typename F::Surface& s) {
-        { f.reflects(s) } -> std::same_as<bool>;
-    };
+concept SurfaceSelectiveShading = Shading<F> && requires(const F f, const typename F::Surface& s) {
+    { f.reflects(s) } -> std::same_as<bool>;
+};
 
 }  // namespace mir

@@ -31,16 +31,16 @@ struct alignas(64) PointPacket {
     float z[width];
 };
 
-/// The block face of Visibility: one origin against up to sixteen points. Bit i of the result is set
-/// when bit i of `active` is set and point i sees the origin.
+/// The block face of Visibility: one origin against up to sixteen points. Bit i of the result is
+/// set when bit i of `active` is set and point i sees the origin.
 ///
 /// Axiom: bit i equals visible(origin, point i). Engines of our own keep it always; Embree keeps it
-/// but for segments that touch an edge or a vertex to the last bit, where its packets and its single
-/// rays may decide the tie differently (docs/validation.md has the measured rate).
+/// but for segments that touch an edge or a vertex to the last bit, where its packets and its
+/// single rays may decide the tie differently (docs/validation.md has the measured rate).
 template <class V>
-concept PacketVisibility =
-    Visibility<V> && requires(const V v, Vec3 origin, const PointPacket& points, std::uint32_t m) {
-        { v.visible_packet(origin, points, m) } -> std::same_as<std::uint32_t>;
-    };
+concept PacketVisibility = Visibility<V> &&
+    requires(const V v, Vec3 origin, const PointPacket& points, std::uint32_t m) {
+    { v.visible_packet(origin, points, m) } -> std::same_as<std::uint32_t>;
+};
 
 }  // namespace mir

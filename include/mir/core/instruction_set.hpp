@@ -36,8 +36,7 @@ template <class Body>
 }
 #else
 template <class Body>
-[[gnu::flatten,
-  gnu::target("avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512")]] void
+[[gnu::flatten, gnu::target("avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512")]] void
 run_avx512(const Body& body) {
     body();
 }

@@ -46,9 +46,7 @@ MIR_HD constexpr float larger(float a, float b) { return a > b ? a : b; }
 MIR_HD constexpr float smaller(float a, float b) { return a < b ? a : b; }
 
 /// Largest absolute component. Same unit as `v`.
-MIR_HD inline float max_abs(Vec3 v) {
-    return larger(fabsf(v.x), larger(fabsf(v.y), fabsf(v.z)));
-}
+MIR_HD inline float max_abs(Vec3 v) { return larger(fabsf(v.x), larger(fabsf(v.y), fabsf(v.z))); }
 
 /// Squared Euclidean length.
 MIR_HD inline float length_squared(Vec3 v) { return glm::dot(v, v); }

@@ -11,9 +11,9 @@ namespace mir {
 /// Looks into a running render from another thread, and stops it. All members may be used from any
 /// thread at any time.
 struct Monitor {
-    std::atomic<std::uint64_t> contributions{0};         ///< luxel-VPL pairs done
-    std::atomic<std::uint64_t> planned_contributions{0}; ///< 0 until known
-    std::atomic<bool> cancelled{false};                  ///< set to stop at the next block
+    std::atomic<std::uint64_t> contributions{0};          ///< luxel-VPL pairs done
+    std::atomic<std::uint64_t> planned_contributions{0};  ///< 0 until known
+    std::atomic<bool> cancelled{false};                   ///< set to stop at the next block
 
     /// @throws Error(cancelled) when the caller asked to stop.
     void check() const {

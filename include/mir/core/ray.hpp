@@ -17,9 +17,9 @@ struct SurfacePoint {
     Vec3 position{0};
     Vec3 geometric_normal{0, 0, 1};
     Vec3 shading_normal{0, 0, 1};
-    Vec2 barycentrics{0};         ///< weights of the triangle's second and third vertex
-    std::uint32_t triangle = 0;   ///< index into WorldGeometry
-    std::uint32_t material = 0;   ///< index into Scene::materials
+    Vec2 barycentrics{0};        ///< weights of the triangle's second and third vertex
+    std::uint32_t triangle = 0;  ///< index into WorldGeometry
+    std::uint32_t material = 0;  ///< index into Scene::materials
     bool front = true;
 };
 

@@ -19,8 +19,12 @@ struct Rgb {
         return *this;
     }
     friend MIR_HD constexpr Rgb operator+(Rgb a, Rgb o) { return a += o; }
-    friend MIR_HD constexpr Rgb operator-(Rgb a, Rgb o) { return {a.r - o.r, a.g - o.g, a.b - o.b}; }
-    friend MIR_HD constexpr Rgb operator*(Rgb a, Rgb o) { return {a.r * o.r, a.g * o.g, a.b * o.b}; }
+    friend MIR_HD constexpr Rgb operator-(Rgb a, Rgb o) {
+        return {a.r - o.r, a.g - o.g, a.b - o.b};
+    }
+    friend MIR_HD constexpr Rgb operator*(Rgb a, Rgb o) {
+        return {a.r * o.r, a.g * o.g, a.b * o.b};
+    }
     friend MIR_HD constexpr Rgb operator*(Rgb a, float s) { return {a.r * s, a.g * s, a.b * s}; }
     friend MIR_HD constexpr Rgb operator*(float s, Rgb a) { return a * s; }
     friend MIR_HD constexpr bool operator==(Rgb a, Rgb o) = default;

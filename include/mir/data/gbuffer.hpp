@@ -61,9 +61,8 @@ class BlockedGBuffer {
 
     /// Writes luxel `i` (blocked index) of tile `t`.
     void store(TileIndex t, LuxelIndex i, const Hit& hit, const Surface& surface) {
-        SoaView<Hit>{const_cast<std::uint32_t*>(hit_plane(t)), luxels(t)}.store(i, hit);
-        SoaView<Surface>{const_cast<std::uint32_t*>(surface_plane(t)), luxels(t)}.store(i,
-                                                                                        surface);
+        SoaView<Hit>{words_.data() + hit_offset(t), luxels(t)}.store(i, hit);
+        SoaView<Surface>{words_.data() + surface_offset(t), luxels(t)}.store(i, surface);
     }
 
     /// Bytes held, for reports.
@@ -76,11 +75,17 @@ class BlockedGBuffer {
     [[nodiscard]] std::uint32_t luxels(TileIndex t) const {
         return static_cast<std::uint32_t>(first_luxel_[t + 1] - first_luxel_[t]);
     }
+    [[nodiscard]] std::size_t hit_offset(TileIndex t) const {
+        return first_luxel_[t] * (hit_words + surface_words);
+    }
+    [[nodiscard]] std::size_t surface_offset(TileIndex t) const {
+        return hit_offset(t) + luxels(t) * hit_words;
+    }
     [[nodiscard]] const std::uint32_t* hit_plane(TileIndex t) const {
-        return words_.data() + first_luxel_[t] * (hit_words + surface_words);
+        return words_.data() + hit_offset(t);
     }
     [[nodiscard]] const std::uint32_t* surface_plane(TileIndex t) const {
-        return hit_plane(t) + std::size_t{luxels(t)} * hit_words;
+        return words_.data() + surface_offset(t);
     }
 
     Extent extent_;

@@ -13,7 +13,7 @@ struct Hit {
 };
 
 /// What shading needs to know about a luxel, and visibility does not. The split is the one that
-/// makes RCVP possible (section 5.4 of the paper).
+/// makes RCVP possible (section 5.2 of the paper).
 template <class Params>
 struct Surface {
     Vec3 normal{0};  ///< unit shading normal, on the viewer's side

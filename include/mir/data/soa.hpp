@@ -32,9 +32,7 @@ struct SoaView {
         return load(i, std::make_index_sequence<words>{});
     }
 
-    MIR_HD void store(std::uint32_t i, const Value& value) const
-        requires(!std::is_const_v<T>)
-    {
+    MIR_HD void store(std::uint32_t i, const Value& value) const requires(!std::is_const_v<T>) {
         store(i, value, std::make_index_sequence<words>{});
     }
 
@@ -42,7 +40,7 @@ struct SoaView {
     // Word by word through index packs: compilers see plain loads and stores of members, drop the
     // words that nobody reads, and vectorise loops over luxels.
     template <std::size_t... K>
-    MIR_HD Value load(std::uint32_t i, std::index_sequence<K...>) const {
+    [[nodiscard]] MIR_HD Value load(std::uint32_t i, std::index_sequence<K...>) const {
         Value value;
         auto* bytes = reinterpret_cast<unsigned char*>(&value);
         (memcpy(bytes + 4 * K, planes + K * stride + i, 4), ...);

@@ -37,9 +37,10 @@ class PixelPattern {
     /// has one luxel.
     [[nodiscard]] Vec2 operator()(std::uint32_t cx, std::uint32_t cy) const {
         if (nx_ * ny_ == 1) return {0.5f, 0.5f};
+        // Even, so that both numbers come from one block of random bits.
         const std::uint32_t dimension = first_jitter + 2 * (cy * nx_ + cx);
         return {inside(cx * ny_ + row_order_[cy], random_.at(dimension)),
-                inside(cy * nx_ + column_order_[cx], random_.at(dimension + 1))};
+                inside(cy * nx_ + column_order_[cx], random_.at(dimension | 1u))};
     }
 
  private:

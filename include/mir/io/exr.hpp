@@ -91,7 +91,7 @@ inline std::vector<half> to_half(const ExrChannel& channel) {
 
 inline void write_channels(Imf::OStream& stream, const Imf::Header& header,
                            const std::vector<ExrChannel>& channels) {
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     const auto width = static_cast<std::size_t>(window.max.x) + 1;
     std::vector<std::vector<half>> halves;
     Imf::FrameBuffer buffer;
@@ -178,7 +178,7 @@ inline Imf::Header checked_header(std::ifstream& stream, const std::filesystem::
     Imf::Header header;
     header.readFrom(exr_stream, version);
     header.sanityCheck((version & Imf::TILED_FLAG) != 0);
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     const auto width = static_cast<std::uint64_t>(std::int64_t{window.max.x} - window.min.x + 1);
     const auto height = static_cast<std::uint64_t>(std::int64_t{window.max.y} - window.min.y + 1);
     check_limit(saturating_mul(width, height), limits.pixels, "pixels");
@@ -190,8 +190,8 @@ inline std::array<std::string, 3> find_channels(const Imf::Header& header, const
                                                 const std::filesystem::path& path) {
     const std::string prefix = layer.empty() ? "" : layer + ".";
     for (const char* letters : {"RGB", "XYZ", "YYY", "ZZZ"}) {
-        const std::array<std::string, 3> names{prefix + letters[0], prefix + letters[1],
-                                               prefix + letters[2]};
+        std::array<std::string, 3> names{prefix + letters[0], prefix + letters[1],
+                                         prefix + letters[2]};
         const auto found = [&](const std::string& name) {
             return header.channels().findChannel(name) != nullptr;
         };
@@ -207,7 +207,7 @@ inline std::array<std::string, 3> find_channels(const Imf::Header& header, const
 inline Image<Rgb> read_channels(std::ifstream& stream, const std::filesystem::path& path,
                                 const Imf::Header& header, const std::string& layer) {
     const std::array<std::string, 3> names = find_channels(header, layer, path);
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     const Extent extent{static_cast<std::uint32_t>(window.max.x - window.min.x + 1),
                         static_cast<std::uint32_t>(window.max.y - window.min.y + 1)};
     Image<Rgb> image(extent);

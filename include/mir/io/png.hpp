@@ -52,7 +52,7 @@ namespace mir {
     if (linear >= 1.0f) return 255;
     const float coded =
         linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-    return static_cast<std::uint8_t>(coded * 255.0f + 0.5f);
+    return static_cast<std::uint8_t>(std::lround(coded * 255.0f));
 }
 
 namespace detail {

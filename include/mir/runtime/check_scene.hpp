@@ -33,9 +33,11 @@ inline std::vector<std::string> check_scene(const Scene& scene, const RenderSett
         throw Error(ErrorCode::invalid_input,
                     "the scene has no camera (there is no view to render); add one");
     if (settings.camera >= scene.cameras.size())
-        throw Error(ErrorCode::invalid_input,
-                    "camera " + std::to_string(settings.camera) + " was asked for, but the scene "
-                    "has " + std::to_string(scene.cameras.size()) + "; cameras count from 0");
+        throw Error(ErrorCode::invalid_input, "camera " + std::to_string(settings.camera) +
+                                                  " was asked for, but the scene "
+                                                  "has " +
+                                                  std::to_string(scene.cameras.size()) +
+                                                  "; cameras count from 0");
     if (scene.instances.empty())
         throw Error(ErrorCode::invalid_input,
                     "the scene has no triangles (there is nothing to see); check the file with "

@@ -25,16 +25,16 @@ struct StageSeconds {
 /// Numbers about a render that a user may want to judge it by.
 struct RenderStatistics {
     std::uint64_t triangles = 0;
-    std::uint64_t dropped_triangles = 0;   ///< without area, left out
+    std::uint64_t dropped_triangles = 0;  ///< without area, left out
     std::uint64_t luxels = 0;
     std::uint64_t light_paths = 0;
-    std::uint32_t vpls = 0;                ///< geometric VPLs placed
-    std::uint64_t contributions = 0;       ///< luxels x VPLs
-    float emitted_power = 0.0f;            ///< luminance, W
-    float non_lambertian_share = 0.0f;     ///< of VPL intensity spread as Lambertian
-    float bound = 0.0f;                    ///< largest geometry term, m^-2; 0: none
-    double indirect_luminance = 0.0;       ///< mean over luxels of the VPLs' light
-    double removed_luminance = 0.0;        ///< mean over luxels of what the bound removed
+    std::uint32_t vpls = 0;             ///< geometric VPLs placed
+    std::uint64_t contributions = 0;    ///< luxels x VPLs
+    float emitted_power = 0.0f;         ///< luminance, W
+    float non_lambertian_share = 0.0f;  ///< of VPL intensity spread as Lambertian
+    float bound = 0.0f;                 ///< largest geometry term, m^-2; 0: none
+    double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' light
+    double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed
     std::string scheduler;
     std::string scene_hash;
     StageSeconds seconds;
@@ -52,7 +52,7 @@ struct RenderResult {
     Image<Rgb> emission;
     Image<Rgb> direct;
     Image<Rgb> indirect;
-    std::vector<Image<Rgb>> bounces;  ///< element i: light of i + 2 scattering events; on request
+    std::vector<Image<Rgb>> bounces;  ///< element i: light of i + 1 scattering events; on request
     Guides guides;
     VplList vpls;
     RenderStatistics statistics;

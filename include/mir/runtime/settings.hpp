@@ -6,6 +6,7 @@
 #include "mir/film/luxel_grid.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -26,23 +27,23 @@ struct BoundPolicy {
 
 /// What to render and how. Plain values with working defaults; validate() tells what is wrong.
 struct RenderSettings {
-    Extent image{640, 480};                    ///< pixels
-    std::uint32_t luxels_per_pixel = 1;        ///< 1..64
-    std::uint32_t camera = 0;                  ///< index into Scene::cameras
-    std::uint32_t vpls = 256;                  ///< wanted geometric VPLs
+    Extent image{640, 480};              ///< pixels
+    std::uint32_t luxels_per_pixel = 1;  ///< 1..64
+    std::uint32_t camera = 0;            ///< index into Scene::cameras
+    std::uint32_t vpls = 256;            ///< wanted geometric VPLs
     Termination termination = Termination::roulette;
     Sequence sequence = Sequence::random;
     DirectLight direct = DirectLight::separate;
-    std::uint32_t direct_samples = 16;         ///< next-event samples per pixel
-    std::uint8_t max_bounce = 32;              ///< largest number of scattering events
+    std::uint32_t direct_samples = 16;  ///< next-event samples per pixel
+    std::uint8_t max_bounce = 32;       ///< largest number of scattering events
     BoundPolicy bound;
     Filter filter = default_filter(FilterKind::lanczos);
     std::uint64_t seed = 0;
-    unsigned threads = 0;                      ///< 0: every core
-    std::string scheduler = "cpu-blocks";      ///< name in the Registry
-    Extent tile{256, 256};                     ///< luxels
-    bool bounce_layers = false;                ///< one image per bounce besides the sum
-    bool allow_no_light = false;               ///< a scene without light gives black, not an error
+    unsigned threads = 0;                  ///< 0: every core
+    std::string scheduler = "cpu-blocks";  ///< name in the Registry
+    Extent tile{256, 256};                 ///< luxels
+    bool bounce_layers = false;            ///< one image per bounce besides the sum
+    bool allow_no_light = false;           ///< a scene without light gives black, not an error
     Limits limits;
 
     /// @throws Error(invalid_argument or limit_exceeded) that names the first bad value.
@@ -70,8 +71,10 @@ inline void RenderSettings::validate() const {
     expects(max_bounce >= 1 && max_bounce < 255, "the largest bounce must be 1 to 254");
     expects(tile.width > 0 && tile.height > 0,
             "a tile of zero luxels was asked for (a tile must hold at least one); use 256x256");
-    expects(bound.kind != BoundPolicy::Kind::fixed || bound.value > 0.0f,
-            "the bound of the geometry term must be positive (per square metre); use auto or none");
+    expects(bound.kind != BoundPolicy::Kind::fixed ||
+                (bound.value > 0.0f && std::isfinite(bound.value)),
+            "the bound of the geometry term must be positive and finite (per square metre); use "
+            "auto or none");
 }
 
 }  // namespace mir

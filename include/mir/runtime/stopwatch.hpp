@@ -11,9 +11,7 @@ class Stopwatch {
     explicit Stopwatch(double& seconds) : seconds_(seconds) {}
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
-    ~Stopwatch() {
-        seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
-    }
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
 
  private:
     using Clock = std::chrono::steady_clock;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/monitor.hpp"
 #include "mir/direct_light.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/film/film.hpp"
-#include "mir/core/monitor.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
 #include "mir/runtime/stopwatch.hpp"
@@ -35,30 +35,27 @@ class TiledRender {
           rays_{scene.cameras[settings.camera],
                 luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits),
                 settings.seed},
-          result_{{}, {}, {}, {}, {}, Guides(settings.image), {}, {}, {}},
-          direct_film_(film()),
-          emission_film_(film()),
-          indirect_film_(film()) {}
+          result_{{}, {}, {}, {}, {}, Guides(settings.image), {}, {}, {}} {}
 
     RenderResult run();
 
  private:
     using GBuffer = BlockedGBuffer<typename B::Params>;
-    struct BounceFilm {
-        std::uint8_t bounce;
-        Film film;
-    };
+    /// Layers of the film; those of the bounces, if there are any, come last.
+    enum Layer : std::size_t { direct_layer, emission_layer, indirect_layer, first_bounce_layer };
 
-    [[nodiscard]] Film film() const { return {rays_.grid, settings_.filter, settings_.seed}; }
+    /// Number of bounces that get a layer of their own.
+    [[nodiscard]] std::uint8_t bounces() const {
+        return settings_.bounce_layers ? result_.vpls.max_bounce() : std::uint8_t{0};
+    }
     void place_vpls();
     void choose_bound();
-    void plan_bounces();
     [[nodiscard]] std::uint32_t rows_per_band() const;
-    void render_band(std::uint32_t first_row, std::uint32_t rows);
-    Image<Rgb> indirect_light(const GBuffer& gbuffer, std::uint32_t first_row);
+    void render_band(Film& film, std::uint32_t first_row, std::uint32_t rows);
+    void add_indirect_light(const GBuffer& gbuffer, std::vector<Image<Rgb>>& layers);
     void measure_removed(const GBuffer& gbuffer, const Image<Rgb>& indirect);
     Image<Rgb> emission_of(const GBuffer& gbuffer) const;
-    void finish();
+    void finish(const Film& film);
 
     const RenderSettings& settings_;
     const WorldGeometry& geometry_;
@@ -72,22 +69,19 @@ class TiledRender {
     CameraRays rays_;
     VplShading<B> shading_;
     RenderResult result_;
-    Film direct_film_;
-    Film emission_film_;
-    Film indirect_film_;
-    std::vector<BounceFilm> bounce_films_;
 };
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 RenderResult TiledRender<B, Engine, E, MakeScheduler>::run() {
     place_vpls();
     choose_bound();
-    plan_bounces();
+    Film film(rays_.grid, settings_.filter, settings_.seed,
+              std::size_t{first_bounce_layer} + bounces());
     const std::uint32_t height = rays_.grid.luxels().height;
     const std::uint32_t step = rows_per_band();
     for (std::uint32_t row = 0; row < height; row += step)
-        render_band(row, std::min(step, height - row));
-    finish();
+        render_band(film, row, std::min(step, height - row));
+    finish(film);
     return std::move(result_);
 }
 
@@ -129,13 +123,6 @@ void TiledRender<B, Engine, E, MakeScheduler>::choose_bound() {
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-void TiledRender<B, Engine, E, MakeScheduler>::plan_bounces() {
-    if (!settings_.bounce_layers) return;
-    for (std::uint8_t b = 1; b <= result_.vpls.max_bounce(); ++b)
-        bounce_films_.push_back({b, film()});
-}
-
-template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 std::uint32_t TiledRender<B, Engine, E, MakeScheduler>::rows_per_band() const {
     // Some 2 million luxels at a time; whole pixels, and whole tiles unless those are huge.
     constexpr std::uint64_t luxels_per_band = 1u << 21;
@@ -143,12 +130,11 @@ std::uint32_t TiledRender<B, Engine, E, MakeScheduler>::rows_per_band() const {
     const std::uint64_t pixel = rays_.grid.per_pixel_y;
     const std::uint64_t grain = pixel * std::min<std::uint64_t>(tile_.height, 256);
     const std::uint64_t rows = std::max<std::uint64_t>(luxels_per_band / width / grain, 1) * grain;
-    return static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(rows, rays_.grid.luxels().height));
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, rays_.grid.luxels().height));
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-void TiledRender<B, Engine, E, MakeScheduler>::render_band(std::uint32_t first_row,
+void TiledRender<B, Engine, E, MakeScheduler>::render_band(Film& film, std::uint32_t first_row,
                                                            std::uint32_t rows) {
     StageSeconds& seconds = result_.statistics.seconds;
     const std::uint32_t width = rays_.grid.luxels().width;
@@ -156,43 +142,43 @@ void TiledRender<B, Engine, E, MakeScheduler>::render_band(std::uint32_t first_r
     {
         const Stopwatch watch(seconds.gbuffer);
         fill_gbuffer<B>(gbuffer, first_row, rays_, engine_.ray_caster(), surfaces_,
-                        geometry_.ray_offset(), executor_, monitor_);
+                        geometry_.ray_offset(), executor_);
     }
-    Image<Rgb> direct;
+    std::vector<Image<Rgb>> layers;
     {
         const Stopwatch watch(seconds.direct);
         const bool sampled = settings_.direct == DirectLight::separate;
-        direct = direct_light<B>(gbuffer, lights_, engine_.visibility(),
-                                 {first_row, rays_.grid, settings_.seed},
-                                 sampled ? settings_.direct_samples_per_luxel() : 0,
-                                 geometry_.ray_offset(), executor_, monitor_);
+        layers.push_back(direct_light<B>(
+            gbuffer, lights_, engine_.visibility(), {first_row, rays_.grid, settings_.seed},
+            sampled ? settings_.direct_samples_per_luxel() : 0, geometry_.ray_offset(), executor_));
+        layers.push_back(emission_of(gbuffer));
     }
-    const Image<Rgb> indirect = indirect_light(gbuffer, first_row);
-    measure_removed(gbuffer, indirect);
+    add_indirect_light(gbuffer, layers);
+    measure_removed(gbuffer, layers[indirect_layer]);
     const Stopwatch watch(seconds.film);
-    direct_film_.add_rows(executor_, first_row, direct);
-    emission_film_.add_rows(executor_, first_row, emission_of(gbuffer));
-    indirect_film_.add_rows(executor_, first_row, indirect);
-    add_guides(result_.guides, gbuffer, first_row, rays_.grid, rays_.camera,
-               [](const auto& s) { return B::albedo(s.bsdf, s.normal, s.wo); }, executor_);
+    film.add_rows(executor_, first_row, layers);
+    add_guides(
+        result_.guides, gbuffer, first_row, rays_.grid, rays_.camera,
+        [](const auto& s) { return B::albedo(s.bsdf, s.normal, s.wo); }, executor_);
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-Image<Rgb> TiledRender<B, Engine, E, MakeScheduler>::indirect_light(const GBuffer& gbuffer,
-                                                                    std::uint32_t first_row) {
+void TiledRender<B, Engine, E, MakeScheduler>::add_indirect_light(const GBuffer& gbuffer,
+                                                                  std::vector<Image<Rgb>>& layers) {
     const Stopwatch watch(result_.statistics.seconds.reconstruction);
     const auto scheduler = make_scheduler_(executor_, monitor_);
-    if (bounce_films_.empty())
-        return reconstruct(scheduler, gbuffer, result_.vpls.span(), engine_.visibility(),
-                           shading_);
-    Image<Rgb> sum(gbuffer.extent());
-    for (BounceFilm& b : bounce_films_) {
-        const Image<Rgb> light = reconstruct(scheduler, gbuffer, result_.vpls.bounce(b.bounce),
-                                             engine_.visibility(), shading_);
-        for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum.pixels()[i] += light.pixels()[i];
-        b.film.add_rows(executor_, first_row, light);
+    if (bounces() == 0) {
+        layers.push_back(
+            reconstruct(scheduler, gbuffer, result_.vpls.span(), engine_.visibility(), shading_));
+        return;
     }
-    return sum;
+    layers.emplace_back(gbuffer.extent());
+    for (std::uint8_t b = 1; b <= bounces(); ++b) {
+        layers.push_back(reconstruct(scheduler, gbuffer, result_.vpls.bounce(b),
+                                     engine_.visibility(), shading_));
+        const auto sum = layers[indirect_layer].pixels();
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += layers.back().pixels()[i];
+    }
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
@@ -224,12 +210,13 @@ Image<Rgb> TiledRender<B, Engine, E, MakeScheduler>::emission_of(const GBuffer& 
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-void TiledRender<B, Engine, E, MakeScheduler>::finish() {
+void TiledRender<B, Engine, E, MakeScheduler>::finish(const Film& film) {
     const Stopwatch watch(result_.statistics.seconds.film);
-    result_.direct = direct_film_.develop();
-    result_.emission = emission_film_.develop();
-    result_.indirect = indirect_film_.develop();
-    for (BounceFilm& b : bounce_films_) result_.bounces.push_back(b.film.develop());
+    result_.direct = film.develop(direct_layer);
+    result_.emission = film.develop(emission_layer);
+    result_.indirect = film.develop(indirect_layer);
+    for (std::size_t l = first_bounce_layer; l < film.layers(); ++l)
+        result_.bounces.push_back(film.develop(l));
     result_.beauty = result_.emission;
     for (std::size_t i = 0; i < result_.beauty.pixels().size(); ++i)
         result_.beauty.pixels()[i] += result_.direct.pixels()[i] + result_.indirect.pixels()[i];

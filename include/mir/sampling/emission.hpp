@@ -53,8 +53,8 @@ inline Emission emit_from_point(const PointLight& l, float probability, Vec2 uv)
 inline Emission emit_from_spot(const SpotLight& l, float probability, Vec2 uv) {
     Emission e;
     e.ray = {l.position, Frame::around(l.direction).to_world(square_to_cone(uv, l.cos_outer))};
-    e.power = l.intensity *
-              (spot_falloff(l, e.ray.direction) / (cone_pdf(l.cos_outer) * probability));
+    e.power =
+        l.intensity * (spot_falloff(l, e.ray.direction) / (cone_pdf(l.cos_outer) * probability));
     e.light_group = l.light_group;
     return e;
 }

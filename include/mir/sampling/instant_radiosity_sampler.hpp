@@ -18,11 +18,11 @@ enum class Termination {
 };
 
 struct InstantRadiosityOptions {
-    std::uint32_t vpls = 256;         ///< wanted; the set comes close, see sample()
+    std::uint32_t vpls = 256;  ///< wanted; the set comes close, see sample()
     Termination termination = Termination::roulette;
     Sequence sequence = Sequence::random;
-    bool emitter_vpls = false;        ///< also place VPLs on the lamps: direct light by VPLs
-    std::uint8_t max_bounce = 32;     ///< largest number of scattering events, 1..254
+    bool emitter_vpls = false;     ///< also place VPLs on the lamps: direct light by VPLs
+    std::uint8_t max_bounce = 32;  ///< largest number of scattering events, 1..254
     std::uint64_t seed = 0;
 };
 
@@ -48,8 +48,9 @@ class InstantRadiositySampler {
     InstantRadiositySampler(const World& world, InstantRadiosityOptions options,
                             const Limits& limits = {})
         : world_(world), options_(options) {
-        expects(options.vpls > 0, "0 VPLs were asked for (there would be no light); ask for at "
-                                  "least 1, 256 is usual");
+        expects(options.vpls > 0,
+                "0 VPLs were asked for (there would be no light); ask for at "
+                "least 1, 256 is usual");
         expects(options.max_bounce >= 1 && options.max_bounce < 255,
                 "the largest bounce must be 1 to 254");
         check_limit(options.vpls, limits.vpls, "vpls");
@@ -65,7 +66,8 @@ class InstantRadiositySampler {
     using Path = std::vector<VplRecord>;
 
     [[nodiscard]] std::uint64_t paths_for_target() const;
-    [[nodiscard]] Path trace(std::uint64_t index, Stream stream, const SurvivorCounts* levels) const;
+    [[nodiscard]] Path trace(std::uint64_t index, Stream stream,
+                             const SurvivorCounts* levels) const;
     bool bounce_once(Emission& light, std::uint8_t bounce, float survival, PathNumbers& numbers,
                      Path& path) const;
     [[nodiscard]] SurvivorCounts level_counts() const;
@@ -107,7 +109,8 @@ std::uint64_t InstantRadiositySampler<B, R>::paths_for_target() const {
     // Nothing hit at all: the target cannot be met, so the count of paths is the target itself.
     const double per_path =
         records == 0 ? 1.0 : static_cast<double>(records) / static_cast<double>(pilot_paths);
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(options_.vpls / per_path)));
+    return std::max<std::uint64_t>(
+        1, static_cast<std::uint64_t>(std::llround(options_.vpls / per_path)));
 }
 
 template <Bsdf B, RayCaster R>

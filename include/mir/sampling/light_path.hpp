@@ -48,8 +48,8 @@ Emission scatter(const Arrival<B>& at, const BsdfSample& sample, float ray_offse
     const float cos_shading = glm::dot(sample.wi, at.point.shading_normal);
     if (cos_geometric <= 0.0f || cos_shading <= 0.0f) return out;
     out.ray = {lift(at.point.position, n, ray_offset), sample.wi};
-    out.power = at.power * sample.weight *
-                (at.shading_normal_factor() * (cos_geometric / cos_shading));
+    out.power =
+        at.power * sample.weight * (at.shading_normal_factor() * (cos_geometric / cos_shading));
     return out;
 }
 

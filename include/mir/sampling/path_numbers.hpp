@@ -46,8 +46,8 @@ class PathNumbers {
     // Beyond some twenty dimensions neighbouring large primes correlate visibly.
     static constexpr std::uint32_t halton_dimensions = 20;
     static constexpr std::uint32_t prime(std::uint32_t d) {
-        constexpr std::uint32_t primes[halton_dimensions] = {2,  3,  5,  7,  11, 13, 17, 19, 23, 29,
-                                                             31, 37, 41, 43, 47, 53, 59, 61, 67, 71};
+        constexpr std::uint32_t primes[halton_dimensions] = {
+            2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71};
         return primes[d];
     }
 

@@ -35,9 +35,9 @@ inline float share_of_non_lambertian(const std::vector<VplRecord>& records) {
 /// What a sampler yields, in an order that depends on the sampler's options alone.
 struct VplRecords {
     std::vector<VplRecord> records;
-    std::uint64_t paths = 0;          ///< light paths traced, those without a record included
-    float emitted_power = 0.0f;       ///< luminance of the scene's emitted power, W
-    float non_lambertian_share = 0.0f; ///< of the records' intensity, from surfaces with a lobe
+    std::uint64_t paths = 0;            ///< light paths traced, those without a record included
+    float emitted_power = 0.0f;         ///< luminance of the scene's emitted power, W
+    float non_lambertian_share = 0.0f;  ///< of the records' intensity, from surfaces with a lobe
 };
 
 /// Algorithm 2's aggregation: consecutive records of one point and bounce become one geometric VPL,

@@ -13,13 +13,13 @@ namespace mir {
 struct Camera {
     std::string name;
     Vec3 position{0};
-    Vec3 right{1, 0, 0};  ///< unit
-    Vec3 up{0, 1, 0};     ///< unit
-    Vec3 back{0, 0, 1};   ///< unit, against the viewing direction
-    float vertical_fov = 0.8f;     ///< full angle in radians
-    float aspect_ratio = 0.0f;     ///< width / height of the file; 0: not given
-    float lens_radius = 0.0f;      ///< metres; 0: pinhole
-    float focus_distance = 1.0f;   ///< metres along the viewing direction; used with a lens
+    Vec3 right{1, 0, 0};          ///< unit
+    Vec3 up{0, 1, 0};             ///< unit
+    Vec3 back{0, 0, 1};           ///< unit, against the viewing direction
+    float vertical_fov = 0.8f;    ///< full angle in radians
+    float aspect_ratio = 0.0f;    ///< width / height of the file; 0: not given
+    float lens_radius = 0.0f;     ///< metres; 0: pinhole
+    float focus_distance = 1.0f;  ///< metres along the viewing direction; used with a lens
 
     /// Camera at `position` that looks at `target`.
     static Camera look_at(Vec3 position, Vec3 target, Vec3 up, float vertical_fov) {

@@ -94,7 +94,8 @@ inline float spot_solid_angle(const SpotLight& s) {
 
 inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     : scene_(&scene), geometry_(&geometry) {
-    for (const Material& m : scene.materials) detail::check_emission(m.emission, "material", m.name);
+    for (const Material& m : scene.materials)
+        detail::check_emission(m.emission, "material", m.name);
     for (const PointLight& l : scene.point_lights)
         detail::check_emission(l.intensity, "point light", l.name);
     for (const SpotLight& l : scene.spot_lights)

@@ -19,7 +19,7 @@ struct Material {
     float ior = 1.5f;                  ///< index of refraction of the dielectric interface, >= 1
     Rgb emission;                      ///< radiance of the front, W m^-2 sr^-1
     bool emits_from_both_sides = false;
-    std::uint16_t light_group = 0;     ///< group that its light is counted in
+    std::uint16_t light_group = 0;  ///< group that its light is counted in
 
     [[nodiscard]] bool emits() const { return !is_black(emission); }
     [[nodiscard]] bool is_lambertian() const { return metallic == 0.0f && specular == 0.0f; }

@@ -30,10 +30,10 @@ class SceneHash {
             add(i.to_world);
         }
         for (const Material& m : scene.materials) add_material(m);
-        for (const PointLight& l : scene.point_lights) add_each(l.position, l.intensity, l.light_group);
+        for (const PointLight& l : scene.point_lights)
+            add_each(l.position, l.intensity, l.light_group);
         for (const SpotLight& l : scene.spot_lights)
-            add_each(l.position, l.direction, l.intensity, l.cos_inner, l.cos_outer,
-                     l.light_group);
+            add_each(l.position, l.direction, l.intensity, l.cos_inner, l.cos_outer, l.light_group);
         for (const DirectionalLight& l : scene.directional_lights)
             add_each(l.direction, l.irradiance, l.light_group);
         for (const Camera& c : scene.cameras)

@@ -152,8 +152,8 @@ inline void WorldGeometry::place_vertices(const Mesh& mesh, const Mat4& to_world
         positions_.push_back(world);
         bounds_.add(world);
     }
-    // Cofactors instead of the inverse transpose: they exist for flattened instances too. Their sign
-    // does not matter, surface_point() turns normals to the geometric side.
+    // Cofactors instead of the inverse transpose: they exist for flattened instances too. Their
+    // sign does not matter, surface_point() turns normals to the geometric side.
     const Mat3 m(to_world);
     const Mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -196,8 +196,7 @@ inline SurfacePoint WorldGeometry::surface_point(std::uint32_t triangle, Vec2 ba
     const Vec3 smooth = w * normals_[t[0]] + u * normals_[t[1]] + v * normals_[t[2]];
     const float length = glm::length(smooth);
     p.shading_normal = length > 0.0f ? smooth / length : p.geometric_normal;
-    if (glm::dot(p.shading_normal, p.geometric_normal) < 0.0f)
-        p.shading_normal = -p.shading_normal;
+    if (glm::dot(p.shading_normal, p.geometric_normal) < 0.0f) p.shading_normal = -p.shading_normal;
     // At silhouettes the smooth normal may turn away from the ray: shading would be undefined.
     if (glm::dot(p.shading_normal, direction) >= 0.0f) p.shading_normal = p.geometric_normal;
     return p;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
-#include "mir/reconstruct.hpp"
 #include "mir/core/monitor.hpp"
+#include "mir/reconstruct.hpp"
 #include "mir/sched/detail/block_list.hpp"
 #include "mir/shading/contribution.hpp"
 
@@ -39,11 +39,11 @@ struct Cpu {
                 for (std::uint32_t x = area.x; x < area.x + area.width; ++x)
                     image_(tile.x + x, tile.y + y) = gather(luxels, layout(x, y));
             if (monitor_ != nullptr)
-                monitor_->contributions += std::uint64_t{area.width} * area.height *
-                                           in_.vpls.size();
+                monitor_->contributions +=
+                    std::uint64_t{area.width} * area.height * in_.vpls.size();
         }
 
-        Rgb gather(const auto& luxels, LuxelIndex i) const {
+        [[nodiscard]] Rgb gather(const auto& luxels, LuxelIndex i) const {
             const Hit hit = luxels.hit(i);
             if (is_empty(hit)) return {};
             const auto surface = luxels.surface(i);

@@ -3,8 +3,8 @@
 
 #include "mir/concepts/executor.hpp"
 #include "mir/core/instruction_set.hpp"
-#include "mir/reconstruct.hpp"
 #include "mir/core/monitor.hpp"
+#include "mir/reconstruct.hpp"
 #include "mir/sched/detail/block_list.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
 
@@ -45,7 +45,8 @@ struct CpuBlocks {
         void store(detail::Block b, const detail::BlockRadiance& sum) const;
 
         /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing.
-        bool is_out_of_reach(const detail::BlockBounds& bounds, const Vpl& vpl) const {
+        [[nodiscard]] bool is_out_of_reach(const detail::BlockBounds& bounds,
+                                           const Vpl& vpl) const {
             if (bounds.behind(vpl) || bounds.turned_away_from(vpl.position)) return true;
             if constexpr (ReachLimitedShading<F>)
                 return bounds.distance_squared(vpl.position) >

@@ -14,15 +14,16 @@ namespace mir {
 /// Specular: F D V with D and V of shading/ggx.hpp, F by Schlick between f0 and f90.
 /// Diffuse: base (1 - F(n.wi)) (1 - F(n.wo)) / (pi (1 - F_avg)), the reciprocal coupling of Kelemen
 /// and Szirmay-Kalos (2001): what the interface reflects does not reach the base, so a white base
-/// under a smooth interface reflects exactly all light. Reciprocal. The directional albedo is at most
-/// 1.0025: over a rough lobe the mean of Schlick's convex term exceeds what the coupling takes away.
+/// under a smooth interface reflects exactly all light. Reciprocal. The directional albedo is at
+/// most 1.0025: over a rough lobe the mean of Schlick's convex term exceeds what the coupling takes
+/// away.
 struct CookTorrance {
     /// Eight words, made by material_params() so that eval() divides by no constant.
     struct Params {
-        Rgb diffuse;          ///< base reflectance / (1 - F_avg), 0 for metals
-        Rgb f0;               ///< reflectance at normal incidence
-        float f90 = 0.0f;     ///< reflectance at grazing incidence; 0: no interface, pure Lambert
-        float alpha = 1.0f;   ///< GGX width, roughness squared
+        Rgb diffuse;         ///< base reflectance / (1 - F_avg), 0 for metals
+        Rgb f0;              ///< reflectance at normal incidence
+        float f90 = 0.0f;    ///< reflectance at grazing incidence; 0: no interface, pure Lambert
+        float alpha = 1.0f;  ///< GGX width, roughness squared
     };
 
     /// f(wi, wo), sr^-1. The caller has made sure that both lie above `n`.
@@ -102,8 +103,8 @@ MIR_HD inline BsdfSample CookTorrance::sample(const Params& p, Vec3 n, Vec3 wo, 
     const Vec3 local_wo = frame.to_local(wo);
     if (local_wo.z <= 0.0f) return {};
     const bool specular = lobe < specular_share(p, local_wo.z);
-    const Vec3 local = specular ? ggx_sample_reflection(local_wo, p.alpha, u)
-                                : square_to_cosine_hemisphere(u);
+    const Vec3 local =
+        specular ? ggx_sample_reflection(local_wo, p.alpha, u) : square_to_cosine_hemisphere(u);
     const Vec3 wi = frame.to_world(local);
     const float density = pdf(p, n, wi, wo);
     const float cos_i = glm::dot(n, wi);

@@ -31,8 +31,7 @@ MIR_HD inline float ggx_v(float cos_i, float cos_o, float alpha) {
 /// Smith masking of one direction, G1 in [0, 1].
 MIR_HD inline float ggx_g1(float cos_theta, float alpha) {
     const float a2 = alpha * alpha;
-    return 2.0f * cos_theta /
-           (cos_theta + sqrtf(cos_theta * cos_theta * (1.0f - a2) + a2));
+    return 2.0f * cos_theta / (cos_theta + sqrtf(cos_theta * cos_theta * (1.0f - a2) + a2));
 }
 
 /// Density, per steradian of wi, of ggx_sample_reflection(): G1(wo) D / (4 n.wo).

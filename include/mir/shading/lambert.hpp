@@ -15,7 +15,8 @@ struct Lambert {
     };
 
     /// f(wi, wo); the caller has made sure that both lie above `n`.
-    [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 /*n*/, Vec3 /*wi*/, Vec3 /*wo*/) {
+    [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 /*n*/, Vec3 /*wi*/,
+                                                  Vec3 /*wo*/) {
         return p.reflectance * inv_pi;
     }
 

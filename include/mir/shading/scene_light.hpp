@@ -60,8 +60,8 @@ class EmitterLight {
         return lights_->sample_emitter(std::min((i + shift.pick) / n, 0x1.fffffep-1f), uv);
     }
 
-    Rgb packet(const Hit& hit, const Surface<typename B::Params>& s, Shift shift,
-               SharedSamples shared, std::uint32_t first) const {
+    [[nodiscard]] Rgb packet(const Hit& hit, const Surface<typename B::Params>& s, Shift shift,
+                             SharedSamples shared, std::uint32_t first) const {
         PointPacket points{};
         Rgb light[PointPacket::width];
         std::uint32_t active = 0;
@@ -78,8 +78,8 @@ class EmitterLight {
         return sum_of_visible(hit.position, points, light, active);
     }
 
-    Rgb unshadowed(const Hit& hit, const Surface<typename B::Params>& s, const EmitterSample& e,
-                   Vec3& target) const {
+    [[nodiscard]] Rgb unshadowed(const Hit& hit, const Surface<typename B::Params>& s,
+                                 const EmitterSample& e, Vec3& target) const {
         const bool from_back = e.both_sides && glm::dot(hit.position - e.position, e.normal) < 0;
         const Vec3 normal = from_back ? -e.normal : e.normal;
         target = lift(e.position, normal, offset_);
@@ -91,8 +91,8 @@ class EmitterLight {
         return reflected<B>(hit, s, wi) * e.radiance * (cosine / (d2 * e.pdf_area));
     }
 
-    Rgb sum_of_visible(Vec3 origin, const PointPacket& points, const Rgb* light,
-                       std::uint32_t active) const {
+    [[nodiscard]] Rgb sum_of_visible(Vec3 origin, const PointPacket& points, const Rgb* light,
+                                     std::uint32_t active) const {
         std::uint32_t seen = active;
         if constexpr (PacketVisibility<V>) {
             if (active != 0) seen = visibility_.visible_packet(origin, points, active);
@@ -119,7 +119,8 @@ class EmitterLight {
 template <Bsdf B, Visibility V>
 class DeltaLight {
  public:
-    DeltaLight(const LightTable& lights, V visibility) : lights_(&lights), visibility_(visibility) {}
+    DeltaLight(const LightTable& lights, V visibility)
+        : lights_(&lights), visibility_(visibility) {}
 
     /// W m^-2 sr^-1 towards the viewer. Safe to call from any thread.
     [[nodiscard]] Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s) const {
@@ -136,8 +137,8 @@ class DeltaLight {
     }
 
  private:
-    Rgb from_point(const Hit& hit, const Surface<typename B::Params>& s, Vec3 position,
-                   Rgb intensity) const {
+    [[nodiscard]] Rgb from_point(const Hit& hit, const Surface<typename B::Params>& s,
+                                 Vec3 position, Rgb intensity) const {
         const Vec3 d = position - hit.position;
         const float d2 = length_squared(d);
         const Rgb light = reflected<B>(hit, s, d * (1.0f / std::sqrt(d2))) * intensity * (1 / d2);
@@ -145,8 +146,8 @@ class DeltaLight {
         return light;
     }
 
-    Rgb from_direction(const Hit& hit, const Surface<typename B::Params>& s,
-                       const DirectionalLight& l) const {
+    [[nodiscard]] Rgb from_direction(const Hit& hit, const Surface<typename B::Params>& s,
+                                     const DirectionalLight& l) const {
         const Rgb light = reflected<B>(hit, s, -l.direction) * l.irradiance;
         const Vec3 outside = hit.position - 4.0f * lights_->radius() * l.direction;
         if (is_black(light) || !visibility_.visible(outside, hit.position)) return {};

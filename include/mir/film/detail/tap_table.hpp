@@ -4,60 +4,64 @@
 #include "mir/film/filter.hpp"
 #include "mir/film/luxel_grid.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mir::detail {
 
-/// Filter weights of a band of luxel rows, computed once per luxel and axis instead of once per
-/// luxel and pixel. A tap is the offset of a pixel from the luxel's own, moved to start at zero.
-/// One thread may prepare; then any number may read.
+/// Which pixels the luxels of a cell reach, and with what weight. A tap is the offset of a pixel
+/// from the luxel's own along one axis, moved to start at zero: tap reach() is the luxel's own
+/// pixel. Reading it from several threads is safe.
 class TapTable {
  public:
+    /// Largest reach of any filter.
+    static constexpr std::uint32_t most_reach = 16;
+
+    /// Taps [begin, end).
+    struct Range {
+        std::uint32_t begin = 0;
+        std::uint32_t end = 0;
+    };
+
     /// @throws Error(invalid_argument) for a filter that is too narrow, too wide or has no lobes.
-    TapTable(const LuxelGrid& grid, const Filter& filter, std::uint64_t seed)
-        : grid_(grid), filter_(filter), seed_(seed), reach_(checked_reach(filter)) {
-        if (!jittered()) share_one_luxel();
+    TapTable(const LuxelGrid& grid, const Filter& filter)
+        : filter_(filter), reach_(checked_reach(filter)), centred_(grid.per_pixel() == 1) {
+        // The zeros of a filter may lie on the pixels around.
+        while (centred_ && reach_ > 0 && filter.along(static_cast<float>(reach_)) == 0.0f) --reach_;
+        for (std::uint32_t c = 0; c < grid.per_pixel_x; ++c)
+            x_.push_back(range(c, grid.per_pixel_x));
+        for (std::uint32_t c = 0; c < grid.per_pixel_y; ++c)
+            y_.push_back(range(c, grid.per_pixel_y));
+        if (filter.kind != FilterKind::box) tabulate();
     }
 
     /// Pixels are reached up to this far to each side.
     [[nodiscard]] std::uint32_t reach() const { return reach_; }
+    /// Number of taps along one axis.
+    [[nodiscard]] std::uint32_t taps() const { return 2 * reach_ + 1; }
 
-    /// Most rows that prepare() takes: bounds the table at 64 MiB, whatever the band.
-    [[nodiscard]] std::uint32_t max_rows() const {
-        constexpr std::uint64_t bytes = 64ull << 20;
-        const std::uint64_t row = std::uint64_t{2} * taps() * grid_.luxels().width * sizeof(float);
-        return static_cast<std::uint32_t>(std::max<std::uint64_t>(bytes / row, 1));
-    }
+    /// The taps of cell column `cx` that a luxel can reach; all others have weight zero.
+    [[nodiscard]] Range x(std::uint32_t cx) const { return x_[cx]; }
+    /// The same along y.
+    [[nodiscard]] Range y(std::uint32_t cy) const { return y_[cy]; }
 
-    /// Computes the weights of luxel rows [first, last), at most max_rows() of them.
-    template <class E>
-    void prepare(E& executor, std::uint32_t first, std::uint32_t last) {
-        if (!jittered()) return;
-        first_ = first;
-        const std::size_t needed = std::size_t{last - first} * grid_.luxels().width * taps();
-        if (x_.size() < needed) x_.resize(needed);
-        if (y_.size() < needed) y_.resize(needed);
-        const std::uint32_t top = first / grid_.per_pixel_y;
-        const std::uint32_t bottom = (last - 1) / grid_.per_pixel_y;
-        executor.for_each(bottom - top + 1, [&](std::size_t i) {
-            prepare_pixel_row(top + static_cast<std::uint32_t>(i), first, last);
-        });
-    }
-
-    /// Weights of luxel `x` along x for taps 0 .. 2 reach().
-    [[nodiscard]] const float* x(std::uint32_t x, std::uint32_t row) const {
-        if (!jittered()) return x_.data();
-        return x_.data() + (std::size_t{row - first_} * grid_.luxels().width + x) * taps();
-    }
-
-    /// Weight of luxel `x` along y for one tap.
-    [[nodiscard]] float y(std::uint32_t x, std::uint32_t row, std::uint32_t tap) const {
-        if (!jittered()) return x_[tap];
-        return y_[y_index(x, row, tap)];
+    /// Sets weights[i] to the weight for `tap` of a luxel at `offsets[i]`, in (0, 1), in its pixel.
+    void weigh(std::uint32_t tap, std::span<const float> offsets, double* weights) const {
+        if (filter_.kind == FilterKind::box) {
+            for (std::size_t i = 0; i < offsets.size(); ++i)
+                weights[i] = filter_.along(offsets[i] - 0.5f + shift(tap));
+            return;
+        }
+        const float* const curve = curves_.data() + tap * (intervals + 1);
+        for (std::size_t i = 0; i < offsets.size(); ++i) {
+            const float at = offsets[i] * float{intervals};
+            const auto node = static_cast<std::int32_t>(at);
+            const float left = curve[node], right = curve[node + 1];
+            weights[i] = left + (at - static_cast<float>(node)) * (right - left);
+        }
     }
 
  private:
@@ -69,53 +73,43 @@ class TapTable {
         return static_cast<std::uint32_t>(std::ceil(filter.half_width - 0.5f));
     }
 
-    [[nodiscard]] bool jittered() const { return grid_.per_pixel() > 1; }
-    [[nodiscard]] std::uint32_t taps() const { return 2 * reach_ + 1; }
-
-    // Taps are the slowest index here: a pixel row reads one tap of all luxels.
-    [[nodiscard]] std::size_t y_index(std::uint32_t x, std::uint32_t row, std::uint32_t tap) const {
-        return (std::size_t{row - first_} * taps() + tap) * grid_.luxels().width + x;
+    [[nodiscard]] float shift(std::uint32_t tap) const {
+        return static_cast<float>(reach_) - static_cast<float>(tap);
     }
 
-    /// Luxels at pixel centres all have the same weights, most often zeros far out.
-    void share_one_luxel() {
-        while (reach_ > 0 && filter_.along(static_cast<float>(reach_)) == 0.0f) --reach_;
-        for (std::uint32_t tap = 0; tap < taps(); ++tap) x_.push_back(weight(0.5f, tap));
+    /// Luxels never lie on the border of their cell.
+    [[nodiscard]] Range range(std::uint32_t cell, std::uint32_t cells) const {
+        const float low = static_cast<float>(cell) / static_cast<float>(cells) - 0.5f;
+        const float high = static_cast<float>(cell + 1) / static_cast<float>(cells) - 0.5f;
+        const auto misses = [&](std::uint32_t tap) {
+            if (centred_) return filter_.along(shift(tap)) == 0.0f;
+            return low + shift(tap) >= filter_.half_width ||
+                   high + shift(tap) <= -filter_.half_width;
+        };
+        Range kept{0, taps()};
+        while (kept.begin < reach_ && misses(kept.begin)) ++kept.begin;
+        while (kept.end > reach_ + 1 && misses(kept.end - 1)) --kept.end;
+        return kept;
     }
 
-    /// `offset` of a luxel in its pixel, 0 to 1.
-    [[nodiscard]] float weight(float offset, std::uint32_t tap) const {
-        return filter_.along(offset - 0.5f + static_cast<float>(reach_) - static_cast<float>(tap));
+    // Straight lines between points h apart are off by at most h^2 / 8 max|f''|: 3e-8 for the
+    // default filter, less than the rounding of its own arithmetic. Luxels at pixel centres meet a
+    // point, so that zeros there stay exact.
+    static constexpr std::int32_t intervals = 4096;
+
+    void tabulate() {
+        for (std::uint32_t tap = 0; tap < taps(); ++tap)
+            for (std::int32_t i = 0; i <= intervals; ++i)
+                curves_.push_back(
+                    filter_.along(static_cast<float>(i) / float{intervals} - 0.5f + shift(tap)));
     }
 
-    void prepare_pixel_row(std::uint32_t py, std::uint32_t first, std::uint32_t last) {
-        const std::uint32_t begin = std::max(first, py * grid_.per_pixel_y);
-        const std::uint32_t end = std::min(last, (py + 1) * grid_.per_pixel_y);
-        for (std::uint32_t px = 0; px < grid_.pixels.width; ++px) {
-            const PixelPattern pattern = grid_.pattern(px, py, seed_);
-            for (std::uint32_t row = begin; row < end; ++row)
-                for (std::uint32_t cx = 0; cx < grid_.per_pixel_x; ++cx)
-                    store(px * grid_.per_pixel_x + cx, row,
-                          pattern(cx, row - py * grid_.per_pixel_y));
-        }
-    }
-
-    void store(std::uint32_t x, std::uint32_t row, Vec2 offset) {
-        float* const along_x =
-            x_.data() + (std::size_t{row - first_} * grid_.luxels().width + x) * taps();
-        for (std::uint32_t tap = 0; tap < taps(); ++tap) {
-            along_x[tap] = weight(offset.x, tap);
-            y_[y_index(x, row, tap)] = weight(offset.y, tap);
-        }
-    }
-
-    LuxelGrid grid_;
     Filter filter_;
-    std::uint64_t seed_;
     std::uint32_t reach_;
-    std::uint32_t first_ = 0;
-    std::vector<float> x_;
-    std::vector<float> y_;
+    bool centred_;
+    std::vector<Range> x_;
+    std::vector<Range> y_;
+    std::vector<float> curves_;  ///< of each tap, its weight over offsets from 0 to 1
 };
 
 }  // namespace mir::detail

@@ -157,7 +157,7 @@ class GltfMeshes {
     }
 
     void note_unused(const tinygltf::Primitive& from) {
-        if (from.attributes.count("COLOR_0") != 0) ignore("vertex colours (COLOR_0)");
+        if (from.attributes.contains("COLOR_0")) ignore("vertex colours (COLOR_0)");
         if (!from.targets.empty()) ignore("morph targets");
         for (const auto& [name, value] : from.extensions) ignore(name);
     }

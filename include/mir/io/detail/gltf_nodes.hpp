@@ -66,9 +66,9 @@ inline GltfMatrix node_transform(const tinygltf::Node& node, const std::string& 
                        numbers_or<3>(node.scale, {1, 1, 1}, "scale", place), place);
     const auto numbers = numbers_or<16>(node.matrix, {}, "matrix", place);
     GltfMatrix m(1.0);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            m[column][row] = numbers[static_cast<std::size_t>(4 * column + row)];
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 4; ++row)
+            m[static_cast<int>(column)][static_cast<int>(row)] = numbers[4 * column + row];
     if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
         gltf_fail(place, "its matrix is not affine (the last row is not 0 0 0 1); repair it");
     return m;

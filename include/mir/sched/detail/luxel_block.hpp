@@ -24,9 +24,9 @@ struct alignas(64) BlockRadiance {
 /// What the luxels of a block have in common, for tests that throw whole blocks away. Every test is
 /// lossless: it is true only if faces() is false for every luxel of the block.
 struct BlockBounds {
-    Vec3 low{std::numeric_limits<float>::max()};      ///< corners of a box around the positions
+    Vec3 low{std::numeric_limits<float>::max()};  ///< corners of a box around the positions
     Vec3 high{std::numeric_limits<float>::lowest()};
-    Vec3 normal_low{1.0f};                            ///< and of one around the normals
+    Vec3 normal_low{1.0f};  ///< and of one around the normals
     Vec3 normal_high{-1.0f};
     bool empty = true;
 
@@ -131,9 +131,9 @@ inline void load_points(SoaView<const Hit> group, PointPacket& points) {
 /// unlit ones add zero: the loop becomes one pass over vector registers.
 template <Shading F>
 [[gnu::always_inline]] inline void add_shaded(SoaView<const Hit> hits,
-                                              SoaView<const typename F::Surface> surfaces,
-                                              Vpl vpl, F shade, std::uint32_t lit, float* r,
-                                              float* g, float* b) {
+                                              SoaView<const typename F::Surface> surfaces, Vpl vpl,
+                                              F shade, std::uint32_t lit, float* r, float* g,
+                                              float* b) {
     // Own arrays first: stores that might alias the inputs would forbid vectorising.
     float red[group_size];
     float green[group_size];

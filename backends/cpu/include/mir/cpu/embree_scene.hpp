@@ -94,10 +94,9 @@ inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray) const {
 inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
     : geometry_(&geometry), device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr)
-        throw Error(ErrorCode::device,
-                    "Embree cannot make a device on this processor (error " +
-                        std::to_string(rtcGetDeviceError(nullptr)) +
-                        "); check that its library matches the machine");
+        throw Error(ErrorCode::device, "Embree cannot make a device on this processor (error " +
+                                           std::to_string(rtcGetDeviceError(nullptr)) +
+                                           "); check that its library matches the machine");
     rtcSetDeviceErrorFunction(device_.get(), &EmbreeScene::remember, errors_.get());
     budget_->most = max_bytes;
     rtcSetDeviceMemoryMonitorFunction(device_.get(), &EmbreeScene::account, budget_.get());

@@ -1,0 +1,186 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# check_docs.sh CHECK ROOT [MIR]   checks the pages of the repository at ROOT against its files and,
+# where CHECK needs it, against the program MIR. Prints every mismatch; fails when there is one.
+set -eu
+
+check=$1
+root=$2
+mir=${3:-}
+
+cd -- "$root"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+bad=$work/bad
+: >"$bad"
+
+complain() { printf '%s\n' "$*" | tee -a "$bad" >&2; }
+
+pages() { ls README.md docs/*.md; }
+
+# Lines of a region between "// region: NAME" and "// endregion: NAME" without their common indent;
+# without NAME the whole file after its licence line.
+region() {
+    if [ -z "$2" ]; then
+        sed 1d "$1"
+        return
+    fi
+    awk -v name="$2" '
+        { line = $0; sub(/^ */, "", line) }
+        line == "// endregion: " name { on = 0; found = 1 }
+        on {
+            n++; text[n] = $0
+            if ($0 != "") {
+                match($0, /^ */)
+                if (indent == "" || RLENGTH < indent) indent = RLENGTH
+            }
+        }
+        line == "// region: " name { on = 1 }
+        END {
+            for (i = 1; i <= n; i++) print substr(text[i], indent + 1)
+            exit !found
+        }' "$1"
+}
+
+# Every C++ block is preceded by "<!-- snippet: FILE [REGION] -->" and equals what that names.
+check_code() {
+    for page in $(pages); do
+        awk -v page="$page" -v work="$work" '
+            inside && $0 == "```" { inside = 0; close(out); next }
+            inside { print >out; next }
+            /^```cpp$/ {
+                n++; inside = 1
+                out = work "/" n ".cpp"
+                printf "" >out
+                print n, (last ~ /^<!-- snippet: / ? last : "none")
+            }
+            { last = $0 }' "$page" >"$work/list"
+        while read -r n marker; do
+            name=$(printf '%s\n' "$marker" |
+                sed -n 's/^<!-- snippet: \([^ ]*\) *\([^ ]*\) *-->$/\1 \2/p')
+            file=${name%% *}
+            if [ -z "$file" ] || [ ! -f "$file" ]; then
+                complain "$page: C++ block $n is not quoted from a file ($marker)"
+            elif ! region "$file" "${name#* }" >"$work/source"; then
+                complain "$page: $file has no region '${name#* }'"
+            elif ! diff -u "$work/source" "$work/$n.cpp" >"$work/diff"; then
+                complain "$page: C++ block $n differs from $name"
+                cat "$work/diff" >&2
+            fi
+        done <"$work/list"
+    done
+}
+
+# Headings of a page as the anchors that web viewers make of them.
+anchors() {
+    awk '/^```/ { code = !code } !code && /^#+ / { sub(/^#+ /, ""); print }' "$1" |
+        tr '[:upper:]' '[:lower:]' | sed 's/[^[:alnum:] _-]//g; s/ /-/g'
+}
+
+check_links() {
+    for page in $(pages); do
+        awk '/^```/ { code = !code } !code' "$page" | grep -oE '\]\([^)]+\)' |
+            sed 's/^](//; s/)$//' | grep -v '^https\{0,1\}:' | while read -r link; do
+                file=${link%%#*}
+                target=$page
+                [ -z "$file" ] || target=$(dirname "$page")/$file
+                if [ ! -e "$target" ]; then
+                    complain "$page: link to $link, which does not exist"
+                    continue
+                fi
+                case $link in
+                *'#'*)
+                    anchors "$target" | grep -qxF -e "${link#*#}" ||
+                        complain "$page: link to $link, but no heading gives that anchor"
+                    ;;
+                esac
+            done
+    done
+    # Pages that nobody can reach are not read.
+    for page in docs/*.md; do
+        [ "$page" = docs/index.md ] || grep -q "(${page#docs/})" docs/index.md ||
+            complain "docs/index.md does not list $page"
+    done
+}
+
+# Paths in backquotes exist; nothing names a place outside of the repository.
+check_paths() {
+    for page in $(pages); do
+        # shellcheck disable=SC2016
+        grep -oE '`(include|backends|tools|tests|bench|examples|cmake|docs)/[^` ]*`' "$page" |
+            tr -d '`' | sort -u | while read -r path; do
+                [ -e "$path" ] || complain "$page names $path, which does not exist"
+            done
+        grep -nE '(^|[^[:alnum:].*/])/(home|root|work|tmp|mnt|Users|usr)/' "$page" |
+            while read -r line; do complain "$page: absolute path: $line"; done
+    done
+    # What the code cites: `docs/method.md, 4.2`.
+    grep -rhoE 'docs/method\.md, [0-9]+(\.[0-9]+)?' include backends tools tests bench examples |
+        sort -u | while read -r reference; do
+            section=${reference##* }
+            grep -qE "^#+ $(printf '%s' "$section" | sed 's/\./\\./') " docs/method.md ||
+                complain "the code cites $reference, which is no section"
+        done
+}
+
+# The rows of a section of docs/command_line.md.
+section() {
+    awk -v title="## $1" '/^## / { on = $0 == title } on' docs/command_line.md
+}
+
+check_options() {
+    for command in '' render info export devices; do
+        title=mir${command:+ $command}
+        # shellcheck disable=SC2086
+        "$mir" $command --help | grep -E '^ +-' | sed 's/  *[^ -].*//' |
+            grep -oE -e '--[a-z][a-z-]*' | sort -u >"$work/help"
+        section "$title" | grep -E '^\| `-' | cut -d'|' -f2 | grep -oE -e '--[a-z][a-z-]*' |
+            sort -u >"$work/page"
+        [ -s "$work/help" ] || complain "$title --help shows no option"
+        diff "$work/help" "$work/page" >"$work/diff" ||
+            complain "options of '$title' (<) and docs/command_line.md (>) differ:
+$(grep '^[<>]' "$work/diff")"
+    done
+    # Options in examples, wherever they stand.
+    "$mir" render --help | grep -oE -e '--[a-z][a-z-]*' | sort -u >"$work/help"
+    grep -hE '^ .*(mir render|render\.sh)|^        --' README.md docs/*.md |
+        grep -oE -e ' --[a-z][a-z-]*' | tr -d ' ' | sort -u | while read -r option; do
+            grep -qxF -e "$option" "$work/help" ||
+                complain "an example uses $option, which mir render does not know"
+        done
+}
+
+# Names that the program writes or accepts, against the page that lists them.
+listed() {
+    while read -r name; do
+        grep -qF -e "\`$name\`" "$1" || complain "$1 does not list $2 '$name'"
+    done
+}
+
+check_names() {
+    "$mir" render builtin:furnace --width 8 --height 8 --vpls 4 --json --quiet -o "$work/a.exr" |
+        grep -oE '^ *"[a-z_]+":' | tr -d ' ":' | sort -u >"$work/fields"
+    [ -s "$work/fields" ] || complain "mir render --json prints no field"
+    listed docs/command_line.md "JSON field" <"$work/fields"
+    sed -n 's/.*"\(mir:[a-z_]*\)".*/\1/p' tools/mir/render_output.cpp | sort -u |
+        listed docs/command_line.md "EXR attribute"
+    sed -n 's/^inline constexpr int exit_[a-z_]* = \([0-9]*\);/\1/p' tools/mir/exit_code.hpp |
+        while read -r code; do
+            section 'Exit codes' | grep -q "^| $code |" ||
+                complain "docs/command_line.md does not list exit code $code"
+        done
+    sed -n 's/^    {"\([a-z-]*\)", .*/\1/p' include/mir/scene/builtin.hpp >"$work/scenes"
+    [ -s "$work/scenes" ] || complain "include/mir/scene/builtin.hpp lists no scene"
+    listed docs/scene_files.md "built-in scene" <"$work/scenes"
+}
+
+case $check in
+code | links | paths | options | names) "check_$check" ;;
+*)
+    echo "usage: check_docs.sh code|links|paths|options|names ROOT [MIR]" >&2
+    exit 2
+    ;;
+esac
+
+[ ! -s "$bad" ]
