@@ -75,8 +75,8 @@ TEST_CASE("rooms are closed and turned inwards, what stands in them outwards") {
         CHECK(mirtest::is_closed(mesh(s, solid), 1e-5f));
         CHECK(mirtest::volume(mesh(s, solid)) > 0.0);
     }
-    const mir::Mesh& furnace = mesh(builtin::make("furnace"), "box");
-    CHECK(furnace.triangles.size() == 12);
+    const Scene furnace = builtin::make("furnace");
+    CHECK(mesh(furnace, "box").triangles.size() == 12);
     const Scene cornell = builtin::make("cornell-box");
     for (const char* block : {"tall block", "short block"}) {
         CHECK(mirtest::is_closed(mesh(cornell, block)));

@@ -207,9 +207,10 @@ inline Image<Rgb> Film::develop(std::size_t layer) const {
             if (std::fabs(weight) < least) continue;
             const double* const red =
                 sums + (1 + 3 * layer) * detail::film_columns + x % detail::film_columns;
+            constexpr std::size_t plane = detail::film_columns;
             image(x, y) = {static_cast<float>(red[0] / weight),
-                           static_cast<float>(red[detail::film_columns] / weight),
-                           static_cast<float>(red[2 * detail::film_columns] / weight)};
+                           static_cast<float>(red[plane] / weight),
+                           static_cast<float>(red[2 * plane] / weight)};
         }
     return image;
 }

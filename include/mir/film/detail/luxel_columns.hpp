@@ -139,7 +139,7 @@ inline void LuxelColumns::add_layer(std::size_t layer, std::uint32_t tap_y, doub
     for (std::uint32_t c = 0; c < cells(); ++c) {
         const double* const weight = weights(y_, c, tap_y);
         const float* const value = values(layer, c);
-        double* const product = products_.data() + 3 * c * stride;
+        double* const product = products_.data() + std::size_t{3} * c * stride;
         for (std::uint32_t k = 0; k < 3; ++k)
             for (std::uint32_t i = 0; i < needed(); ++i)
                 product[k * stride + i] = weight[i] * static_cast<double>(value[k * stride + i]);
@@ -152,8 +152,9 @@ template <std::uint32_t channels>
 void LuxelColumns::add_products(double* sums) {
     for (std::uint32_t c = 0; c < cells(); ++c) {
         const auto [begin, end] = taps_.x(c);
-        const double* const weight = weights(x_, c, 0) + 2 * taps_.reach();
-        const double* const product = products_.data() + channels * c * stride + 2 * taps_.reach();
+        const double* const weight = weights(x_, c, 0) + std::size_t{2} * taps_.reach();
+        const double* const product =
+            products_.data() + std::size_t{channels} * c * stride + std::size_t{2} * taps_.reach();
         std::uint32_t tap = begin;
         for (; tap + 3 <= end; tap += 3)
             add_taps<channels, 3>(weight + tap * (stride - 1), product - tap, sums);

@@ -55,7 +55,7 @@ class TapTable {
                 weights[i] = filter_.along(offsets[i] - 0.5f + shift(tap));
             return;
         }
-        const float* const curve = curves_.data() + tap * (intervals + 1);
+        const float* const curve = curves_.data() + std::size_t{tap} * (intervals + 1);
         for (std::size_t i = 0; i < offsets.size(); ++i) {
             const float at = offsets[i] * float{intervals};
             const auto node = static_cast<std::int32_t>(at);

@@ -60,6 +60,13 @@ class EmbreeScene {
     struct MemoryBudget {
         std::atomic<std::int64_t> used{0};
         std::int64_t most = 0;
+
+        MemoryBudget() = default;
+        MemoryBudget(const MemoryBudget&) = delete;
+        MemoryBudget& operator=(const MemoryBudget&) = delete;
+        /// Embree's last access comes first: said once more for thread sanitizers, which cannot see
+        /// into its binary.
+        ~MemoryBudget() { static_cast<void>(used.load(std::memory_order_acquire)); }
     };
 
     void add_triangles();
