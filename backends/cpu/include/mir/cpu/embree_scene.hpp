@@ -59,13 +59,13 @@ class EmbreeScene {
     /// Bytes that Embree holds and may hold; counted from any of its threads.
     struct MemoryBudget {
         std::atomic<std::int64_t> used{0};
-        std::int64_t most = 0;
+        std::atomic<std::int64_t> most{0};
 
         MemoryBudget() = default;
         MemoryBudget(const MemoryBudget&) = delete;
         MemoryBudget& operator=(const MemoryBudget&) = delete;
-        /// Embree's last access comes first: said once more for thread sanitizers, which cannot see
-        /// into its binary.
+        // Embree's threads come after construction and are done before destruction; acquire and
+        // release say so once more for thread sanitizers, which cannot see into its binary.
         ~MemoryBudget() { static_cast<void>(used.load(std::memory_order_acquire)); }
     };
 
@@ -105,7 +105,7 @@ inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_
                                            std::to_string(rtcGetDeviceError(nullptr)) +
                                            "); check that its library matches the machine");
     rtcSetDeviceErrorFunction(device_.get(), &EmbreeScene::remember, errors_.get());
-    budget_->most = max_bytes;
+    budget_->most.store(max_bytes, std::memory_order_release);
     rtcSetDeviceMemoryMonitorFunction(device_.get(), &EmbreeScene::account, budget_.get());
     scene_.reset(rtcNewScene(device_.get()));
     throw_if_failed();
@@ -147,9 +147,9 @@ inline void EmbreeScene::throw_if_failed() const {
 
 inline bool EmbreeScene::account(void* budget, ssize_t bytes, bool /*after*/) {
     auto* b = static_cast<MemoryBudget*>(budget);
-    const std::int64_t used = b->used.fetch_add(bytes) + bytes;
+    const std::int64_t most = b->most.load(std::memory_order_acquire);
     // Embree ignores the answer for memory that is given back.
-    return used <= b->most;
+    return b->used.fetch_add(bytes) + bytes <= most;
 }
 
 inline void EmbreeScene::remember(void* errors, RTCError code, const char* text) {

@@ -20,26 +20,55 @@ class TbbExecutor {
 
     template <class Body>
     void for_each(std::size_t n, Body&& body) {
-        // oneTBB orders the caller before the bodies and the bodies before the return. Thread
-        // sanitizers cannot see into its binary; the counter tells them the same.
-        std::atomic<std::size_t> edge{0};
-        edge.store(1, std::memory_order_release);
+        HandOver edge;
+        edge.give();
+        const TakeAtEnd bodies_are_done(edge);
         arena_.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1),
                               [&](const tbb::blocked_range<std::size_t>& range) {
-                                  static_cast<void>(edge.load(std::memory_order_acquire));
+                                  edge.take();
+                                  const GiveAtEnd body_is_done(edge);
                                   for (std::size_t i = range.begin(); i != range.end(); ++i)
                                       body(i);
-                                  edge.fetch_add(1, std::memory_order_release);
                               });
         });
-        static_cast<void>(edge.load(std::memory_order_acquire));
     }
     [[nodiscard]] std::size_t concurrency() const {
         return static_cast<std::size_t>(arena_.max_concurrency());
     }
 
  private:
+    /// oneTBB orders the caller before the bodies and the bodies before the return, also when they
+    /// throw. Thread sanitizers cannot see into its binary; this counter tells them the same.
+    class HandOver {
+     public:
+        void give() { edge_.fetch_add(1, std::memory_order_release); }
+        void take() const { static_cast<void>(edge_.load(std::memory_order_acquire)); }
+
+     private:
+        std::atomic<std::size_t> edge_{0};
+    };
+    class GiveAtEnd {
+     public:
+        explicit GiveAtEnd(HandOver& edge) : edge_(edge) {}
+        GiveAtEnd(const GiveAtEnd&) = delete;
+        GiveAtEnd& operator=(const GiveAtEnd&) = delete;
+        ~GiveAtEnd() { edge_.give(); }
+
+     private:
+        HandOver& edge_;
+    };
+    class TakeAtEnd {
+     public:
+        explicit TakeAtEnd(const HandOver& edge) : edge_(edge) {}
+        TakeAtEnd(const TakeAtEnd&) = delete;
+        TakeAtEnd& operator=(const TakeAtEnd&) = delete;
+        ~TakeAtEnd() { edge_.take(); }
+
+     private:
+        const HandOver& edge_;
+    };
+
     tbb::task_arena arena_;
 };
 
