@@ -12,6 +12,7 @@
 #include "support/statistics.hpp"
 
 #include <array>
+#include <cmath>
 
 // Light inside a sphere with Lambertian walls has no variance: whatever the VPLs, each lights every
 // point alike (docs/method.md, 9.3). What is left to see is an error.
@@ -177,6 +178,34 @@ TEST_CASE("a bright cap lights the sphere with rho L A / (4 pi R^2)") {
     const double expected = 0.6 * 7 * static_cast<double>(cap) / (4 * mirtest::pi * r * r);
     const auto picture = image(luxels(sphere), vpls.span());
     for (const mir::Rgb& l : picture.pixels()) CHECK(l.r == Approx(expected).epsilon(1e-5));
+}
+
+TEST_CASE("the furnace: where every wall emits L and reflects rho, radiance is L / (1 - rho)") {
+    // Inside a sphere all walls together send out the power of the bulb when L = power / (pi A),
+    // and light of any origin arrives evenly: the bulb stands in for them from bounce 2 on. What
+    // flooring cuts off after bounce B is rho^(B+1) of the whole, exactly.
+    const Sphere sphere(0.6f, 0.6f);
+    const GBuffer g = luxels(sphere);
+    const double r = sphere.lifted_radius();
+    const double emission = power / (mirtest::pi * 4 * mirtest::pi * r * r);
+    VplList walls;
+    constexpr std::uint32_t count = 64;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const mir::Vec2 u((static_cast<float>(i) + 0.5f) / count, static_cast<float>(i % 8) / 8.0f);
+        const auto p = sphere.caster().point(mir::square_to_sphere(u));
+        const auto j = static_cast<float>(power / mirtest::pi / count);
+        const Vec3 at = mir::lift(p.position, p.geometric_normal, sphere.geometry.ray_offset());
+        walls.push_back({at, p.geometric_normal, {j, j, j}}, {});
+    }
+    const VplList vpls = sphere.vpls(options(Termination::levels));
+    const auto first = image(g, walls.span());
+    const auto rest = image(g, vpls.span());
+    const double cut = std::pow(0.6, vpls.max_bounce() + 1);
+    for (std::size_t i = 0; i < first.pixels().size(); ++i) {
+        const double radiance = emission + static_cast<double>(first.pixels()[i].g) +
+                                static_cast<double>(rest.pixels()[i].g);
+        REQUIRE(radiance == Approx(emission * (1 - cut) / (1 - 0.6)).epsilon(1e-5));
+    }
 }
 
 TEST_CASE("halves that reflect differently differ by nothing but their reflectance") {

@@ -36,14 +36,6 @@ inline void occluded16(const int* valid, RTCScene scene, RTCRay16& rays) {
     rtcOccluded16(valid, scene, &rays, &arguments);
 }
 
-/// Eight rays from one origin.
-inline void occluded8(const int* valid, RTCScene scene, RTCRay8& rays) {
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-    rtcOccluded8(valid, scene, &rays, &arguments);
-}
-
 #else
 
 inline RTCIntersectContext context(RTCIntersectContextFlags flags) {
@@ -67,12 +59,6 @@ inline void occluded1(RTCScene scene, RTCRay& ray) {
 inline void occluded16(const int* valid, RTCScene scene, RTCRay16& rays) {
     RTCIntersectContext c = context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     rtcOccluded16(valid, scene, &c, &rays);
-}
-
-/// Eight rays from one origin.
-inline void occluded8(const int* valid, RTCScene scene, RTCRay8& rays) {
-    RTCIntersectContext c = context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-    rtcOccluded8(valid, scene, &c, &rays);
 }
 
 #endif
