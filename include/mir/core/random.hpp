@@ -7,7 +7,21 @@ namespace mir {
 
 /// What a random number is for. Streams never share numbers, so adding a draw to one stage leaves
 /// every other stage's results as they were.
-enum class Stream : std::uint32_t { luxel = 1, lens, direct_light, light_path, pilot, test };
+enum class Stream : std::uint32_t {
+    luxel = 1,
+    lens,
+    direct_light,
+    light_path,
+    pilot,
+    test,
+    bootstrap,  ///< independent paths that estimate P_c and seed the chains
+    seeding,    ///< choice of the chains' first states
+    mutation,   ///< proposals of a chain
+    suffix,     ///< refreshed light ends of recorded states
+    probe,      ///< luxels that estimate image responses before there is an image
+    candidate,  ///< what resampled importance sampling chooses from
+    reference   ///< path tracer
+};
 
 /// 128 bits as four words; a plain array, because device code cannot index std::array.
 struct Bits128 {
