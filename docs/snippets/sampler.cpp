@@ -37,9 +37,11 @@ class LampSampler {
             if (!e.emitter) continue;  // a light without extent
             mir::Vpl vpl = mir::emitter_vpl(e);
             vpl.intensity = vpl.intensity * (1.0f / static_cast<float>(vpls_));
-            out.records.push_back({vpl,
-                                   {mir::VplKind::emitter, 1, e.light_group, 1, e.emitter->triangle,
-                                    e.emitter->barycentrics}});
+            out.records.push_back(
+                {vpl,
+                 {mir::VplKind::emitter, e.emitter->triangle, e.emitter->barycentrics},
+                 1,
+                 e.light_group});
         }
         return out;
     }

@@ -30,10 +30,11 @@ struct CameraRays {
 };
 
 /// First phase: traces the camera ray of every luxel of `gbuffer`, which holds the rows from
-/// `first_row` on of the luxel image. Points are lifted by `ray_offset` metres.
-template <Bsdf B, RayCaster R, Executor E>
+/// `first_row` on of the luxel image. `rays(x, y)` is the ray of a luxel, as in CameraRays. Points
+/// are lifted by `ray_offset` metres.
+template <Bsdf B, class Rays, RayCaster R, Executor E>
 void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t first_row,
-                  const CameraRays& rays, const R& caster, const SurfaceTable<B>& surfaces,
+                  const Rays& rays, const R& caster, const SurfaceTable<B>& surfaces,
                   float ray_offset, E& executor) {
     struct Row {
         TileIndex tile;

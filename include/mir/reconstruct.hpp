@@ -2,15 +2,16 @@
 #pragma once
 
 #include "mir/concepts/gbuffer.hpp"
+#include "mir/concepts/known_visibility.hpp"
 #include "mir/concepts/scheduler.hpp"
 #include "mir/concepts/shading.hpp"
-#include "mir/concepts/visibility.hpp"
 #include "mir/concepts/vpl_set.hpp"
 
 namespace mir {
 
-/// What a scheduler works on.
-template <TiledGBuffer G, VplSet P, Visibility V, Shading F>
+/// What a scheduler works on. `visibility` is a way to trace segments, or bits that were traced
+/// before.
+template <TiledGBuffer G, VplSet P, VisibilitySource V, Shading F>
 struct Inputs {
     const G& gbuffer;
     P vpls;
@@ -23,7 +24,7 @@ struct Inputs {
 ///
 /// The scheduler decides where and when things run, never what comes out.
 /// @throws Error whatever the backend reports.
-template <class S, TiledGBuffer G, VplSet P, Visibility V, Shading F>
+template <class S, TiledGBuffer G, VplSet P, VisibilitySource V, Shading F>
 Image<Rgb> reconstruct(const S& scheduler, const G& gbuffer, P vpls, V visibility, F shading) {
     using In = Inputs<G, P, V, F>;
     using Luxels = decltype(gbuffer.view(TileIndex{}));

@@ -24,6 +24,8 @@ inline bool same_records(const mir::VplRecords& a, const mir::VplRecords& b) {
         const mir::VplRecord& y = b.records[i];
         if (bits_of(x.vpl) != bits_of(y.vpl)) return false;
         if (!same_place(x.origin, y.origin) || x.lambertian != y.lambertian) return false;
+        if (x.bounce != y.bounce || x.light_group != y.light_group || x.weight != y.weight)
+            return false;
     }
     return true;
 }
@@ -37,7 +39,7 @@ inline void records_are_sound(const mir::VplRecords& from) {
             mir::is_finite(j) && j.r >= 0.0f && j.g >= 0.0f && j.b >= 0.0f && !mir::is_black(j);
         const bool placed =
             mir::is_finite(r.vpl.position) && std::fabs(glm::length(r.vpl.normal) - 1.0f) < 1e-4f;
-        bad += radiant && placed && r.origin.bounce >= 1 ? 0 : 1;
+        bad += radiant && placed && r.bounce >= 1 && r.weight > 0.0f ? 0 : 1;
     }
     CHECK(bad == 0);
     CHECK(std::isfinite(from.emitted_power));

@@ -130,7 +130,7 @@ section() {
 }
 
 check_options() {
-    for command in '' render info export devices; do
+    for command in '' render info export compare devices; do
         title=mir${command:+ $command}
         # shellcheck disable=SC2086
         "$mir" $command --help | grep -E '^ +-' | sed 's/  *[^ -].*//' |
@@ -162,6 +162,8 @@ check_names() {
     "$mir" render builtin:furnace --width 8 --height 8 --vpls 4 --json --quiet -o "$work/a.exr" |
         grep -oE '^ *"[a-z_]+":' | tr -d ' ":' | sort -u >"$work/fields"
     [ -s "$work/fields" ] || complain "mir render --json prints no field"
+    "$mir" compare "$work/a.exr" "$work/a.exr" --json --html "$work/a.html" \
+        --error "$work/error.png" | grep -oE '^ *"[a-z_]+":' | tr -d ' ":' | sort -u >>"$work/fields"
     listed docs/command_line.md "JSON field" <"$work/fields"
     sed -n 's/.*"\(mir:[a-z_]*\)".*/\1/p' tools/mir/render_output.cpp | sort -u |
         listed docs/command_line.md "EXR attribute"

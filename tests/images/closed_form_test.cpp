@@ -3,6 +3,7 @@
 // Whole renders against numbers known in closed form.
 #include "support.hpp"
 #include "support/catch.hpp"
+#include "support/statistics.hpp"
 
 using namespace mirtest;
 
@@ -39,6 +40,7 @@ TEST_CASE("facing unit squares exchange light by their form factor", "[statistic
     std::vector<double> values;
     for (std::uint64_t seed = 0; seed < 16; ++seed) {
         auto settings = small_settings(64, 16);
+        settings.sampler = mir::SamplerKind::instant_radiosity;
         settings.seed = seed;
         settings.luxels_per_pixel = 4;
         const auto r = render(scene, settings);
@@ -50,49 +52,56 @@ TEST_CASE("facing unit squares exchange light by their form factor", "[statistic
 }
 
 TEST_CASE("VPLs on the lamp give the same form factor", "[statistical]") {
-    // H0: as above, with direct light by 512 VPLs on the lamp; z over 16 seeds, level 0.1 %.
+    // H0: as above, with direct light by 512 VPLs on the lamp; Student's t over 16 seeds, level 1 %
+    // over 3 samplers.
     const mir::Scene scene = seen_from_above(mir::builtin::parallel_squares(), {0, 0, 0}, 0.9f);
-    std::vector<double> values;
-    for (std::uint64_t seed = 0; seed < 16; ++seed) {
+    for (const mir::SamplerKind sampler : samplers) {
+        Moments f;
         auto settings = small_settings(32, 512);
-        settings.seed = seed;
+        settings.sampler = sampler;
         settings.direct = mir::DirectLight::vpl;
         settings.max_bounce = 1;
-        const auto r = render(scene, settings);
-        REQUIRE(mean_luminance(r.direct) == 0.0);
-        values.push_back(mean_of_receiver(r, r.indirect));
+        for (settings.seed = 0; settings.seed < 16; ++settings.seed) {
+            const auto r = render(scene, settings);
+            REQUIRE(mean_luminance(r.direct) == 0.0);
+            f.add(mean_of_receiver(r, r.indirect));
+        }
+        CAPTURE(int(sampler), f.mean(), f.standard_error());
+        CHECK(mean_p_value(f, 0.199824896, 1e-5) > sidak(0.01, samplers.size()));
     }
-    const Estimate e = estimate(values);
-    CHECK(std::abs(e.mean - 0.199824896) < 3.29 * e.error + 1e-4);
 }
 
 TEST_CASE("the furnace has radiance L / (1 - rho) in every bounce", "[statistical]") {
-    // H0: D_0 = L, D_1 = rho L, D_b = rho^b L with rho = L = 0.5; z over 32 seeds with Sidak's
-    // level for 5 tests of a family at 1 % (|z| < 3.09). No bound, so nothing is removed.
+    // H0: D_0 = L, D_1 = rho L, D_b = rho^b L with rho = L = 0.5; Student's t over 32 seeds, level
+    // 1 % over 5 means and 3 samplers. No bound, so nothing is removed.
     const mir::Scene scene = mir::builtin::furnace_box(0.5f, 0.5f);
-    std::vector<std::vector<double>> d(6);
-    for (std::uint64_t seed = 0; seed < 32; ++seed) {
+    const double expected[] = {0.5, 0.25, 0.125, 0.0625, 0.03125, 1.0};
+    for (const mir::SamplerKind sampler : samplers) {
+        std::vector<Moments> d(std::size(expected));
         auto settings = small_settings(24, 512);
-        settings.seed = seed;
+        settings.sampler = sampler;
         settings.bounce_layers = true;
         settings.direct_samples = 16;
-        const auto r = render(scene, settings);
-        CHECK(mean_luminance(r.emission) == mirtest::Approx(0.5).epsilon(1e-6));
-        d[1].push_back(mean_luminance(r.direct));
-        for (std::size_t b = 2; b <= 4; ++b)
-            d[b].push_back(b - 1 < r.bounces.size() ? mean_luminance(r.bounces[b - 1]) : 0.0);
-        d[5].push_back(mean_luminance(r.beauty));
-    }
-    const double expected[] = {0.5, 0.25, 0.125, 0.0625, 0.03125, 1.0};
-    for (std::size_t b = 1; b < d.size(); ++b) {
-        const Estimate e = estimate(d[b]);
-        CAPTURE(b, e.mean, e.error);
-        CHECK(std::abs(e.mean - expected[b]) < 3.09 * e.error);
+        settings.metropolis.stride = 16;
+        for (settings.seed = 0; settings.seed < 32; ++settings.seed) {
+            const auto r = render(scene, settings);
+            CHECK(mean_luminance(r.emission) == Approx(0.5).epsilon(1e-6));
+            d[1].add(mean_luminance(r.direct));
+            for (std::size_t b = 2; b <= 4; ++b)
+                d[b].add(b - 1 < r.bounces.size() ? mean_luminance(r.bounces[b - 1]) : 0.0);
+            d[5].add(mean_luminance(r.beauty));
+        }
+        for (std::size_t b = 1; b < d.size(); ++b) {
+            CAPTURE(int(sampler), b, d[b].mean(), d[b].standard_error());
+            CHECK(mean_p_value(d[b], expected[b]) > sidak(0.01, 5 * samplers.size()));
+        }
     }
 }
 
 TEST_CASE("shading and its remainder under a bound add up to unbounded shading") {
     auto settings = small_settings(32, 64);
+    // Chains look at the image through the bound, so theirs would be other VPLs.
+    settings.sampler = mir::SamplerKind::instant_radiosity;
     const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
     const auto free = render(scene, settings);
     settings.bound = {mir::BoundPolicy::Kind::fixed, 2.0f};

@@ -4,6 +4,7 @@
 #include "mir/cpu/register.hpp"
 #include "mir/scene/builtin.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -26,6 +27,10 @@ inline mir::RenderSettings small_settings(std::uint32_t side, std::uint32_t vpls
     s.tile = {32, 32};
     return s;
 }
+
+/// Where VPLs may come from.
+inline constexpr std::array samplers{mir::SamplerKind::instant_radiosity,
+                                     mir::SamplerKind::bidirectional, mir::SamplerKind::metropolis};
 
 /// Mean of a picture, channel by channel, in double.
 struct Mean {

@@ -53,13 +53,13 @@ Scene coloured_furnace() {
 Rgb reflected_power(const VplRecords& from, int bounce) {
     Rgb sum;
     for (const VplRecord& r : from.records)
-        if (r.origin.bounce == bounce) sum += r.vpl.intensity * mir::pi;
+        if (r.bounce == bounce) sum += r.vpl.intensity * mir::pi;
     return sum;
 }
 std::size_t count(const VplRecords& from, int bounce) {
     return static_cast<std::size_t>(
         std::count_if(from.records.begin(), from.records.end(),
-                      [&](const VplRecord& r) { return r.origin.bounce == bounce; }));
+                      [&](const VplRecord& r) { return r.bounce == bounce; }));
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ TEST_CASE("few bounces still bring close to the wanted number of VPLs") {
         const VplRecords records = stage.sample(options);
         CAPTURE(int{bounces}, records.paths);
         CHECK(records.records.size() == Approx(1000).epsilon(0.1));
-        for (const VplRecord& r : records.records) REQUIRE(r.origin.bounce <= bounces);
+        for (const VplRecord& r : records.records) REQUIRE(r.bounce <= bounces);
         CHECK(count(records, bounces) > 0);
     }
     options.max_bounce = 1;
@@ -156,9 +156,9 @@ TEST_CASE("VPLs on the lamp carry L / pdf and appear only when asked for") {
     CHECK(count(records, 1) == records.paths);
     CHECK(reflected_power(records, 1).b == Approx(3 * mirtest::pi * 24).epsilon(1e-4));
     for (const VplRecord& r : records.records) {
-        CHECK((r.origin.kind == VplKind::emitter) == (r.origin.bounce == 1));
-        CHECK(r.origin.light_group == 4);
-        CHECK(r.origin.multiplicity == 1);
+        CHECK((r.origin.kind == VplKind::emitter) == (r.bounce == 1));
+        CHECK(r.light_group == 4);
+        CHECK(r.weight == 1);
         CHECK(r.lambertian);
         CHECK(mir::length_squared(r.vpl.position) < 3.0f);
         CHECK(glm::dot(r.vpl.normal, r.vpl.position) < 0.0f);

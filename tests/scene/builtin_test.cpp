@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/scene/builtin.hpp"
 
+#include "conformance/brute_force.hpp"
 #include "mir/scene/light_table.hpp"
 #include "mir/scene/scene_hash.hpp"
 #include "support/catch.hpp"
@@ -82,6 +83,40 @@ TEST_CASE("rooms are closed and turned inwards, what stands in them outwards") {
         CHECK(mirtest::is_closed(mesh(cornell, block)));
         CHECK(mirtest::volume(mesh(cornell, block)) > 0.0);
     }
+}
+
+TEST_CASE("the garage is closed and small, its lamps are behind the wall and face the ceiling") {
+    const Scene s = builtin::make("garage");
+    const WorldGeometry geometry(s);
+    CHECK(geometry.triangles().size() < 500);
+    CHECK(mirtest::is_closed(mesh(s, "shell")));
+    CHECK(mirtest::volume(mesh(s, "shell")) == Approx(-6.0 * 3 * 12));
+    CHECK(s.cameras[0].position.z > 0.0f);
+    for (const mir::Mesh& m : s.meshes) {
+        CAPTURE(m.name);
+        if (m.name == "lamp") {
+            CHECK(mirtest::normal(m, m.triangles[0]).y == Approx(1.0f));
+            for (const Vec3& p : m.positions) CHECK(p.z < -0.1f);
+        } else if (m.name != "shell") {
+            CHECK(mirtest::is_closed(m));
+            CHECK(mirtest::volume(m) > 0.0);
+        }
+    }
+}
+
+TEST_CASE("the garage's door leaves a gap that the camera cannot look through") {
+    const Scene s = builtin::make("garage");
+    const WorldGeometry geometry(s);
+    const mirtest::BruteForceVisibility sight{mirtest::Referee(geometry)};
+    const Vec3 before_gap(0.74f, 1, 1);
+    const Vec3 camera = s.cameras[0].position;
+    CHECK(sight.visible({1.6f, 1, -1.5f}, before_gap));
+    CHECK(sight.visible(before_gap, camera));
+    std::size_t seen = 0;
+    for (float y = 0.05f; y < 2.1f; y += 0.1f)
+        for (float x = 1.01f; x < 1.9f; x += 0.02f)
+            seen += sight.visible({x, y, -0.2f}, camera) ? 1u : 0u;
+    CHECK(seen == 0);
 }
 
 TEST_CASE("the furnace's walls all emit towards its centre") {

@@ -10,7 +10,7 @@ using nlohmann::json;
 TEST_CASE("a render's statistics come as JSON, and nothing else on standard output") {
     const TemporaryFolder folder("render_json");
     const Outcome outcome =
-        run_mir(small_render(folder / "a.exr") + Words{"--json", "--seed", "5"});
+        run_mir(small_render(folder / "a.exr") + Words{"--sampler", "ir", "--json", "--seed", "5"});
     REQUIRE(outcome.exit_code == 0);
     CHECK(outcome.err.empty());
     const json all = json::parse(outcome.out);
@@ -35,9 +35,26 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
     CHECK(all.at("removed_share").get<double>() >= 0.0);
     CHECK(all.at("peak_memory_bytes").get<double>() > 1e6);
     CHECK(all.at("warnings").is_array());
-    for (const char* key :
-         {"build", "sampling", "gbuffer", "direct", "reconstruction", "ledger", "film", "total"})
+    CHECK(all.at("normalisation") == "none");
+    CHECK(all.at("indirect_luminance").get<double>() > 0.0);
+    for (const char* key : {"path_luminance", "states", "dropped_share"})
+        CHECK(all.at(key).get<double>() == 0.0);
+    for (const char* key : {"build", "sampling", "gbuffer", "visibility", "response", "direct",
+                            "reconstruction", "ledger", "film", "total"})
         CHECK(all.at("seconds").at(key).get<double>() >= 0.0);
+}
+
+TEST_CASE("normalised VPLs give the image the luminance that the sampler found") {
+    const TemporaryFolder folder("render_json_energy");
+    const Outcome outcome =
+        run_mir(small_render(folder / "a.exr") + Words{"--sampler", "mir", "--json"});
+    REQUIRE(outcome.exit_code == 0);
+    const json all = json::parse(outcome.out);
+    CHECK(all.at("normalisation") == "full");
+    CHECK(all.at("states").get<double>() > 0.0);
+    const double kept = 1.0 - all.at("dropped_share").get<double>();
+    CHECK(all.at("indirect_luminance").get<double>() ==
+          Approx(all.at("path_luminance").get<double>() * kept).epsilon(1e-5));
 }
 
 TEST_CASE("the mean radiance of the JSON is that of the file") {
@@ -57,8 +74,8 @@ TEST_CASE("the mean radiance of the JSON is that of the file") {
 
 TEST_CASE("warnings appear in the JSON even when the render is quiet") {
     const TemporaryFolder folder("render_json_warning");
-    const Outcome outcome =
-        run_mir(small_render(folder / "a.exr") + Words{"--json", "--bound", "0.0001"});
+    const Outcome outcome = run_mir(small_render(folder / "a.exr") +
+                                    Words{"--json", "--sampler", "ir", "--bound", "0.0001"});
     CHECK(outcome.err.empty());
     const json warnings = json::parse(outcome.out).at("warnings");
     REQUIRE(warnings.size() == 1);

@@ -152,7 +152,18 @@ TEST_CASE("the header tells how the picture was made") {
     CHECK(attribute_of(path, "mir:seconds") == "none");
     render(small_render(path) + Words{"--record-seconds"});
     CHECK(std::stof(attribute_of(path, "mir:seconds")) > 0.0f);
-    CHECK(attribute_of(path, "mir:sampler") == "ir");
+    CHECK(attribute_of(path, "mir:sampler") == "mir");
+    CHECK(attribute_of(path, "mir:normalisation") == "full");
+    CHECK(std::stoi(attribute_of(path, "mir:states")) > 0);
+    CHECK(std::stof(attribute_of(path, "mir:path_luminance")) > 0.0f);
+    CHECK(std::stof(attribute_of(path, "mir:path_luminance_error")) > 0.0f);
+    CHECK(std::stof(attribute_of(path, "mir:large_step_luminance")) > 0.0f);
+    CHECK(std::stof(attribute_of(path, "mir:acceptance_large")) > 0.0f);
+    CHECK(std::stof(attribute_of(path, "mir:acceptance_small")) > 0.0f);
+    CHECK(std::stof(attribute_of(path, "mir:acceptance_suffix")) > 0.0f);
+    CHECK(std::stof(attribute_of(path, "mir:effective_samples")) >= 1.0f);
+    CHECK(std::stof(attribute_of(path, "mir:split_r_hat")) > 0.9f);
+    CHECK(std::stof(attribute_of(path, "mir:dropped_share")) >= 0.0f);
 }
 
 TEST_CASE("every choice is accepted and changes the picture") {
@@ -163,17 +174,47 @@ TEST_CASE("every choice is accepted and changes the picture") {
     };
     const auto usual = picture({});
     for (const Words& same :
-         {Words{"--sampler", "ir"}, Words{"--sequence", "random"}, Words{"--direct", "separate"},
-          Words{"--filter", "lanczos"}, Words{"--bound", "auto"}, Words{"--bounces", "32"},
-          Words{"--direct-samples", "16"}, Words{"--camera", "0"}, Words{"--camera", "front"}}) {
+         {Words{"--sampler", "mir"}, Words{"--normalise", "full"}, Words{"--stride", "64"},
+          Words{"--tries", "8"}, Words{"--large-steps", "0.5"}, Words{"--mutation", "primary"},
+          Words{"--paths", "bidirectional"}, Words{"--suffix-refresh", "8"},
+          Words{"--bootstrap-error", "0.03"}, Words{"--stop", "fixed"},
+          Words{"--integrator", "vpl"}, Words{"--sequence", "random"},
+          Words{"--direct", "separate"}, Words{"--filter", "lanczos"}, Words{"--bound", "auto"},
+          Words{"--bounces", "32"}, Words{"--direct-samples", "16"}, Words{"--camera", "0"},
+          Words{"--camera", "front"}}) {
         INFO(same[0] << " " << same[1]);
         CHECK(largest_difference(picture(same), usual) == 0.0f);
     }
-    for (const Words& other :
-         {Words{"--sampler", "keller"}, Words{"--sequence", "halton"}, Words{"--direct", "vpl"},
-          Words{"--filter", "box"}, Words{"--filter", "mitchell"}, Words{"--bound", "none"},
-          Words{"--bound", "0.01"}, Words{"--bounces", "1"}, Words{"--direct-samples", "4"},
-          Words{"--seed", "1"}}) {
+    for (const Words& other : {Words{"--sampler", "ir"},
+                               Words{"--sampler", "keller"},
+                               Words{"--sampler", "bir"},
+                               Words{"--sampler", "roulette"},
+                               Words{"--sampler", "ir", "--sequence", "halton"},
+                               Words{"--normalise", "prepass"},
+                               Words{"--normalise", "proposal"},
+                               Words{"--normalise", "prepass", "--prepass-luxels", "100"},
+                               Words{"--chains", "3"},
+                               Words{"--stride", "3"},
+                               Words{"--tries", "2"},
+                               Words{"--large-steps", "0.3"},
+                               Words{"--mutation", "bidirectional"},
+                               Words{"--paths", "camera"},
+                               Words{"--suffix-refresh", "1"},
+                               Words{"--bootstrap-error", "0.2"},
+                               Words{"--stop", "paper"},
+                               Words{"--integrator", "path"},
+                               Words{"--integrator", "path", "--samples", "4"},
+                               Words{"--integrator", "path", "--light-search", "lamps"},
+                               Words{"--integrator", "path", "--light-search", "directions"},
+                               Words{"--integrator", "path", "--directions", "2"},
+                               Words{"--direct", "vpl"},
+                               Words{"--filter", "box"},
+                               Words{"--filter", "mitchell"},
+                               Words{"--bound", "none"},
+                               Words{"--bound", "0.01"},
+                               Words{"--bounces", "1"},
+                               Words{"--direct-samples", "4"},
+                               Words{"--seed", "1"}}) {
         INFO(other[0] << " " << other[1]);
         CHECK(largest_difference(picture(other), usual) > 0.0f);
     }

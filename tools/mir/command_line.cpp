@@ -80,13 +80,107 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target,
         ->type_name(names);
 }
 
+/// What --sampler names.
+struct NamedSampler {
+    mir::SamplerKind kind = mir::SamplerKind::metropolis;
+    mir::Termination termination = mir::Termination::roulette;
+    bool vpl_roulette = false;
+};
+
+void add_sampler(CLI::App& app, mir::RenderSettings& s) {
+    using Kind = mir::SamplerKind;
+    using End = mir::Termination;
+    static const std::map<std::string, NamedSampler> samplers{
+        {"mir", {Kind::metropolis}},
+        {"bir", {Kind::bidirectional}},
+        {"ir", {Kind::instant_radiosity}},
+        {"roulette", {Kind::instant_radiosity, End::roulette, true}},
+        {"keller", {Kind::instant_radiosity, End::levels}}};
+    app.add_option_function<std::string>(
+           "--sampler",
+           [&s](const std::string& name) {
+               const auto found = samplers.find(name);
+               if (found == samplers.end())
+                   throw CLI::ValidationError("--sampler", "'" + name +
+                                                               "' is unknown; choose one of "
+                                                               "mir|bir|ir|roulette|keller");
+               s.sampler = found->second.kind;
+               s.termination = found->second.termination;
+               s.vpl_roulette = found->second.vpl_roulette;
+           },
+           "How VPLs are placed: mir, Metropolis sampling (default); bir, bidirectional with "
+           "resampling; ir, instant radiosity; roulette, the same with roulette on what a VPL "
+           "gives to the image; keller, a fixed share survives each bounce")
+        ->type_name("mir|bir|ir|roulette|keller");
+}
+
+/// A whole number option of a smaller type than int.
+template <class T>
+CLI::Option* add_count(CLI::App& app, const std::string& name, T& target, int low, int high,
+                       const std::string& help) {
+    return app
+        .add_option_function<int>(
+            name, [&target](int n) { target = static_cast<T>(n); }, help)
+        ->check(between(low, high, std::to_string(low) + " to " + std::to_string(high)))
+        ->type_name("N");
+}
+
+void add_chains(CLI::App& app, mir::RenderSettings& s) {
+    mir::MetropolisTuning& m = s.metropolis;
+    add_choice<mir::NormalisationPolicy>(
+        app, "--normalise", s.normalisation,
+        {{"full", mir::NormalisationPolicy::full},
+         {"prepass", mir::NormalisationPolicy::prepass},
+         {"proposal", mir::NormalisationPolicy::proposal}},
+        "Where a VPL's response is measured: on all luxels (default), on a few, or while sampling");
+    add_count(app, "--prepass-luxels", s.prepass_luxels, 1, 1 << 24,
+              "Luxels of --normalise prepass (default 4096)");
+    add_count(app, "--chains", m.chains, 1, 65536, "Markov chains (default 128)");
+    add_count(app, "--stride", m.stride, 1, 1 << 20,
+              "Mutations from one recorded state to the next (default 64)");
+    add_count(app, "--tries", m.chain.tries, 1, 254, "Candidates of a large step (default 8)");
+    app.add_option("--large-steps", m.chain.large_step_probability,
+                   "Share of large steps among mutations (default 0.5)")
+        ->check(between(1e-6, 1, "above 0 to 1"));
+    add_choice<mir::Mutation>(
+        app, "--mutation", m.chain.mutation,
+        {{"primary", mir::Mutation::primary}, {"bidirectional", mir::Mutation::bidirectional}},
+        "Other mutations: of the random numbers (default) or of the path itself");
+    add_choice<mir::PathTechniques>(app, "--paths", m.techniques,
+                                    {{"camera", mir::PathTechniques::camera},
+                                     {"bidirectional", mir::PathTechniques::bidirectional}},
+                                    "How whole paths are built: from the camera alone, or from "
+                                    "both ends (default)");
+    add_count(app, "--suffix-refresh", m.suffix_refresh, 0, 255,
+              "Further light paths behind each recorded VPL (default 8)");
+    app.add_option("--bootstrap-error", m.bootstrap.relative_error,
+                   "Relative standard error wanted of P_c (default 0.03)")
+        ->check(between(1e-6, 1, "above 0 to 1"));
+    add_choice<mir::ChainStop>(
+        app, "--stop", m.stop, {{"fixed", mir::ChainStop::fixed}, {"paper", mir::ChainStop::paper}},
+        "End of the chains: a fixed number of states (default) or of new VPLs, as the paper "
+        "prints it, biased");
+}
+
+void add_reference(CLI::App& app, mir::RenderSettings& s) {
+    add_choice<mir::Integrator>(app, "--integrator", s.integrator,
+                                {{"vpl", mir::Integrator::vpl}, {"path", mir::Integrator::path}},
+                                "VPLs (default) or the reference path tracer");
+    add_count(app, "--samples", s.path.samples, 1, 1 << 24,
+              "Camera paths per luxel of --integrator path (default 256)");
+    add_choice<mir::LightSearch>(app, "--light-search", s.path.light,
+                                 {{"mis", mir::LightSearch::mis},
+                                  {"lamps", mir::LightSearch::lamps},
+                                  {"directions", mir::LightSearch::directions}},
+                                 "How its paths find lamps: light samples and directions weighed "
+                                 "(default), or one of them alone");
+    add_count(app, "--directions", s.path.directions, 1, 65536,
+              "Directions that go on from its first hit (default 1)");
+}
+
 void add_sampling(CLI::App& app, RenderOptions& o) {
     mir::RenderSettings& s = o.settings;
-    add_choice<mir::Termination>(
-        app, "--sampler", s.termination,
-        {{"ir", mir::Termination::roulette}, {"keller", mir::Termination::levels}},
-        "How VPLs are placed: ir, instant radiosity with roulette (unbiased, default); keller, a "
-        "fixed share survives each bounce");
+    add_sampler(app, s);
     add_choice<mir::Sequence>(
         app, "--sequence", s.sequence,
         {{"random", mir::Sequence::random}, {"halton", mir::Sequence::halton}},
@@ -99,11 +193,8 @@ void add_sampling(CLI::App& app, RenderOptions& o) {
         "Direct light by samples of the lamps (default) or by VPLs on them");
     app.add_option("--direct-samples", s.direct_samples, "Lamp samples per pixel (default 16)")
         ->check(between(1, 65536, "1 to 65536"));
-    app.add_option_function<int>(
-           "--bounces", [&s](int n) { s.max_bounce = static_cast<std::uint8_t>(n); },
-           "Largest number of reflections on the way to the camera (default 32)")
-        ->check(between(1, 254, "1 to 254"))
-        ->type_name("N");
+    add_count(app, "--bounces", s.max_bounce, 1, 254,
+              "Largest number of reflections on the way to the camera (default 32)");
     app.add_option_function<std::string>(
            "--bound",
            [&s](const std::string& text) {
@@ -171,6 +262,45 @@ void add_execution(CLI::App& app, RenderOptions& o) {
     app.add_flag("--allow-no-light", s.allow_no_light, "Render a scene without light, black");
 }
 
+/// Files of the comparison of two pictures; the ending of --error says what it is.
+void add_compare_output(CLI::App& app, CompareOptions& o) {
+    app.add_option("--html", o.report, "Report to write, one HTML file with pictures");
+    app.add_option("--error", o.error, "Signed error to write: a picture (.png) or values (.exr)")
+        ->check(CLI::Validator(
+            [](const std::string& name) {
+                return name.ends_with(".png") || name.ends_with(".exr")
+                           ? std::string()
+                           : "'" + name + "' ends neither in .png nor in .exr";
+            },
+            ""));
+    app.add_flag("--json", o.json, "Print the metrics as JSON on stdout");
+}
+
+void add_compare(CLI::App& app, CompareOptions& o) {
+    app.add_option("image", o.image, "OpenEXR picture")->required();
+    app.add_option("reference", o.reference, "OpenEXR picture to compare it with")->required();
+    app.add_option("--layer", o.layer, "Layer to compare in both (default: the beauty)");
+    add_compare_output(app, o);
+    const auto limit = between(0, 1e30, "0 to 1e30");
+    app.add_option("--max-rmse", o.max_rmse, "Exit with 1 when the RMSE is above")->check(limit);
+    app.add_option("--max-relmse", o.max_relmse, "Exit with 1 when the relMSE is above")
+        ->check(limit);
+    app.add_option("--max-flip", o.max_flip, "Exit with 1 when the mean HDR-FLIP is above")
+        ->check(limit);
+    app.add_option(
+           "--max-mean-difference", o.max_mean_difference,
+           "Exit with 1 when the mean of a channel is further from the reference's, percent")
+        ->check(limit);
+    app.add_option("--epsilon", o.epsilon, "Epsilon of the relMSE (default 0.01)")
+        ->check(between(0, 1e30, "0 to 1e30"));
+    app.add_option("--pixels-per-degree", o.pixels_per_degree,
+                   "Pixels per degree of visual angle, for FLIP (default 67)")
+        ->check(between(1, 1000, "1 to 1000"));
+    app.add_option("--exposure", o.exposure,
+                   "Exposure of pictures and LDR-FLIP, EV (default: automatic)")
+        ->check(between(-100, 100, "-100 to 100"));
+}
+
 /// The word to complain about: an option rather than the value behind it.
 std::string worst_of(const std::vector<std::string>& strangers) {
     for (const std::string& word : strangers)
@@ -201,6 +331,7 @@ Parsed parse(int argc, char** argv) {
     RenderOptions render;
     InfoOptions info;
     ExportOptions exporting;
+    CompareOptions compare;
     DevicesOptions devices;
 
     CLI::App app{"Metropolis Instant Radiosity: renders a glTF scene with virtual point lights",
@@ -216,6 +347,8 @@ Parsed parse(int argc, char** argv) {
     add_output(*r, render);
     add_image(*r, render);
     add_sampling(*r, render);
+    add_chains(*r, render.settings);
+    add_reference(*r, render.settings);
     add_execution(*r, render);
 
     CLI::App* i = app.add_subcommand("info", "Tell what a scene holds and what is not supported");
@@ -225,6 +358,9 @@ Parsed parse(int argc, char** argv) {
     CLI::App* x = app.add_subcommand("export", "Write a scene as glTF binary");
     x->add_option("scene", exporting.scene, scene)->required();
     x->add_option("-o,--output", exporting.output, "File to write (.glb)")->required();
+
+    CLI::App* c = app.add_subcommand("compare", "Compare a picture with a reference");
+    add_compare(*c, compare);
 
     CLI::App* d = app.add_subcommand("devices", "List what can render on this machine");
     d->add_flag("--json", devices.json, "JSON on stdout");
@@ -241,6 +377,7 @@ Parsed parse(int argc, char** argv) {
     if (r->parsed()) return Command{render};
     if (i->parsed()) return Command{info};
     if (x->parsed()) return Command{exporting};
+    if (c->parsed()) return Command{compare};
     return Command{devices};
 }
 

@@ -9,6 +9,7 @@ namespace mirtool {
 int run(const RenderOptions& options);
 int run(const InfoOptions& options);
 int run(const ExportOptions& options);
+int run(const CompareOptions& options);
 int run(const DevicesOptions& options);
 
 }  // namespace mirtool

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/compare/flip.hpp"
+#include "mir/compare/metrics.hpp"
 #include "mir/runtime/settings.hpp"
 
 #include <optional>
@@ -41,11 +43,29 @@ struct ExportOptions {
     std::string output;
 };
 
+/// `mir compare`.
+struct CompareOptions {
+    std::string image;
+    std::string reference;
+    std::string layer;   ///< empty: the beauty
+    std::string report;  ///< HTML; empty: none
+    std::string error;   ///< PNG or EXR of the signed error; empty: none
+    double epsilon = mir::default_rel_mse_epsilon;
+    float pixels_per_degree = mir::default_pixels_per_degree;
+    std::optional<float> exposure;  ///< EV of pictures and LDR-FLIP; none: automatic
+    std::optional<double> max_rmse;
+    std::optional<double> max_relmse;
+    std::optional<double> max_flip;
+    std::optional<double> max_mean_difference;  ///< percent
+    bool json = false;
+};
+
 /// `mir devices`.
 struct DevicesOptions {
     bool json = false;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, ExportOptions, DevicesOptions>;
+using Command =
+    std::variant<RenderOptions, InfoOptions, ExportOptions, CompareOptions, DevicesOptions>;
 
 }  // namespace mirtool

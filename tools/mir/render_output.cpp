@@ -20,6 +20,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* sampler_name(const mir::RenderSettings& s) {
+    if (s.integrator == mir::Integrator::path) return "path";
+    if (s.sampler == mir::SamplerKind::metropolis) return "mir";
+    if (s.sampler == mir::SamplerKind::bidirectional) return "bir";
+    if (s.vpl_roulette) return "roulette";
     return s.termination == mir::Termination::roulette ? "ir" : "keller";
 }
 
@@ -42,6 +46,27 @@ std::vector<mir::ExrLayer> layers_of(const mir::RenderResult& r, const RenderOpt
     return layers;
 }
 
+/// What Markov chains say about themselves.
+void append_chain_attributes(const mir::RenderStatistics& s, mir::ExrAttributes& all) {
+    if (!s.health) return;
+    const mir::ChainHealth& h = *s.health;
+    const auto add = [&](const char* name, double value) {
+        all.push_back({name, static_cast<float>(value)});
+    };
+    all.push_back({"mir:normalisation", s.normalisation});
+    all.push_back({"mir:states", std::to_string(h.recorded_states)});
+    add("mir:path_luminance", h.luminance.mean);
+    add("mir:path_luminance_error", h.luminance.standard_error);
+    add("mir:large_step_luminance", h.large_step_luminance.mean);
+    add("mir:acceptance_large", h.large.rate());
+    add("mir:acceptance_small", h.small.rate());
+    add("mir:acceptance_bidirectional", h.bidirectional.rate());
+    add("mir:acceptance_suffix", h.suffix.rate());
+    add("mir:effective_samples", h.effective_samples);
+    add("mir:split_r_hat", h.split_r_hat);
+    add("mir:dropped_share", s.dropped_share);
+}
+
 mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions& o) {
     const mir::RenderStatistics& s = r.statistics;
     mir::ExrAttributes all{
@@ -57,6 +82,7 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
         {"mir:bound", s.bound},
         {"mir:removed_share", static_cast<float>(s.removed_share())},
     };
+    append_chain_attributes(s, all);
     if (o.record_seconds) all.push_back({"mir:seconds", static_cast<float>(s.seconds.total)});
     return all;
 }
@@ -64,7 +90,10 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
 Json seconds_of(const mir::StageSeconds& t) {
     return {{"build", t.build},
             {"sampling", t.sampling},
+            {"paths", t.paths},
             {"gbuffer", t.gbuffer},
+            {"visibility", t.visibility},
+            {"response", t.response},
             {"direct", t.direct},
             {"reconstruction", t.reconstruction},
             {"ledger", t.ledger},
@@ -72,10 +101,11 @@ Json seconds_of(const mir::StageSeconds& t) {
             {"total", t.total}};
 }
 
+/// Contributions per second of everything that pairs of luxels and VPLs cost.
 double rate_of(const mir::RenderStatistics& s) {
-    return s.seconds.reconstruction > 0.0
-               ? static_cast<double>(s.contributions) / s.seconds.reconstruction
-               : 0.0;
+    const mir::StageSeconds& t = s.seconds;
+    const double seconds = t.visibility + t.response + t.reconstruction;
+    return seconds > 0.0 ? static_cast<double>(s.contributions) / seconds : 0.0;
 }
 
 /// Largest resident set of the process so far.
@@ -83,6 +113,33 @@ std::uint64_t peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Json count_of(const mir::MutationCount& m) {
+    return {{"proposed", m.proposed}, {"accepted", m.accepted}, {"rate", m.rate()}};
+}
+
+Json luminance_of(const mir::PathLuminance& p) {
+    return {{"mean", p.mean},   {"standard_error", p.standard_error},
+            {"low", p.low()},   {"high", p.high()},
+            {"paths", p.paths}, {"contributing", p.contributing}};
+}
+
+Json health_of(const mir::ChainHealth& h) {
+    return {{"chains", h.chains},
+            {"mutations", h.mutations},
+            {"recorded_states", h.recorded_states},
+            {"distinct_vpls", h.distinct_vpls},
+            {"large", count_of(h.large)},
+            {"small", count_of(h.small)},
+            {"bidirectional", count_of(h.bidirectional)},
+            {"suffix", count_of(h.suffix)},
+            {"longest_stay", h.longest_stay},
+            {"effective_samples", h.effective_samples},
+            {"split_r_hat", h.split_r_hat},
+            {"path_luminance", luminance_of(h.luminance)},
+            {"large_step_luminance", luminance_of(h.large_step_luminance)},
+            {"capped", h.capped}};
 }
 
 Json mean_of(const mir::Image<mir::Rgb>& image) {
@@ -134,14 +191,22 @@ void print_summary(const mir::RenderResult& r) {
     const mir::RenderStatistics& s = r.statistics;
     std::fprintf(stderr,
                  "mir: %llu triangles, %llu luxels, %u VPLs from %llu light paths, %s\n"
-                 "mir: %.2f s (VPLs %.2f, camera rays %.2f, direct %.2f, reconstruction %.2f, "
-                 "ledger %.2f, film %.2f), "
+                 "mir: %.2f s (VPLs %.2f, camera rays %.2f, direct %.2f, visibility %.2f, response "
+                 "%.2f, reconstruction %.2f, ledger %.2f, film %.2f), "
                  "%.1f M contributions/s\n",
                  static_cast<unsigned long long>(s.triangles),
                  static_cast<unsigned long long>(s.luxels), s.vpls,
                  static_cast<unsigned long long>(s.light_paths), s.scheduler.c_str(),
                  s.seconds.total, s.seconds.sampling, s.seconds.gbuffer, s.seconds.direct,
-                 s.seconds.reconstruction, s.seconds.ledger, s.seconds.film, 1e-6 * rate_of(s));
+                 s.seconds.visibility, s.seconds.response, s.seconds.reconstruction,
+                 s.seconds.ledger, s.seconds.film, 1e-6 * rate_of(s));
+    if (s.health)
+        std::fprintf(stderr,
+                     "mir: P_c %.4g +- %.2g from %llu paths; %llu states worth %.0f, R-hat %.2f\n",
+                     s.health->luminance.mean, s.health->luminance.standard_error,
+                     static_cast<unsigned long long>(s.health->luminance.paths),
+                     static_cast<unsigned long long>(s.health->recorded_states),
+                     s.health->effective_samples, s.health->split_r_hat);
     for (const std::string& warning : r.warnings)
         std::fprintf(stderr, "mir: warning: %s\n", warning.c_str());
 }
@@ -162,11 +227,18 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["dropped_triangles"] = s.dropped_triangles;
     out["luxels"] = s.luxels;
     out["light_paths"] = s.light_paths;
+    out["camera_paths"] = s.camera_paths;
     out["vpls"] = s.vpls;
     out["contributions"] = s.contributions;
     out["contributions_per_second"] = rate_of(s);
     out["emitted_power"] = s.emitted_power;
     out["non_lambertian_share"] = s.non_lambertian_share;
+    out["normalisation"] = s.normalisation;
+    out["path_luminance"] = s.path_luminance;
+    out["states"] = s.states;
+    out["dropped_share"] = s.dropped_share;
+    out["indirect_luminance"] = s.indirect_luminance;
+    if (s.health) out["chains"] = health_of(*s.health);
     out["bound"] = s.bound;
     out["removed_share"] = s.removed_share();
     out["mean_radiance"] = {{"beauty", mean_of(r.beauty)},

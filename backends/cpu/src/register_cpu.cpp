@@ -4,6 +4,7 @@
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/path_render.hpp"
 #include "mir/runtime/tiled_render.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/sched/cpu_blocks.hpp"
@@ -20,6 +21,10 @@ RenderResult render_with(const Scene& scene, const RenderSettings& settings,
                          const WorldGeometry& geometry, const EmbreeScene& engine,
                          TbbExecutor& executor, Monitor* monitor, MakeScheduler make) {
     CancellableExecutor cancellable(executor, monitor);
+    if (settings.integrator == Integrator::path)
+        return PathRender<B, EmbreeScene, decltype(cancellable)>(scene, settings, geometry, engine,
+                                                                 cancellable, monitor)
+            .run();
     return TiledRender<B, EmbreeScene, decltype(cancellable), MakeScheduler>(
                scene, settings, geometry, engine, cancellable, monitor, make)
         .run();

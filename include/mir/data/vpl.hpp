@@ -21,21 +21,18 @@ enum class VplKind : std::uint8_t {
     reflective  ///< a point that reflects: indirect light
 };
 
-/// What later stages may ask about a VPL but no kernel reads.
+/// Which point of which surface a geometric VPL is, and how much stands on it. No kernel reads it.
 struct VplOrigin {
     VplKind kind = VplKind::reflective;
-    std::uint8_t bounce = 2;         ///< scattering events up to the camera: 1 direct, 2 one bounce
-    std::uint16_t light_group = 0;   ///< group of the light that feeds it
-    std::uint32_t multiplicity = 1;  ///< recorded states that share this point
-    std::uint32_t triangle = 0;      ///< identity of the point: triangle and barycentrics
+    std::uint32_t triangle = 0;  ///< identity of the point: triangle and barycentrics
     Vec2 barycentrics{0};
+    float multiplicity = 1.0f;  ///< recorded states that share this point; VplList counts them
 };
 
-/// True when two path VPLs belong to one geometric VPL of one bounce and light group. Identity is
-/// the triangle and the barycentrics copied from the sampler's state, never a distance.
+/// True when two path VPLs may belong to one geometric VPL. Identity is the triangle and the
+/// barycentrics copied from the sampler's state, never a distance.
 inline bool same_place(const VplOrigin& a, const VplOrigin& b) {
-    return a.triangle == b.triangle && a.barycentrics == b.barycentrics && a.kind == b.kind &&
-           a.bounce == b.bounce && a.light_group == b.light_group;
+    return a.triangle == b.triangle && a.barycentrics == b.barycentrics && a.kind == b.kind;
 }
 
 }  // namespace mir

@@ -6,6 +6,7 @@
 #include "mir/scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace mir {
@@ -51,28 +52,83 @@ inline std::vector<std::string> check_scene(const Scene& scene, const RenderSett
     return warnings;
 }
 
+namespace detail {
+
+/// `value` with so many digits behind the point.
+inline std::string rounded(double value, int digits = 0) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+inline void add_luminance_warnings(const ChainHealth& h, std::vector<std::string>& warnings) {
+    const PathLuminance& p = h.luminance;
+    if (p.contributing == 0) {
+        warnings.push_back(
+            "none of " + std::to_string(p.paths) +
+            " paths brought light from a lamp to the camera: the light of the VPLs is black; check "
+            "that the lamps shine into the scene and that the camera is not inside something "
+            "solid");
+        return;
+    }
+    if (p.relative_error() > 0.05)
+        warnings.push_back("the brightness of the VPLs' light is known to " +
+                           rounded(100.0 * p.relative_error()) + " % only (" +
+                           std::to_string(p.contributing) + " of " + std::to_string(p.paths) +
+                           " paths carried light); a smaller --bootstrap-error knows it better");
+    if (std::fabs(h.luminance_z()) > 4.0)
+        warnings.push_back("two estimates of the mean luminance disagree by " +
+                           rounded(std::fabs(h.luminance_z()), 1) +
+                           " standard errors: some light is found too rarely to be measured");
+}
+
+inline void add_mixing_warnings(const ChainHealth& h, std::vector<std::string>& warnings) {
+    if (h.capped)
+        warnings.emplace_back(
+            "the paper's stopping rule was cut short: too few mutations led to new VPLs");
+    if (h.mutations == 0) return;
+    if (h.large.accepted + h.small.accepted + h.bidirectional.accepted == 0)
+        warnings.emplace_back(
+            "no mutation was accepted: each chain stayed on its first path; a longer --stride may "
+            "help");
+    const auto n = static_cast<double>(h.recorded_states);
+    if (h.effective_samples < 0.25 * n)
+        warnings.push_back("the " + rounded(n) + " recorded states are worth " +
+                           rounded(h.effective_samples) +
+                           " independent ones; a longer --stride or more --tries mix better");
+    if (h.split_r_hat > 1.5 && h.effective_samples < 0.5 * n)
+        warnings.push_back("the Markov chains disagree (split R-hat " + rounded(h.split_r_hat, 2) +
+                           ", 1 is ideal); a longer --stride or fewer --chains help");
+}
+
+}  // namespace detail
+
+/// Adds what Markov chains have to say about themselves.
+inline void add_chain_warnings(const RenderStatistics& s, std::vector<std::string>& warnings) {
+    if (!s.health) return;
+    detail::add_luminance_warnings(*s.health, warnings);
+    if (s.health->recorded_states > 0) detail::add_mixing_warnings(*s.health, warnings);
+    if (s.dropped_share > 0.001)
+        warnings.push_back(detail::rounded(100.0 * s.dropped_share, 1) +
+                           " % of the VPLs light no luxel and their light is missing; more luxels "
+                           "or --normalise proposal lose less");
+}
+
 /// Adds what the numbers of a finished render give reason to say.
 inline void add_result_warnings(const RenderResult& result, std::vector<std::string>& warnings) {
     const RenderStatistics& s = result.statistics;
-    char text[160];
+    add_chain_warnings(s, warnings);
     if (s.dropped_triangles > 0)
         warnings.push_back(std::to_string(s.dropped_triangles) +
                            " triangles without area were left out");
-    if (s.removed_share() > 0.05) {
-        std::snprintf(text, sizeof text,
-                      "the bound removed %.1f %% of the indirect light; more VPLs or --bound none "
-                      "lose less",
-                      100.0 * s.removed_share());
-        warnings.emplace_back(text);
-    }
-    if (s.non_lambertian_share > 0.01f) {
-        std::snprintf(text, sizeof text,
-                      "%.1f %% of the VPLs' light comes from glossy surfaces and is spread as if "
-                      "they were diffuse",
-                      100.0 * static_cast<double>(s.non_lambertian_share));
-        warnings.emplace_back(text);
-    }
-    if (s.vpls == 0 && s.emitted_power > 0.0f)
+    if (s.removed_share() > 0.05)
+        warnings.push_back("the bound removed " + detail::rounded(100.0 * s.removed_share(), 1) +
+                           " % of the indirect light; more VPLs or --bound none lose less");
+    if (s.non_lambertian_share > 0.01f)
+        warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.non_lambertian_share), 1) +
+                           " % of the VPLs' light comes from glossy surfaces and is spread as if "
+                           "they were diffuse");
+    if (s.vpls == 0 && s.emitted_power > 0.0f && !s.health && s.camera_paths == 0)
         warnings.emplace_back("no VPL was placed: no light path met a reflecting surface");
 }
 

@@ -4,7 +4,9 @@
 #include "mir/core/rgb.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/film/guides.hpp"
+#include "mir/metropolis/chain_health.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,10 @@ namespace mir {
 struct StageSeconds {
     double build = 0.0;           ///< world geometry and acceleration structure
     double sampling = 0.0;        ///< VPLs
+    double paths = 0.0;           ///< camera paths of the reference
     double gbuffer = 0.0;         ///< camera rays
+    double visibility = 0.0;      ///< stored visibility: shadow rays, where they are kept
+    double response = 0.0;        ///< what each VPL does to the image, for normalisation
     double direct = 0.0;          ///< next-event light
     double reconstruction = 0.0;  ///< contributions of the VPLs
     double ledger = 0.0;          ///< measuring what the bound removed
@@ -27,11 +32,17 @@ struct RenderStatistics {
     std::uint64_t triangles = 0;
     std::uint64_t dropped_triangles = 0;  ///< without area, left out
     std::uint64_t luxels = 0;
-    std::uint64_t light_paths = 0;
-    std::uint32_t vpls = 0;             ///< geometric VPLs placed
-    std::uint64_t contributions = 0;    ///< luxels x VPLs
-    float emitted_power = 0.0f;         ///< luminance, W
+    std::uint64_t light_paths = 0;    ///< of the sampler; of the bootstrap for Metropolis sampling
+    std::uint64_t camera_paths = 0;   ///< of the reference integrator
+    std::uint32_t vpls = 0;           ///< geometric VPLs placed
+    std::uint64_t contributions = 0;  ///< luxels x VPLs
+    float emitted_power = 0.0f;       ///< luminance, W
     float non_lambertian_share = 0.0f;  ///< of VPL intensity spread as Lambertian
+    double states = 0.0;                ///< n: recorded states; 0 for samplers without
+    double path_luminance = 0.0;        ///< P_c: mean image luminance of all paths, W m^-2 sr^-1
+    double dropped_share = 0.0;         ///< of the states, 0..1: light of VPLs that no luxel sees
+    std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
+    std::string normalisation;          ///< how intensities were made; "none": by the sampler
     float bound = 0.0f;                 ///< largest geometry term, m^-2; 0: none
     double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' light
     double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed

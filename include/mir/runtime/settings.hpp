@@ -4,6 +4,10 @@
 #include "mir/core/limits.hpp"
 #include "mir/film/filter.hpp"
 #include "mir/film/luxel_grid.hpp"
+#include "mir/metropolis/metropolis_options.hpp"
+#include "mir/normalise/policy.hpp"
+#include "mir/paths/path.hpp"
+#include "mir/reference/path_tracer.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 
 #include <cmath>
@@ -11,6 +15,26 @@
 #include <string>
 
 namespace mir {
+
+/// What makes the picture.
+enum class Integrator {
+    vpl,  ///< virtual point lights
+    path  ///< the reference path tracer: noisy, unbiased, slow
+};
+
+/// Of Integrator::path.
+struct PathSettings {
+    std::uint32_t samples = 256;  ///< camera paths per luxel
+    LightSearch light = LightSearch::mis;
+    std::uint32_t directions = 1;  ///< paths that go on from each first hit
+};
+
+/// Where VPLs come from.
+enum class SamplerKind {
+    instant_radiosity,  ///< light paths from the lamps
+    bidirectional,      ///< light paths and camera paths, resampled by what the image gets
+    metropolis          ///< a Markov chain over whole paths
+};
 
 /// How direct light reaches the image.
 enum class DirectLight {
@@ -30,7 +54,14 @@ struct RenderSettings {
     Extent image{640, 480};              ///< pixels
     std::uint32_t luxels_per_pixel = 1;  ///< 1..64
     std::uint32_t camera = 0;            ///< index into Scene::cameras
-    std::uint32_t vpls = 256;            ///< wanted geometric VPLs
+    Integrator integrator = Integrator::vpl;
+    PathSettings path;
+    std::uint32_t vpls = 256;  ///< wanted geometric VPLs
+    SamplerKind sampler = SamplerKind::metropolis;
+    NormalisationPolicy normalisation = NormalisationPolicy::full;  ///< of samplers that need one
+    std::uint32_t prepass_luxels = 4096;                            ///< of policy `prepass`
+    MetropolisTuning metropolis;                                    ///< of SamplerKind::metropolis
+    bool vpl_roulette = false;  ///< instant radiosity keeps VPLs by what they give to the image
     Termination termination = Termination::roulette;
     Sequence sequence = Sequence::random;
     DirectLight direct = DirectLight::separate;
@@ -68,6 +99,17 @@ inline void RenderSettings::validate() const {
     check_limit(vpls, limits.vpls, "vpls");
     expects(direct_samples > 0 && direct_samples <= 65536,
             "next-event samples per pixel must be 1 to 65536");
+    expects(prepass_luxels > 0 && prepass_luxels <= (1u << 24),
+            "luxels of the prepass must be 1 to 16777216");
+    metropolis.validate();
+    expects(path.samples > 0 && path.samples <= 1u << 24,
+            "camera paths per luxel must be 1 to 16777216");
+    expects(sampler == SamplerKind::instant_radiosity || max_bounce < max_path_edges,
+            "samplers of whole paths hold at most 63 reflections; lower the largest bounce or use "
+            "instant radiosity");
+    expects(sampler != SamplerKind::metropolis || normalisation != NormalisationPolicy::none,
+            "Metropolis sampling yields VPLs without intensities (they follow from what the image "
+            "gets); normalise them: full, prepass or proposal");
     expects(max_bounce >= 1 && max_bounce < 255, "the largest bounce must be 1 to 254");
     expects(tile.width > 0 && tile.height > 0,
             "a tile of zero luxels was asked for (a tile must hold at least one); use 256x256");

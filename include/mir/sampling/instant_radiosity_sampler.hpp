@@ -136,8 +136,9 @@ auto InstantRadiositySampler<B, R>::trace(std::uint64_t index, Stream stream,
     Emission light = sample_emission(world_.lights, world_.geometry.ray_offset(), numbers);
     if (options_.emitter_vpls && light.emitter)
         path.push_back({emitter_vpl(light),
-                        {VplKind::emitter, 1, light.light_group, 1, light.emitter->triangle,
-                         light.emitter->barycentrics}});
+                        {VplKind::emitter, light.emitter->triangle, light.emitter->barycentrics},
+                        1,
+                        light.light_group});
     for (std::uint8_t bounce = 2; bounce <= options_.max_bounce; ++bounce) {
         float survival = 1.0f;
         if (levels != nullptr) {
@@ -165,8 +166,10 @@ bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bo
     const Vpl vpl = reflective_vpl(at, sample.weight, offset);
     if (!is_black(vpl.intensity))
         path.push_back({vpl,
-                        {VplKind::reflective, bounce, light.light_group, 1, point->triangle,
-                         point->barycentrics},
+                        {VplKind::reflective, point->triangle, point->barycentrics},
+                        bounce,
+                        light.light_group,
+                        1.0f,
                         world_.surfaces.is_lambertian(point->material)});
 
     const std::uint16_t group = light.light_group;

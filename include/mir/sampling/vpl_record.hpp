@@ -2,14 +2,18 @@
 #pragma once
 
 #include "mir/data/vpl_list.hpp"
+#include "mir/metropolis/chain_health.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace mir {
 
 /// What separates a sampler's records from intensities.
 enum class Normalisation {
-    none  ///< the weights are final: `intensity` is J in W sr^-1
+    none,           ///< weights are final: `intensity` is J in W sr^-1
+    image_response  ///< `intensity` is R, the radiance that leaves the point towards the camera's
+                    ///< side, W m^-2 sr^-1; the normalisation stage makes J of it
 };
 
 /// One path VPL: a vertex that lights what the camera sees, with the light path behind it summed
@@ -17,8 +21,16 @@ enum class Normalisation {
 struct VplRecord {
     Vpl vpl;
     VplOrigin origin;
-    bool lambertian = true;  ///< false: the surface's lobe was spread as a Lambertian one
+    std::uint8_t bounce = 2;        ///< scattering events up to the camera: 1 direct, 2 one bounce
+    std::uint16_t light_group = 0;  ///< group of the light that feeds it
+    float weight = 1.0f;            ///< recorded states that it stands for
+    bool lambertian = true;         ///< false: the surface's lobe was spread as a Lambertian one
 };
+
+/// True when two records lie at one geometric VPL.
+inline bool is_same_vpl(const VplRecord& a, const VplRecord& b) {
+    return same_place(a.origin, b.origin) && a.vpl.normal == b.vpl.normal;
+}
 
 /// Share of the records' summed intensity (luminance) that stands on non-Lambertian surfaces, 0..1.
 inline float share_of_non_lambertian(const std::vector<VplRecord>& records) {
@@ -38,14 +50,17 @@ struct VplRecords {
     std::uint64_t paths = 0;            ///< light paths traced, those without a record included
     float emitted_power = 0.0f;         ///< luminance of the scene's emitted power, W
     float non_lambertian_share = 0.0f;  ///< of the records' intensity, from surfaces with a lobe
+    double path_luminance = 0.0;  ///< P_c: mean image luminance of the paths that the records stand
+                                  ///< for, W m^-2 sr^-1; only with Normalisation::image_response
+    double states = 0.0;          ///< n: summed weights of all recorded states, the same
+    std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
 };
 
-/// Algorithm 2's aggregation: consecutive records of one point and bounce become one geometric VPL,
-/// their intensities added. The list is sorted by bounce.
+/// Algorithm 2's aggregation: consecutive records of one point become one geometric VPL.
 inline VplList aggregate(const VplRecords& from) {
     VplList list;
-    for (const VplRecord& r : from.records) list.append(r.vpl, r.origin);
-    list.sort_by_bounce();
+    for (const VplRecord& r : from.records)
+        list.append(r.vpl, r.origin, r.bounce, r.light_group, r.weight);
     return list;
 }
 

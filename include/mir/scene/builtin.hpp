@@ -4,6 +4,7 @@
 #include "mir/core/error.hpp"
 #include "mir/scene/builtin/check_rooms.hpp"
 #include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scene/builtin/garage.hpp"
 #include "mir/scene/builtin/sphere_room.hpp"
 
 #include <array>
@@ -20,12 +21,14 @@ struct Entry {
 };
 
 /// Every built-in scene, in the order in which help lists them.
-inline constexpr std::array<Entry, 8> scenes{{
+inline constexpr std::array<Entry, 9> scenes{{
     {"cornell-box", "the Cornell box", [] { return cornell_box(Lamp::down); }},
     {"cornell-inverted", "the Cornell box with its lamp turned to the ceiling",
      [] { return cornell_box(Lamp::up); }},
     {"sphere", "the paper's sphere, main lamp down", [] { return sphere_room(Lamp::down); }},
     {"sphere-indirect", "the paper's sphere, main lamp up", [] { return sphere_room(Lamp::up); }},
+    {"garage", "the paper's hard case: all light comes through a door ajar",
+     [] { return garage(); }},
     {"furnace", "closed box whose radiance is exactly 1", [] { return furnace_box(); }},
     {"parallel-squares", "form factor 0.199824896", [] { return parallel_squares(); }},
     {"perpendicular-squares", "form factor 0.200043776", [] { return perpendicular_squares(); }},

@@ -4,6 +4,7 @@
 #include "mir/core/discrete_distribution.hpp"
 #include "mir/scene/world_geometry.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,6 +56,13 @@ class LightTable {
     [[nodiscard]] std::uint32_t sample_light(float u) const { return by_power_.sample(u); }
     [[nodiscard]] float light_probability(std::uint32_t light) const {
         return by_power_.probability(light);
+    }
+
+    /// Index, as sample_light() counts, of an emissive triangle of the WorldGeometry.
+    [[nodiscard]] std::optional<std::uint32_t> light_of(std::uint32_t triangle) const {
+        const auto found = std::lower_bound(triangles_.begin(), triangles_.end(), triangle);
+        if (found == triangles_.end() || *found != triangle) return std::nullopt;
+        return static_cast<std::uint32_t>(found - triangles_.begin());
     }
 
     /// Point on the emissive triangle at `index` of emissive_triangles(); pdf_area is that of the
@@ -151,10 +159,8 @@ inline EmitterSample LightTable::sample_emitter(float u, Vec2 uv) const {
 }
 
 inline float LightTable::emitter_pdf(std::uint32_t triangle) const {
-    const auto found = std::lower_bound(triangles_.begin(), triangles_.end(), triangle);
-    if (found == triangles_.end() || *found != triangle) return 0.0f;
-    const auto index = static_cast<std::uint32_t>(found - triangles_.begin());
-    return emitters_.probability(index) / geometry_->area(triangle);
+    const auto index = light_of(triangle);
+    return index ? emitters_.probability(*index) / geometry_->area(triangle) : 0.0f;
 }
 
 }  // namespace mir

@@ -11,6 +11,7 @@ namespace mir::sched {
 
 /// The oracle: algorithm 3 as the paper prints it, a plain loop over luxels and VPLs. Shares
 /// nothing with faster schedulers but contribution(), so that it does not repeat their mistakes.
+/// Given a KnownVisibility it traces no ray.
 template <Executor E>
 struct Cpu {
     E& executor;
@@ -37,19 +38,23 @@ struct Cpu {
             if (monitor_ != nullptr) monitor_->check();
             for (std::uint32_t y = area.y; y < area.y + area.height; ++y)
                 for (std::uint32_t x = area.x; x < area.x + area.width; ++x)
-                    image_(tile.x + x, tile.y + y) = gather(luxels, layout(x, y));
+                    image_(tile.x + x, tile.y + y) = gather(b.tile, luxels, layout(x, y));
             if (monitor_ != nullptr)
                 monitor_->contributions +=
                     std::uint64_t{area.width} * area.height * in_.vpls.size();
         }
 
-        [[nodiscard]] Rgb gather(const auto& luxels, LuxelIndex i) const {
+        [[nodiscard]] Rgb gather(TileIndex t, const auto& luxels, LuxelIndex i) const {
             const Hit hit = luxels.hit(i);
             if (is_empty(hit)) return {};
             const auto surface = luxels.surface(i);
             Rgb sum;
             for (VplIndex j = 0; j < in_.vpls.size(); ++j)
-                sum += contribution(hit, surface, in_.vpls[j], in_.visibility, in_.shading);
+                if constexpr (KnownVisibility<decltype(In::visibility)>)
+                    sum += in_.visibility.sees(t, i, j) ? in_.shading(hit, surface, in_.vpls[j])
+                                                        : Rgb{};
+                else
+                    sum += contribution(hit, surface, in_.vpls[j], in_.visibility, in_.shading);
             return sum;
         }
 

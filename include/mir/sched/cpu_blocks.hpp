@@ -14,7 +14,7 @@ namespace mir::sched {
 /// luxels are found, their rays traced in packets of sixteen that start at the VPL, and the lit
 /// ones shaded, sixteen to a register. Same image as sched::Cpu in every bit where the visibility's
 /// packet face gives the bits of its single face, provided that the caller compiles with
-/// -ffp-contract=off.
+/// -ffp-contract=off. Given a KnownVisibility it traces no ray.
 template <Executor E>
 struct CpuBlocks {
     E& executor;
@@ -41,15 +41,17 @@ struct CpuBlocks {
         using LuxelBlock = detail::LuxelBlock<F>;
 
         void run(detail::Block b) const;
-        void add_vpl(const LuxelBlock& block, const Vpl& vpl, detail::BlockRadiance& sum) const;
+        void add_vpl(const LuxelBlock& block, VplIndex j, const Vpl& vpl,
+                     detail::BlockRadiance& sum) const;
+        [[nodiscard]] std::uint32_t lit_mask(const LuxelBlock& block, std::uint32_t group,
+                                             VplIndex j, const Vpl& vpl) const;
         void store(detail::Block b, const detail::BlockRadiance& sum) const;
 
         /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing.
-        [[nodiscard]] bool is_out_of_reach(const detail::BlockBounds& bounds,
-                                           const Vpl& vpl) const {
-            if (bounds.behind(vpl) || bounds.turned_away_from(vpl.position)) return true;
+        [[nodiscard]] bool is_out_of_reach(const LuxelBlock& block, const Vpl& vpl) const {
+            if (is_black(vpl.intensity) || block.cannot_face(vpl)) return true;
             if constexpr (ReachLimitedShading<F>)
-                return bounds.distance_squared(vpl.position) >
+                return block.bounds.distance_squared(vpl.position) >
                        in_.shading.reach_squared() * (1.0f + 0x1p-16f);
             return false;
         }
@@ -64,9 +66,10 @@ struct CpuBlocks {
     Pipeline<In> open(const In& in, Image<Rgb>& image) const {
         static_assert(AccessibleFrom<decltype(in.visibility), Space::host>,
                       "mir: sched::CpuBlocks needs a Visibility that lives in host memory");
-        static_assert(PacketVisibility<decltype(in.visibility)>,
-                      "mir: sched::CpuBlocks needs a Visibility with visible_packet(); use "
-                      "sched::Cpu for one that answers single segments only");
+        static_assert(
+            PacketVisibility<decltype(in.visibility)> || KnownVisibility<decltype(in.visibility)>,
+            "mir: sched::CpuBlocks needs a Visibility with visible_packet(); use "
+            "sched::Cpu for one that answers single segments only");
         static_assert(
             requires(TileIndex t) {
                 in.gbuffer.view(t).hits.planes;
@@ -89,33 +92,37 @@ template <class In>
 void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
     if (scheduler_.monitor != nullptr) scheduler_.monitor->check();
     const auto view = in_.gbuffer.view(b.tile);
-    const LuxelBlock block(view.hits, view.surfaces, b.block * BlockedLayout::block_size,
-                           in_.shading);
+    const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
     detail::BlockRadiance sum;
-    if (!block.bounds.empty)
-        for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
-            const Vpl vpl = in_.vpls[j];
-            if (!is_out_of_reach(block.bounds, vpl)) add_vpl(block, vpl, sum);
-        }
+    for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
+        const Vpl vpl = in_.vpls[j];
+        if (!is_out_of_reach(block, vpl)) add_vpl(block, j, vpl, sum);
+    }
     store(b, sum);
 }
 
 template <Executor E>
 template <class In>
-void CpuBlocks<E>::Pipeline<In>::add_vpl(const LuxelBlock& block, const Vpl& vpl,
+void CpuBlocks<E>::Pipeline<In>::add_vpl(const LuxelBlock& block, VplIndex j, const Vpl& vpl,
                                          detail::BlockRadiance& sum) const {
     for (std::uint32_t group = 0; group < detail::groups_per_block; ++group) {
-        const std::uint32_t first = group * detail::group_size;
-        const auto hits = detail::starting_at(block.hits, first);
-        const std::uint32_t facing = detail::facing_mask(hits, vpl) & block.candidates[group];
-        if (facing == 0) continue;
-        PointPacket points;
-        detail::load_points(hits, points);
-        const std::uint32_t lit = in_.visibility.visible_packet(vpl.position, points, facing);
+        const std::uint32_t lit = lit_mask(block, group, j, vpl);
         if (lit == 0) continue;
-        detail::add_shaded(hits, detail::starting_at(block.surfaces, first), vpl, in_.shading, lit,
+        const std::uint32_t first = group * detail::group_size;
+        detail::add_shaded(detail::starting_at(block.hits, first),
+                           detail::starting_at(block.surfaces, first), vpl, in_.shading, lit,
                            sum.r + first, sum.g + first, sum.b + first);
     }
+}
+
+template <Executor E>
+template <class In>
+std::uint32_t CpuBlocks<E>::Pipeline<In>::lit_mask(const LuxelBlock& block, std::uint32_t group,
+                                                   VplIndex j, const Vpl& vpl) const {
+    if constexpr (KnownVisibility<decltype(In::visibility)>)
+        return detail::known_mask(block, group, j, in_.visibility);
+    else
+        return detail::visible_mask(block, group, vpl, in_.visibility);
 }
 
 template <Executor E>

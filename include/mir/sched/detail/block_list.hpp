@@ -14,6 +14,9 @@ struct Block {
     std::uint32_t block = 0;
 };
 
+/// Blocked index of the block's first luxel in its tile.
+constexpr LuxelIndex first_luxel(Block b) { return b.block * BlockedLayout::block_size; }
+
 /// Appends the blocks of a tile.
 inline void append_blocks(std::vector<Block>& blocks, TileIndex index, const Tile& tile) {
     for (std::uint32_t b = 0; b < BlockedLayout::of(tile).blocks(); ++b)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/concepts/known_visibility.hpp"
 #include "mir/concepts/shading.hpp"
-#include "mir/concepts/visibility.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/soa.hpp"
+#include "mir/sched/detail/block_list.hpp"
 
 #include <limits>
 
@@ -77,30 +78,46 @@ SoaView<T> starting_at(SoaView<T> view, std::uint32_t first) {
     return {view.planes + first, view.stride};
 }
 
-/// One 16x16 block ready to meet VPLs.
-template <Shading F>
-struct LuxelBlock {
+/// The hits of one 16x16 block, and which of its luxels count.
+struct HitBlock {
+    Block place;
     SoaView<const Hit> hits;
-    SoaView<const typename F::Surface> surfaces;
     BlockBounds bounds;
-    std::uint32_t candidates[groups_per_block] = {};  ///< luxels that may reflect, a bit each
+    std::uint32_t candidates[groups_per_block] = {};  ///< luxels that count, a bit each
 
-    LuxelBlock(SoaView<const Hit> all_hits, SoaView<const typename F::Surface> all_surfaces,
-               std::uint32_t first, const F& shade)
-        : hits(starting_at(all_hits, first)), surfaces(starting_at(all_surfaces, first)) {
+    /// One of the blocks of a tile; luxel i of it counts if it sees something and `wanted(i)`.
+    template <class Wanted>
+    HitBlock(SoaView<const Hit> tile, Block b, const Wanted& wanted)
+        : place(b), hits(starting_at(tile, first_luxel(b))) {
         for (std::uint32_t i = 0; i < BlockedLayout::block_size; ++i) {
             const Hit hit = hits.load(i);
-            if (is_empty(hit) || !reflects(shade, i)) continue;
+            if (is_empty(hit) || !wanted(i)) continue;
             bounds.add(hit);
             candidates[i / group_size] |= 1u << (i % group_size);
         }
     }
 
- private:
-    [[nodiscard]] bool reflects(const F& shade, std::uint32_t i) const {
-        if constexpr (SurfaceSelectiveShading<F>) return shade.reflects(surfaces.load(i));
-        return true;
+    /// True only if no luxel that counts faces the VPL: skipping it loses nothing.
+    [[nodiscard]] bool cannot_face(const Vpl& vpl) const {
+        return bounds.empty || bounds.behind(vpl) || bounds.turned_away_from(vpl.position);
     }
+};
+
+/// One 16x16 block ready to meet VPLs; luxels that reflect nothing do not count.
+template <Shading F>
+struct LuxelBlock : HitBlock {
+    SoaView<const typename F::Surface> surfaces;
+
+    LuxelBlock(SoaView<const Hit> tile_hits, SoaView<const typename F::Surface> tile_surfaces,
+               Block b, const F& shade)
+        : HitBlock(tile_hits, b,
+                   [&](std::uint32_t i) {
+                       if constexpr (SurfaceSelectiveShading<F>)
+                           return shade.reflects(tile_surfaces.load(first_luxel(b) + i));
+                       else
+                           return true;
+                   }),
+          surfaces(starting_at(tile_surfaces, first_luxel(b))) {}
 };
 
 /// Positions of a group as the packet face of Visibility wants them.
@@ -125,6 +142,25 @@ inline void load_points(SoaView<const Hit> group, PointPacket& points) {
         mask |= above_luxel & above_vpl;
     }
     return mask;
+}
+
+/// Bit k: luxel k of the group counts, faces and sees the VPL.
+template <PacketVisibility V>
+[[gnu::always_inline]] inline std::uint32_t visible_mask(const HitBlock& block, std::uint32_t group,
+                                                         const Vpl& vpl, const V& visibility) {
+    const auto hits = starting_at(block.hits, group * group_size);
+    const std::uint32_t facing = facing_mask(hits, vpl) & block.candidates[group];
+    if (facing == 0) return 0;
+    PointPacket points;
+    load_points(hits, points);
+    return visibility.visible_packet(vpl.position, points, facing);
+}
+
+/// The same from what is known. `V` keeps masks of groups of sixteen.
+template <KnownVisibility V>
+std::uint32_t known_mask(const HitBlock& block, std::uint32_t group, VplIndex j, const V& known) {
+    return known.mask(block.place.tile, block.place.block * groups_per_block + group, j) &
+           block.candidates[group];
 }
 
 /// Adds the VPL to the luxels of a group whose bit is set in `lit`. Every lane is computed and

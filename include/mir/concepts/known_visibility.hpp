@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/visibility.hpp"
+#include "mir/data/tile.hpp"
+
+namespace mir {
+
+/// Visibility that was found before: which luxels of which tile face and see which VPL. It belongs
+/// to one G-buffer and one list of VPLs, whose intensities and surfaces may change.
+///
+/// Axioms (tests/data/visibility_matrix_test.cpp):
+///  1. sees(t, i, j) is faces() and visible() of luxel i of tile t and VPL j;
+///  2. bit k of mask(t, g, j) is sees(t, 16 g + k, j).
+template <class V>
+concept KnownVisibility = DeviceCopyable<V> &&
+    requires(const V v, TileIndex t, LuxelIndex i, std::uint32_t group, VplIndex j) {
+    { V::space } -> std::convertible_to<Space>;
+    { v.sees(t, i, j) } -> std::same_as<bool>;
+    { v.mask(t, group, j) } -> std::same_as<std::uint32_t>;
+};
+
+/// What a scheduler may be told about visibility: how to find out, or what was found.
+template <class V>
+concept VisibilitySource = Visibility<V> || KnownVisibility<V>;
+
+}  // namespace mir

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/concepts/gbuffer.hpp"
+#include "mir/concepts/vpl_set.hpp"
+#include "mir/core/instruction_set.hpp"
+#include "mir/data/visibility_matrix.hpp"
+#include "mir/sched/detail/block_list.hpp"
+#include "mir/sched/detail/luxel_block.hpp"
+#include "mir/shading/contribution.hpp"
+
+namespace mir {
+
+namespace detail {
+
+/// Bits of one block by single segments.
+template <TiledGBuffer G, VplSet P, Visibility V>
+void fill_block_by_segments(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls,
+                            const V& visibility, sched::detail::Block b) {
+    constexpr std::uint32_t size = VisibilityMatrix::View::group_size;
+    constexpr std::uint32_t count = VisibilityMatrix::View::groups_per_block;
+    const auto luxels = gbuffer.view(b.tile);
+    for (VplIndex j = 0; j < vpls.size(); ++j) {
+        const Vpl vpl = vpls[j];
+        for (std::uint32_t group = b.block * count; group < (b.block + 1) * count; ++group) {
+            std::uint32_t mask = 0;
+            for (std::uint32_t k = 0; k < size; ++k) {
+                const Hit hit = luxels.hit(group * size + k);
+                if (faces(hit, vpl) && visibility.visible(vpl.position, hit.position))
+                    mask |= 1u << k;
+            }
+            matrix.store(b.tile, group, j, mask);
+        }
+    }
+}
+
+/// The same by packets, after VPLs that the whole block cannot face were thrown away.
+template <TiledGBuffer G, VplSet P, PacketVisibility V>
+void fill_block_by_packets(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls,
+                           const V& visibility, sched::detail::Block b) {
+    using namespace sched::detail;
+    const HitBlock block(gbuffer.view(b.tile).hits, b, [](std::uint32_t) { return true; });
+    for (VplIndex j = 0; j < vpls.size(); ++j) {
+        const Vpl vpl = vpls[j];
+        if (block.cannot_face(vpl)) continue;
+        for (std::uint32_t g = 0; g < groups_per_block; ++g)
+            matrix.store(b.tile, b.block * groups_per_block + g, j,
+                         visible_mask(block, g, vpl, visibility));
+    }
+}
+
+}  // namespace detail
+
+/// Fills an empty `matrix` of the same tiles and VPLs: bit = faces() and visible(). Packets are
+/// used where the visibility has them and the G-buffer has planes; then the bits are those of
+/// visible() as far as the visibility keeps the axiom of PacketVisibility. Black VPLs and surfaces
+/// are traced like others. The bits do not depend on `executor` or `instructions`.
+/// @throws Error(invalid_argument) when the matrix belongs to other tiles or VPLs.
+template <TiledGBuffer G, VplSet P, Visibility V, Executor E>
+void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visibility, E& executor,
+                     InstructionSet instructions = best_instruction_set()) {
+    expects(matrix.tiles() == gbuffer.tiles().size() && matrix.vpls() == vpls.size(),
+            "a visibility matrix was given luxels or VPLs that it was not made for (its bits would "
+            "not fit); make it from the tiles of this G-buffer");
+    constexpr bool by_packets = PacketVisibility<V> && requires { gbuffer.view(0).hits.planes; };
+    std::vector<sched::detail::Block> blocks;
+    for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t)
+        sched::detail::append_blocks(blocks, t, gbuffer.tiles()[t]);
+    executor.for_each(blocks.size(), [&](std::size_t i) {
+        const sched::detail::Block block = blocks[i];
+        if constexpr (by_packets)
+            run_with(instructions, [&] {
+                detail::fill_block_by_packets(matrix, gbuffer, vpls, visibility, block);
+            });
+        else
+            detail::fill_block_by_segments(matrix, gbuffer, vpls, visibility, block);
+    });
+}
+
+}  // namespace mir

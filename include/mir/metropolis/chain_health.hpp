@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/metropolis/path_luminance.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace mir {
+
+/// Proposals of one kind of mutation.
+struct MutationCount {
+    std::uint64_t proposed = 0;
+    std::uint64_t accepted = 0;
+
+    void add(bool taken) {
+        ++proposed;
+        accepted += taken ? 1 : 0;
+    }
+    void add(const MutationCount& other) {
+        proposed += other.proposed;
+        accepted += other.accepted;
+    }
+    /// 0..1; 0 when nothing was proposed.
+    [[nodiscard]] double rate() const {
+        return proposed > 0 ? static_cast<double>(accepted) / static_cast<double>(proposed) : 0.0;
+    }
+};
+
+/// What the chains of a MetropolisSampler say about themselves.
+struct ChainHealth {
+    std::uint32_t chains = 0;
+    std::uint64_t mutations = 0;         ///< of all chains, suffix refreshes not counted
+    MutationCount large;                 ///< independent steps (of several tries each)
+    MutationCount small;                 ///< Kelemen's small steps
+    MutationCount bidirectional;         ///< Veach's mutation
+    MutationCount suffix;                ///< refreshes of the light behind a VPL
+    std::uint64_t longest_stay = 0;      ///< most mutations rejected in a row
+    std::uint64_t recorded_states = 0;   ///< n
+    std::uint64_t distinct_vpls = 0;     ///< geometric VPLs among them
+    double effective_samples = 0.0;      ///< what n is worth in independent states, at most n:
+                                         ///< the least over x, y, z of x_v, log Y(R) and k
+    double split_r_hat = 1.0;            ///< the largest over the same numbers; 1 is ideal
+    PathLuminance luminance;             ///< P_c from the bootstrap
+    PathLuminance large_step_luminance;  ///< P_c again, from the proposals of the large steps
+    bool capped = false;                 ///< a chain stopped before its last state
+
+    /// Adds the counts of one more chain.
+    void add(const ChainHealth& chain) {
+        ++chains;
+        mutations += chain.mutations;
+        large.add(chain.large);
+        small.add(chain.small);
+        bidirectional.add(chain.bidirectional);
+        suffix.add(chain.suffix);
+        longest_stay = std::max(longest_stay, chain.longest_stay);
+        recorded_states += chain.recorded_states;
+        distinct_vpls += chain.distinct_vpls;
+        capped = capped || chain.capped;
+    }
+
+    /// Difference of the two estimates of P_c in standard errors; 0 when one has none.
+    [[nodiscard]] double luminance_z() const {
+        const double error =
+            std::hypot(luminance.standard_error, large_step_luminance.standard_error);
+        return error > 0.0 ? (large_step_luminance.mean - luminance.mean) / error : 0.0;
+    }
+};
+
+}  // namespace mir

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/sampler.hpp"
+#include "mir/core/limits.hpp"
+#include "mir/metropolis/chain_ensemble.hpp"
+#include "mir/sampling/target_floor.hpp"
+
+namespace mir {
+
+/// Metropolis instant radiosity whose chains run over light paths z = (x2, ..., x_k) alone, with
+/// what a probe of the image responds to them as target P~ (VplGenerator). The target of each state
+/// is known, so the records are final: J = (P~_c / n) R / P~, unbiased at every pixel for any
+/// number of luxels. What is given up is that VPLs bring exactly the same flux to the image; they
+/// do so to the luxels of the probe. Model of Sampler; docs/method.md, section 10. Scene data and
+/// probe must outlive it; const use from any thread.
+template <class World>
+class ProposalSampler {
+ public:
+    static constexpr Normalisation normalisation = Normalisation::none;
+
+    using Generator = VplGenerator<World>;
+    using Probe = typename Generator::Probe;
+
+    /// Paths are always built from both ends. health.luminance of the result is that of P~.
+    /// @throws Error(invalid_argument) when options are out of range or ask for Veach's mutations,
+    ///         which need a camera; Error(limit_exceeded) when more states are wanted than `limits`
+    ///         allows VPLs.
+    ProposalSampler(const World& world, const Probe& probe, const MetropolisOptions& options,
+                    TargetFloor floor = {}, const Limits& limits = {})
+        : world_(world), probe_(probe), options_(options), floor_(floor) {
+        options.check(limits);
+        floor.validate();
+        expects(options.chain.mutation == Mutation::primary,
+                "chains over light paths without a camera have no bidirectional mutations; use "
+                "primary ones");
+        static_cast<void>(table());
+    }
+
+    /// Runs pilot, bootstrap and chains. No record comes out when no path carries light: a result
+    /// of zero that health.luminance explains.
+    template <Executor E>
+    [[nodiscard]] VplRecords sample(E& executor) const {
+        const auto generator =
+            generator_with_floor<Generator>(world_, probe_, options_.min_edges(),
+                                            options_.max_edges(), floor_, options_.seed, executor);
+        const SuffixProposal<World> suffix(world_, generator.techniques(), generator.floor());
+        const ChainEnsemble<World, Generator> chains(generator, suffix, options_);
+        VplRecords out = chains.run(
+            [&](const WeightedPath& p) {
+                return narrowed(p.measure.leaving * (1.0 / generator.target(p.measure)));
+            },
+            executor);
+        for (VplRecord& r : out.records)
+            r.vpl.intensity = r.vpl.intensity * static_cast<float>(out.path_luminance / out.states *
+                                                                   static_cast<double>(r.weight));
+        out.non_lambertian_share = share_of_non_lambertian(out.records);
+        return out;
+    }
+
+ private:
+    [[nodiscard]] TechniqueTable table() const {
+        return {options_.min_edges(), options_.max_edges(), PathTechniques::bidirectional};
+    }
+
+    World world_;
+    const Probe& probe_;
+    MetropolisOptions options_;
+    TargetFloor floor_;
+};
+
+}  // namespace mir

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/core/random.hpp"
+#include "mir/paths/path_generator.hpp"
+
+#include <algorithm>
+
+namespace mir {
+
+/// Independent paths: path i is a function of Random(seed, stream, i), first <= i < end.
+struct PathRange {
+    std::uint64_t seed = 0;
+    Stream stream = Stream::bootstrap;
+    std::uint64_t first = 0;
+    std::uint64_t end = 0;
+};
+
+/// Calls f(i, path) for each path of the range that `generator` builds, those of weight 0
+/// included, from many threads and in any order. `f` may write what belongs to i.
+template <class Generator, Executor E, class F>
+void each_path(const Generator& generator, PathRange range, E& executor, const F& f) {
+    constexpr std::uint64_t batch = 256;
+    executor.for_each((range.end - range.first + batch - 1) / batch, [&](std::size_t b) {
+        WeightedPath path;
+        const std::uint64_t begin = range.first + b * batch;
+        for (std::uint64_t i = begin; i < std::min(begin + batch, range.end); ++i) {
+            generator.generate(Random(range.seed, range.stream, i), path);
+            f(i, path);
+        }
+    });
+}
+
+}  // namespace mir

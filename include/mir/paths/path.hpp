@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+#include "mir/core/rgb.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace mir {
+
+/// Longest path that the path-space samplers can hold, in edges.
+inline constexpr std::uint32_t max_path_edges = 64;
+
+/// A vertex of a path on a surface, or the light end of the path.
+struct PathVertex {
+    Vec3 position{0};            ///< lifted off the surface, metres
+    Vec3 normal{0};              ///< unit geometric normal of the side that the path runs on
+    Vec3 shading_normal{0};      ///< unit, same side
+    Vec2 barycentrics{0};        ///< weights of the triangle's second and third vertex
+    std::uint32_t triangle = 0;  ///< index into WorldGeometry
+    std::uint32_t material = 0;  ///< index into Scene::materials
+};
+
+enum class LightEndKind : std::uint8_t {
+    area,        ///< a point of an emissive triangle
+    point,       ///< a point light
+    spot,        ///< a spot light
+    directional  ///< light from outside the scene: the vertex has a direction, but no place
+};
+
+/// What is known about the light at the end of a path besides its place.
+struct LightEnd {
+    LightEndKind kind = LightEndKind::area;
+    std::uint16_t light_group = 0;
+    std::uint32_t light = 0;      ///< index as LightTable::sample_light() counts
+    Rgb emission;                 ///< area: L_e; point, spot: intensity; directional: irradiance
+    double pdf_next_event = 0.0;  ///< of choosing this end for a given receiver: m^-2, or a
+                                  ///< probability for lights without extent
+    double pdf_emission = 0.0;    ///< of starting a light path here, same units
+};
+
+/// A full light transport path x0 (lens), x1, ..., x_k (light). Place and direction of the first
+/// edge are given by film and lens, so x1 is a function of them.
+struct Path {
+    Vec2 film{0};                      ///< in [0,1]^2, origin top left
+    Vec2 lens{0};                      ///< in [0,1)^2
+    Vec3 eye{0};                       ///< x0, metres
+    Vec3 spread{0};                    ///< numbers that choose how x_2 spreads light, [0,1)^3
+    std::vector<PathVertex> vertices;  ///< x1 .. x_k; element i - 1 is x_i
+    LightEnd light;
+
+    /// k: the number of edges.
+    [[nodiscard]] std::uint32_t edges() const {
+        return static_cast<std::uint32_t>(vertices.size());
+    }
+    /// Scattering events, k - 1: the bounce that the path counts in.
+    [[nodiscard]] std::uint32_t bounce() const { return edges() - 1; }
+    [[nodiscard]] const PathVertex& x(std::uint32_t i) const { return vertices[i - 1]; }
+    [[nodiscard]] PathVertex& x(std::uint32_t i) { return vertices[i - 1]; }
+    /// Position of x_i, x0 included.
+    [[nodiscard]] Vec3 position(std::uint32_t i) const {
+        return i == 0 ? eye : vertices[i - 1].position;
+    }
+};
+
+}  // namespace mir

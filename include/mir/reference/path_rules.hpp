@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/rgb.hpp"
+
+#include <concepts>
+
+namespace mir {
+
+/// The formulas by which a path tracer weighs what it finds. A policy, so that another heuristic or
+/// another roulette is one function; the estimate is unbiased when
+///  1. mis(a, b) + mis(b, a) = 1, and mis(a, 0) = 1;
+///  2. roulette(t, u) has mean t over u uniform in [0, 1);
+///  3. per_steradian() converts densities exactly.
+template <class P>
+concept PathRules = requires(float x, Rgb throughput) {
+    { P::mis(x, x) } -> std::same_as<float>;
+    { P::per_steradian(x, x, x) } -> std::same_as<float>;
+    { P::roulette(throughput, x) } -> std::same_as<Rgb>;
+};
+
+/// The balance heuristic and roulette by throughput. Model of PathRules.
+struct BalanceRules {
+    /// Weight of a point found with density `own` > 0 that another technique finds with density
+    /// `other`; densities are of one measure and count samples (n p). Source: Veach and Guibas,
+    /// "Optimally combining sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
+    static float mis(float own, float other) { return 1.0f / (1.0f + other / own); }
+
+    /// Density per steradian, seen from a point at squared distance `d2` (m^2), of a surface point
+    /// with density `per_area` (m^-2) whose normal makes `cosine` with the line of sight.
+    static float per_steradian(float per_area, float d2, float cosine) {
+        return per_area * d2 / cosine;
+    }
+
+    /// Throughput of a path after Russian roulette with the number `u`, black when it ends: the
+    /// odds of survival are the largest channel of `throughput`, at most 1. Source: Arvo and Kirk,
+    /// "Particle transport and image synthesis", SIGGRAPH 1990.
+    static Rgb roulette(Rgb throughput, float u) {
+        const float odds = smaller(max_channel(throughput), 1.0f);
+        return u < odds ? throughput * (1.0f / odds) : Rgb{};
+    }
+};
+
+/// BalanceRules with the power heuristic of exponent 2. Model of PathRules.
+struct PowerRules : BalanceRules {
+    static float mis(float own, float other) {
+        const float ratio = other / own;
+        return 1.0f / (1.0f + ratio * ratio);
+    }
+};
+
+static_assert(PathRules<BalanceRules> && PathRules<PowerRules>);
+
+}  // namespace mir

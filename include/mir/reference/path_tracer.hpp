@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/ray_caster.hpp"
+#include "mir/reference/path_rules.hpp"
+#include "mir/reference/rgb_moments.hpp"
+#include "mir/shading/scene_light.hpp"
+#include "mir/shading/surface_table.hpp"
+#include "mir/shading/vpl_shading.hpp"
+
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace mir {
+
+/// How paths find emissive triangles. All three have the same expectation.
+enum class LightSearch {
+    mis,        ///< light samples and scattered directions, weighted by PathRules::mis
+    lamps,      ///< explicit: light samples alone; lamps that directions hit do not count
+    directions  ///< implicit: scattered directions alone
+};
+
+/// How paths are traced; the estimator is described in docs/reference.md.
+struct PathTracerOptions {
+    LightSearch light = LightSearch::mis;
+    /// Points on emissive triangles at the first vertex. Every later vertex takes one: the cost is
+    /// linear in `light_samples` and `directions`, not their product.
+    std::uint32_t light_samples = 1;
+    std::uint32_t directions = 1;    ///< paths that go on from the first vertex
+    std::uint8_t max_bounce = 32;    ///< largest number of scattering events, 1..254
+    std::uint8_t roulette_from = 3;  ///< first vertex where a path may end by chance; 255: never
+    /// Largest geometry term of the first two vertices, m^-2, in paths that are scattered at both:
+    /// what VplShading gives to the light of VPLs. Emission and direct light are not bounded.
+    float bound = std::numeric_limits<float>::max();
+};
+
+/// Unidirectional path tracer with next-event estimation, the reference that other estimators are
+/// compared with: radiance split by the number b of scattering events, D_0 emission seen directly,
+/// D_1 direct light, D_b what VPLs of bounce b bring. Unbiased up to `max_bounce`. Point, spot and
+/// directional lights are summed exactly at every vertex, since no direction finds them.
+///
+/// Conventions are those of docs/method.md, 4: shading normal at the receiver, geometric normal at
+/// the emitter, black where shading and geometric side disagree, points lifted by
+/// WorldGeometry::ray_offset(). Sources: Kajiya, "The rendering equation", SIGGRAPH 1986; Veach
+/// 1997, chapter 9. The referenced scene data must outlive it; const use from any thread.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules = BalanceRules>
+class PathTracer {
+ public:
+    /// What paths run through.
+    struct World {
+        const WorldGeometry& geometry;
+        const LightTable& lights;
+        const SurfaceTable<B>& surfaces;
+        R caster;
+        V visibility;
+    };
+
+    /// A lifted point of a surface, seen from where the path came from.
+    struct Vertex {
+        Hit hit;
+        Surface<typename B::Params> surface;
+    };
+
+    /// @throws Error(invalid_argument) when options are out of range.
+    PathTracer(const World& world, PathTracerOptions options);
+
+    [[nodiscard]] const PathTracerOptions& options() const { return options_; }
+
+    /// What `ray` sees first: the luxel that fill_gbuffer() stores.
+    [[nodiscard]] std::optional<Vertex> first_vertex(const Ray& ray) const;
+
+    /// Adds one estimate of the radiance that leaves `first` towards the viewer, W m^-2 sr^-1:
+    /// D_b is added to element b of `bounces`, which has max_bounce + 1 elements.
+    void trace(const Vertex& first, Random& random, std::span<RgbSum> bounces) const;
+
+ private:
+    /// A path on its way: the light samples of `at`, its vertex number `bounce`, are done.
+    struct Walk {
+        Vertex at;
+        float share = 1.0f;  ///< of the directions of the first vertex
+        std::uint8_t bounce = 1;
+        Rgb throughput{1.0f, 1.0f, 1.0f};
+    };
+
+    [[nodiscard]] Vertex vertex(const SurfacePoint& p, Vec3 direction) const;
+    [[nodiscard]] std::uint32_t light_samples_at(std::uint8_t bounce) const;
+    [[nodiscard]] std::uint32_t directions_at(std::uint8_t bounce) const;
+    [[nodiscard]] Rgb sampled_light(const Vertex& at, std::uint8_t bounce, Random& random) const;
+    [[nodiscard]] Rgb light_sample(const Vertex& at, std::uint8_t bounce, Random& random) const;
+    [[nodiscard]] Rgb found_light(const Walk& walk, const BsdfSample& sample,
+                                  const SurfacePoint& point, Rgb emission) const;
+    [[nodiscard]] float bounded_share(const Vertex& first, const Vertex& second) const;
+    bool advance(Walk& walk, Random& random, std::span<RgbSum> bounces) const;
+
+    World world_;
+    PathTracerOptions options_;
+    DeltaLight<B, V> deltas_;
+};
+
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions options)
+    : world_(world), options_(options), deltas_(world.lights, world.visibility) {
+    expects(options.light_samples >= 1 && options.light_samples <= 65536,
+            "light samples at the first vertex must be 1 to 65536; set LightSearch::directions for "
+            "none");
+    expects(options.directions >= 1 && options.directions <= 65536,
+            "directions at the first vertex must be 1 to 65536");
+    expects(options.max_bounce >= 1 && options.max_bounce < 255,
+            "the largest bounce must be 1 to 254");
+    expects(options.roulette_from >= 1,
+            "roulette cannot start before the first vertex; use 1 to 254, or 255 for none");
+    expects(options.bound > 0.0f,
+            "the bound of the geometry term must be positive (per square metre), or all light of "
+            "two bounces and more is lost; leave it at its default for none");
+}
+
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+auto PathTracer<B, R, V, Rules>::vertex(const SurfacePoint& p, Vec3 direction) const -> Vertex {
+    const Vec3 n = p.geometric_normal;
+    return {{lift(p.position, n, world_.geometry.ray_offset()), n},
+            world_.surfaces.surface(p, -direction)};
+}
+
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+auto PathTracer<B, R, V, Rules>::first_vertex(const Ray& ray) const -> std::optional<Vertex> {
+    const auto point = world_.caster.closest_hit(ray);
+    if (!point) return std::nullopt;
+    return vertex(*point, ray.direction);
+}
+
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+void PathTracer<B, R, V, Rules>::trace(const Vertex& first, Random& random,
+                                       std::span<RgbSum> bounces) const {
+    bounces[0] += first.surface.emission;
+    if (B::is_black(first.surface.bsdf)) return;
+    bounces[1] += sampled_light(first, 1, random);
+    const float share = 1.0f / static_cast<float>(options_.directions);
+    for (std::uint32_t i = 0; i < options_.directions; ++i) {
+        Walk walk{first, share};
+        while (advance(walk, random, bounces)) {
+        }
+    }
+}
+
+/// min(G, bound) / G of the first two vertices.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+float PathTracer<B, R, V, Rules>::bounded_share(const Vertex& first, const Vertex& second) const {
+    const Vec3 d = second.hit.position - first.hit.position;
+    const float d2 = length_squared(d);
+    const float g =
+        geometry_term(d * (1.0f / std::sqrt(d2)), d2, first.surface.normal, second.hit.normal);
+    return g > options_.bound ? options_.bound / g : 1.0f;
+}
+
+/// One edge further: false when the path is over.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
+                                         std::span<RgbSum> bounces) const {
+    const bool last = walk.bounce == options_.max_bounce;
+    if (last && directions_at(walk.bounce) == 0) return false;
+    const float chance = random.next();
+    if (walk.bounce >= options_.roulette_from)
+        walk.throughput = Rules::roulette(walk.throughput, chance);
+    const auto& [hit, surface] = walk.at;
+    const Vec2 uv = random.next_2d();
+    const BsdfSample sample =
+        B::sample(surface.bsdf, surface.normal, surface.wo, uv, random.next());
+    walk.throughput = walk.throughput * sample.weight;
+    if (is_black(walk.throughput) || !(glm::dot(sample.wi, hit.normal) > 0.0f)) return false;
+    const auto point = world_.caster.closest_hit({hit.position, sample.wi});
+    if (!point) return false;
+
+    const Vertex next = vertex(*point, sample.wi);
+    const Rgb found = found_light(walk, sample, *point, next.surface.emission);
+    bounces[walk.bounce] += walk.throughput * found * walk.share;
+    if (last || B::is_black(next.surface.bsdf)) return false;
+    if (walk.bounce == 1) walk.throughput = walk.throughput * bounded_share(walk.at, next);
+    walk.at = next;
+    ++walk.bounce;
+    const Rgb light = sampled_light(walk.at, walk.bounce, random);
+    bounces[walk.bounce] += walk.throughput * light * walk.share;
+    return true;
+}
+
+/// Points on emissive triangles that a vertex asks for.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+std::uint32_t PathTracer<B, R, V, Rules>::light_samples_at(std::uint8_t bounce) const {
+    if (options_.light == LightSearch::directions || !world_.lights.has_emitters()) return 0;
+    return bounce == 1 ? options_.light_samples : 1;
+}
+
+/// Scattered directions of a vertex that may find emissive triangles.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+std::uint32_t PathTracer<B, R, V, Rules>::directions_at(std::uint8_t bounce) const {
+    if (options_.light == LightSearch::lamps || !world_.lights.has_emitters()) return 0;
+    return bounce == 1 ? options_.directions : 1;
+}
+
+/// Light that the samples of a vertex bring, f cos included, W m^-2 sr^-1.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint8_t bounce,
+                                              Random& random) const {
+    const std::uint32_t samples = light_samples_at(bounce);
+    Rgb sum;
+    for (std::uint32_t i = 0; i < samples; ++i) sum += light_sample(at, bounce, random);
+    if (samples > 1) sum = sum * (1.0f / static_cast<float>(samples));
+    return sum + deltas_(at.hit, at.surface);
+}
+
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint8_t bounce,
+                                             Random& random) const {
+    const float pick = random.next();
+    const EmitterSample e = world_.lights.sample_emitter(pick, random.next_2d());
+    const Vec3 eye = at.hit.position;
+    const bool from_back = e.both_sides && glm::dot(eye - e.position, e.normal) < 0.0f;
+    const Vec3 normal = from_back ? -e.normal : e.normal;
+    const Vec3 target = lift(e.position, normal, world_.geometry.ray_offset());
+    const Vec3 d = target - eye;
+    const float d2 = length_squared(d);
+    const Vec3 wi = d * (1.0f / std::sqrt(d2));
+    const float cosine = -glm::dot(wi, normal);
+    if (!(cosine > 0.0f)) return {};
+    const Rgb light = reflected<B>(at.hit, at.surface, wi) * e.radiance;
+    if (is_black(light) || !world_.visibility.visible(eye, target)) return {};
+
+    const float density = Rules::per_steradian(e.pdf_area, d2, cosine);
+    const float sampled = static_cast<float>(light_samples_at(bounce)) * density;
+    const float found = static_cast<float>(directions_at(bounce)) *
+                        B::pdf(at.surface.bsdf, at.surface.normal, wi, at.surface.wo);
+    return light * (Rules::mis(sampled, found) / density);
+}
+
+/// Weighted emission of what a direction met, W m^-2 sr^-1.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+Rgb PathTracer<B, R, V, Rules>::found_light(const Walk& walk, const BsdfSample& sample,
+                                            const SurfacePoint& point, Rgb emission) const {
+    const std::uint32_t directions = directions_at(walk.bounce);
+    if (is_black(emission) || directions == 0) return {};
+    const std::uint32_t samples = light_samples_at(walk.bounce);
+    if (samples == 0) return emission;
+    const float d2 = length_squared(point.position - walk.at.hit.position);
+    const float cosine = -glm::dot(sample.wi, point.geometric_normal);
+    const float sampled =
+        static_cast<float>(samples) *
+        Rules::per_steradian(world_.lights.emitter_pdf(point.triangle), d2, cosine);
+    return emission * Rules::mis(static_cast<float>(directions) * sample.pdf, sampled);
+}
+
+}  // namespace mir

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/fill_gbuffer.hpp"
+#include "mir/reference/path_tracer.hpp"
+#include "mir/reference/reference_image.hpp"
+
+namespace mir {
+
+/// Where the camera rays of a reference image go through the film.
+enum class FilmPosition {
+    luxel,  ///< the ray of the luxel, every time: what other estimators see at that luxel
+    pixel   ///< anywhere in the pixel that holds the luxel, and on the lens: a box filter
+};
+
+/// How much to trace. Memory is 48 bytes per luxel and layer, the beauty's layer included.
+struct ReferenceOptions {
+    std::uint32_t samples = 64;         ///< estimates per luxel and replicate
+    std::uint32_t replicates = 16;      ///< independent images
+    std::uint32_t first_replicate = 0;  ///< number of the first: names its random numbers
+    FilmPosition film = FilmPosition::luxel;
+    std::uint8_t last_bounce = 8;  ///< last bounce with a layer of its own
+};
+
+namespace detail {
+
+/// Ray through a random place of the pixel that holds luxel (x, y).
+inline Ray ray_in_pixel(const CameraRays& rays, std::uint32_t x, std::uint32_t y, Random& random) {
+    const auto width = static_cast<float>(rays.grid.pixels.width);
+    const auto height = static_cast<float>(rays.grid.pixels.height);
+    const Vec2 corner(x / rays.grid.per_pixel_x, y / rays.grid.per_pixel_y);
+    const Vec2 film = (corner + random.next_2d()) / Vec2(width, height);
+    return rays.camera.ray(film, width / height, random.next_2d());
+}
+
+/// Rows of one reference image.
+template <class Tracer>
+class ReferenceRows {
+ public:
+    ReferenceRows(const Tracer& tracer, const CameraRays& rays, const ReferenceOptions& options,
+                  ReferenceImage& image)
+        : tracer_(tracer), rays_(rays), options_(options), image_(image) {}
+
+    void operator()(std::uint32_t y) const {
+        std::vector<RgbSum> bounces(std::size_t{tracer_.options().max_bounce} + 1);
+        for (std::uint32_t x = 0; x < image_.extent().width; ++x) {
+            const auto seen = tracer_.first_vertex(rays_(x, y));
+            for (std::uint32_t r = 0; r < options_.replicates; ++r) {
+                for (RgbSum& b : bounces) b = {};
+                for (std::uint32_t s = 0; s < options_.samples; ++s)
+                    add_sample(seen, x, y, r, s, bounces);
+                for (RgbSum& b : bounces) b = b * (1.0 / options_.samples);
+                image_.add(x, y, r, bounces);
+            }
+        }
+    }
+
+ private:
+    void add_sample(const std::optional<typename Tracer::Vertex>& seen, std::uint32_t x,
+                    std::uint32_t y, std::uint32_t replicate, std::uint32_t sample,
+                    std::span<RgbSum> bounces) const {
+        const std::uint64_t round =
+            (std::uint64_t{options_.first_replicate} + replicate) * options_.samples + sample;
+        const std::uint64_t luxel = std::uint64_t{y} * image_.extent().width + x;
+        Random random(rays_.seed, Stream::reference, round * image_.extent().area() + luxel);
+        if (options_.film == FilmPosition::luxel) {
+            if (seen) tracer_.trace(*seen, random, bounces);
+            return;
+        }
+        const auto first = tracer_.first_vertex(ray_in_pixel(rays_, x, y, random));
+        if (first) tracer_.trace(*first, random, bounces);
+    }
+
+    const Tracer& tracer_;
+    const CameraRays& rays_;
+    const ReferenceOptions& options_;
+    ReferenceImage& image_;
+};
+
+}  // namespace detail
+
+/// Traces the image of all luxels of `rays`, in parallel over rows. Replicate r of one seed has
+/// the same numbers in every call, on any machine and any number of threads, and shares none with
+/// another replicate or another stream: single replicates, and a reference that goes on where
+/// another ended, are had through `first_replicate`.
+/// @throws Error(invalid_argument) when options are out of range, and what the executor throws.
+template <class Tracer, Executor E>
+ReferenceImage trace_reference(const Tracer& tracer, const CameraRays& rays,
+                               const ReferenceOptions& options, E& executor) {
+    expects(options.samples >= 1 && options.replicates >= 1,
+            "a reference of no samples was asked for (there would be no image); ask for at least "
+            "one sample and one replicate");
+    ReferenceImage image(rays.grid.luxels(),
+                         std::min(options.last_bounce, tracer.options().max_bounce),
+                         options.replicates);
+    const detail::ReferenceRows<Tracer> row(tracer, rays, options, image);
+    executor.for_each(image.extent().height,
+                      [&](std::size_t y) { row(static_cast<std::uint32_t>(y)); });
+    return image;
+}
+
+}  // namespace mir

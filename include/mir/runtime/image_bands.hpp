@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/fill_visibility.hpp"
+#include "mir/runtime/render_context.hpp"
+#include "mir/runtime/stopwatch.hpp"
+
+#include <optional>
+
+namespace mir {
+
+/// Some rows of luxels, and who of them sees which VPL where that was asked.
+template <Bsdf B>
+struct ImageBand {
+    std::uint32_t first_row = 0;
+    BlockedGBuffer<typename B::Params> gbuffer;
+    std::optional<VisibilityMatrix> visibility;
+};
+
+/// Cuts the luxels of an image into bands of rows, so that memory does not grow with the image, and
+/// makes them one by one. Bands never cut blocks or pixels: nothing but memory depends on them.
+template <Bsdf B, class Engine, Executor E>
+class ImageBands {
+ public:
+    using Context = RenderContext<B, Engine, E>;
+
+    /// `vpls` of which the visibility will be stored, 0 for none: bands become lower until the
+    /// matrix of one fits into Limits::visibility_bytes.
+    ImageBands(const Context& context, std::uint32_t vpls)
+        : context_(context), tile_(whole_blocks(context.settings.tile)), rows_(choose_rows(vpls)) {}
+
+    [[nodiscard]] std::uint32_t count() const { return (luxels().height + rows_ - 1) / rows_; }
+
+    /// Luxels of the whole image.
+    [[nodiscard]] Extent luxels() const { return context_.rays.grid.luxels(); }
+
+    /// Traces the camera rays of band `i`.
+    [[nodiscard]] ImageBand<B> make(std::uint32_t i) const;
+
+    /// Traces the shadow rays of a band.
+    /// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
+    void find_visible(ImageBand<B>& band, VplSpan<Space::host> vpls) const;
+
+    /// True when all bands with their visibility of `vpls` VPLs fit into Limits::visibility_bytes.
+    [[nodiscard]] bool fit_together(std::uint32_t vpls) const;
+
+ private:
+    [[nodiscard]] std::uint32_t choose_rows(std::uint32_t vpls) const;
+
+    Context context_;
+    Extent tile_;
+    std::uint32_t rows_;
+};
+
+template <Bsdf B, class Engine, Executor E>
+std::uint32_t ImageBands<B, Engine, E>::choose_rows(std::uint32_t vpls) const {
+    // Some 2 million luxels at a time; whole pixels, and whole tiles unless those are huge.
+    constexpr std::uint64_t luxels_per_band = 1u << 21;
+    const std::uint64_t pixel = context_.rays.grid.per_pixel_y;
+    const std::uint64_t grain = pixel * std::min<std::uint64_t>(tile_.height, 256);
+    const std::uint64_t rows =
+        std::max<std::uint64_t>(luxels_per_band / luxels().width / grain, 1) * grain;
+    const std::uint64_t least = pixel * BlockedLayout::side;
+    const std::uint64_t least_bytes = saturating_mul(
+        VisibilityMatrix::bytes_for({{0, 0, luxels().width, BlockedLayout::side}}, vpls), pixel);
+    const std::uint64_t fitting =
+        context_.settings.limits.visibility_bytes / std::max<std::uint64_t>(least_bytes, 1);
+    const std::uint64_t fitting_rows = saturating_mul(std::max<std::uint64_t>(fitting, 1), least);
+    return static_cast<std::uint32_t>(
+        std::min({rows, fitting_rows, std::uint64_t{luxels().height}}));
+}
+
+template <Bsdf B, class Engine, Executor E>
+ImageBand<B> ImageBands<B, Engine, E>::make(std::uint32_t i) const {
+    const Stopwatch watch(context_.seconds.gbuffer);
+    const std::uint32_t first_row = i * rows_;
+    const Extent extent{luxels().width, std::min(rows_, luxels().height - first_row)};
+    ImageBand<B> band{first_row, BlockedGBuffer<typename B::Params>(extent, tile_), {}};
+    fill_gbuffer<B>(band.gbuffer, first_row, context_.rays, context_.engine.ray_caster(),
+                    context_.surfaces, context_.geometry.ray_offset(), context_.executor);
+    return band;
+}
+
+template <Bsdf B, class Engine, Executor E>
+void ImageBands<B, Engine, E>::find_visible(ImageBand<B>& band, VplSpan<Space::host> vpls) const {
+    const Stopwatch watch(context_.seconds.visibility);
+    band.visibility.emplace(band.gbuffer.tiles(), vpls.size(), context_.settings.limits);
+    fill_visibility(*band.visibility, band.gbuffer, vpls, context_.engine.visibility(),
+                    context_.executor);
+    if (context_.monitor != nullptr)
+        context_.monitor->contributions += band.gbuffer.extent().area() * vpls.size();
+}
+
+template <Bsdf B, class Engine, Executor E>
+bool ImageBands<B, Engine, E>::fit_together(std::uint32_t vpls) const {
+    const std::uint64_t padded = whole_blocks(luxels()).area();
+    const std::uint64_t surface_bytes = sizeof(Hit) + sizeof(Surface<typename B::Params>);
+    const std::uint64_t limit = context_.settings.limits.visibility_bytes;
+    return saturating_mul(padded, 8 * surface_bytes + vpls) / 8 <= limit;
+}
+
+}  // namespace mir

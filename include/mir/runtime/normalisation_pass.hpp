@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/normalise/normalise.hpp"
+#include "mir/normalise/probe.hpp"
+#include "mir/runtime/image_bands.hpp"
+#include "mir/sampling/probe_rays.hpp"
+
+namespace mir {
+
+/// The normalisation stage of a render: finds what each VPL does to the image and makes intensities
+/// of the radiance that the sampler gave (docs/method.md, 10).
+template <Bsdf B, class Engine, Executor E, Shading F>
+class NormalisationPass {
+ public:
+    using Context = RenderContext<B, Engine, E>;
+
+    /// `shading` is the one that the sampler's P_c was measured with and that the image will use.
+    NormalisationPass(const Context& context, const ImageBands<B, Engine, E>& bands,
+                      const F& shading)
+        : context_(context), bands_(bands), shading_(shading) {}
+
+    /// Replaces the radiance in `vpls` by intensities, by the policy of the settings.
+    NormalisationReport run(VplList& vpls, double path_luminance, double states) {
+        const bool probes = context_.settings.normalisation == NormalisationPolicy::prepass;
+        const std::vector<ImageResponse> responses =
+            probes ? probed(vpls.span()) : over_image(vpls.span());
+        return normalise(vpls, responses, path_luminance, states);
+    }
+
+    /// All bands with their visibility, if they fit into memory together and were needed; else
+    /// none. Leaves the pass without them.
+    [[nodiscard]] std::vector<ImageBand<B>> take_bands() { return std::move(kept_); }
+
+ private:
+    [[nodiscard]] std::vector<ImageResponse> over_image(VplSpan<Space::host> vpls);
+    [[nodiscard]] std::vector<ImageResponse> probed(VplSpan<Space::host> vpls);
+    [[nodiscard]] ImageBand<B> probe_luxels() const;
+
+    void add(const ImageBand<B>& band, VplSpan<Space::host> vpls, ResponseSum& sum) const {
+        const Stopwatch watch(context_.seconds.response);
+        sum.add_band(band.gbuffer, vpls, band.visibility->view(), shading_, context_.executor);
+    }
+
+    Context context_;
+    const ImageBands<B, Engine, E>& bands_;
+    F shading_;
+    std::vector<ImageBand<B>> kept_;
+};
+
+/// Responses over every luxel.
+template <Bsdf B, class Engine, Executor E, Shading F>
+std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::over_image(
+    VplSpan<Space::host> vpls) {
+    ResponseSum sum(bands_.luxels(), vpls.size());
+    const bool keep = context_.settings.normalisation == NormalisationPolicy::full &&
+                      bands_.fit_together(vpls.size());
+    for (std::uint32_t i = 0; i < bands_.count(); ++i) {
+        ImageBand<B> band = bands_.make(i);
+        bands_.find_visible(band, vpls);
+        add(band, vpls, sum);
+        if (keep) kept_.push_back(std::move(band));
+    }
+    return sum.mean();
+}
+
+/// Responses over a few luxels; over all for VPLs that few of those see.
+template <Bsdf B, class Engine, Executor E, Shading F>
+std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::probed(VplSpan<Space::host> vpls) {
+    ImageBand<B> probes = probe_luxels();
+    bands_.find_visible(probes, vpls);
+    ResponseSum sum(probes.gbuffer.extent(), vpls.size());
+    add(probes, vpls, sum);
+    std::vector<ImageResponse> responses = sum.mean();
+    const std::vector<VplIndex> poor = poorly_probed(responses);
+    if (poor.empty()) return responses;
+    std::vector<Vpl> again;
+    for (VplIndex j : poor) again.push_back(vpls[j]);
+    const std::vector<ImageResponse> better = over_image(span_of(again));
+    for (std::size_t i = 0; i < poor.size(); ++i) responses[poor[i]] = better[i];
+    return responses;
+}
+
+template <Bsdf B, class Engine, Executor E, Shading F>
+ImageBand<B> NormalisationPass<B, Engine, E, F>::probe_luxels() const {
+    const Stopwatch watch(context_.seconds.gbuffer);
+    const RenderSettings& s = context_.settings;
+    const ProbeRays rays{context_.rays.camera, context_.aspect(), s.prepass_luxels, s.seed};
+    const Extent cells = rays.cells();
+    ImageBand<B> band{0, BlockedGBuffer<typename B::Params>(cells, whole_blocks(cells)), {}};
+    fill_gbuffer<B>(band.gbuffer, 0, rays, context_.engine.ray_caster(), context_.surfaces,
+                    context_.geometry.ray_offset(), context_.executor);
+    return band;
+}
+
+}  // namespace mir

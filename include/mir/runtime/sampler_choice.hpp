@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/metropolis/metropolis_sampler.hpp"
+#include "mir/metropolis/proposal_sampler.hpp"
+#include "mir/runtime/render_context.hpp"
+#include "mir/sampling/bidirectional_sampler.hpp"
+#include "mir/sampling/instant_radiosity_sampler.hpp"
+#include "mir/sampling/vpl_roulette.hpp"
+
+namespace mir {
+
+/// Light paths of instant radiosity, as the settings want them.
+inline InstantRadiosityOptions light_path_options(const RenderSettings& settings) {
+    InstantRadiosityOptions options;
+    options.vpls = settings.vpls;
+    options.termination = settings.termination;
+    options.sequence = settings.sequence;
+    options.emitter_vpls = settings.direct == DirectLight::vpl;
+    options.max_bounce = settings.max_bounce;
+    options.seed = settings.seed;
+    return options;
+}
+
+/// A few luxels that tell what VPLs give to the image of a render.
+template <Bsdf B, class Engine, Executor E>
+auto image_probe(const RenderContext<B, Engine, E>& c, float bound) {
+    const ProbeRays rays{c.rays.camera, c.aspect(), 256, c.settings.seed};
+    return ImageProbe<B, decltype(c.engine.visibility())>(
+        rays, c.engine.ray_caster(), c.surfaces, c.geometry.ray_offset(), c.engine.visibility(),
+        VplShading<B>{bound});
+}
+
+/// What full paths of a render run through. `bound` is the largest geometry term of the shading to
+/// come, m^-2: samplers that look at the image must use the same.
+template <Bsdf B, class Engine, Executor E>
+auto path_world(const RenderContext<B, Engine, E>& c, const LightTable& lights, float bound) {
+    return PathWorld<B, decltype(c.engine.ray_caster()), decltype(c.engine.visibility())>{
+        c.geometry,    lights,     c.surfaces, c.engine.ray_caster(), c.engine.visibility(),
+        c.rays.camera, c.aspect(), bound};
+}
+
+/// How chains are to run.
+inline MetropolisOptions metropolis_options(const RenderSettings& settings) {
+    MetropolisOptions options{settings.metropolis};
+    options.states = settings.vpls;
+    options.emitter_vpls = settings.direct == DirectLight::vpl;
+    options.max_bounce = settings.max_bounce;
+    options.seed = settings.seed;
+    return options;
+}
+
+/// How resampled light paths are to be drawn.
+inline BidirectionalOptions bidirectional_options(const RenderSettings& settings) {
+    BidirectionalOptions options;
+    options.vpls = settings.vpls;
+    options.emitter_vpls = settings.direct == DirectLight::vpl;
+    options.max_bounce = settings.max_bounce;
+    options.seed = settings.seed;
+    return options;
+}
+
+/// Whether the sampler of the settings must know beforehand what VPLs give to the image.
+inline bool needs_probe(const RenderSettings& s) {
+    if (s.sampler == SamplerKind::instant_radiosity) return s.vpl_roulette;
+    return s.sampler == SamplerKind::bidirectional ||
+           s.normalisation == NormalisationPolicy::proposal;
+}
+
+/// Calls `use` with the sampler that the settings name and returns what it returns.
+/// @throws Error for options out of range.
+template <Bsdf B, class Engine, Executor E, class Use>
+auto with_sampler(const RenderContext<B, Engine, E>& c, const LightTable& lights, float bound,
+                  const Use& use) {
+    const RenderSettings& s = c.settings;
+    using LightPaths = InstantRadiositySampler<B, decltype(c.engine.ray_caster())>;
+    const auto paths = path_world(c, lights, bound);
+    const typename LightPaths::World light_paths{c.geometry, lights, c.surfaces,
+                                                 c.engine.ray_caster()};
+    // With direct light alone, and not by VPLs, there is nothing to sample: light paths know that.
+    const bool any = s.max_bounce > 1 || s.direct == DirectLight::vpl;
+    if (!any || !needs_probe(s)) {
+        if (any && s.sampler == SamplerKind::metropolis)
+            return use(MetropolisSampler(paths, metropolis_options(s), s.limits));
+        return use(LightPaths(light_paths, light_path_options(s), s.limits));
+    }
+    const auto probe = image_probe(c, bound);
+    if (s.sampler == SamplerKind::metropolis)
+        return use(ProposalSampler(paths, probe, metropolis_options(s), {}, s.limits));
+    if (s.sampler == SamplerKind::bidirectional)
+        return use(BidirectionalSampler(paths, probe, bidirectional_options(s), s.limits));
+    using Roulette = RouletteRadiositySampler<B, decltype(c.engine.ray_caster()),
+                                              decltype(c.engine.visibility())>;
+    return use(Roulette(light_paths, light_path_options(s), probe, {}, s.limits));
+}
+
+}  // namespace mir

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/ray_caster.hpp"
+#include "mir/core/error.hpp"
+#include "mir/sampling/probe_rays.hpp"
+#include "mir/shading/contribution.hpp"
+#include "mir/shading/surface_table.hpp"
+#include "mir/shading/vpl_shading.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace mir {
+
+/// Estimates what a VPL gives to the image before there is an image, from a few luxels: the
+/// quantity that Georgiev and Slusallek, "Simple and robust iterative importance sampling of
+/// virtual point lights", Eurographics 2010, decide by. Unbiased over seeds. Owns what it needs of
+/// the scene but for what `V` refers to; const use from any thread.
+template <Bsdf B, Visibility V>
+class ImageProbe {
+ public:
+    /// Traces the rays; points are lifted by `ray_offset` metres. `shading` holds the bound that
+    /// the geometry terms get.
+    /// @throws Error(invalid_argument) when the rays' luxels or aspect are out of range.
+    template <RayCaster R>
+    ImageProbe(const ProbeRays& rays, const R& caster, const SurfaceTable<B>& surfaces,
+               float ray_offset, V visibility, VplShading<B> shading = {});
+
+    /// Radiance that a VPL of 1 W sr^-1 at `place` (its intensity is not read) sends to the viewer,
+    /// averaged over all luxels, those that see nothing included: (1/M') sum_l f_1 G V, sr^-1 m^-2.
+    [[nodiscard]] Rgb response(const Vpl& place) const;
+
+    /// Mean image luminance due to a VPL of intensity `j` (W sr^-1) at `place`, W m^-2 sr^-1.
+    [[nodiscard]] float flux(const Vpl& place, Rgb j) const {
+        return luminance(response(place) * j);
+    }
+
+    /// Calls f(hit, surface, radiance) for each luxel that `place` lights, in a fixed order; the
+    /// radiance is that of 1 W sr^-1, sr^-1 m^-2.
+    template <class F>
+    void for_each_lit(const Vpl& place, F&& f) const;
+
+    /// M', luxels that see nothing included.
+    [[nodiscard]] std::uint32_t luxels() const { return luxels_; }
+    /// Luxels that see a surface which reflects; their points and surfaces follow, i < receivers().
+    [[nodiscard]] std::uint32_t receivers() const { return filled_; }
+    [[nodiscard]] const Hit& hit(std::uint32_t i) const {
+        return groups_[i / width].hits[i % width];
+    }
+    [[nodiscard]] const typename VplShading<B>::Surface& surface(std::uint32_t i) const {
+        return groups_[i / width].surfaces[i % width];
+    }
+
+ private:
+    static constexpr std::uint32_t width = PointPacket::width;
+
+    /// Sixteen luxels, the last group's rest empty.
+    struct Group {
+        PointPacket points{};
+        Hit hits[width];
+        typename VplShading<B>::Surface surfaces[width];
+    };
+
+    void add(const Hit& hit, const typename VplShading<B>::Surface& surface);
+    [[nodiscard]] std::uint32_t visible(const Group& group, Vec3 from, std::uint32_t mask) const;
+
+    std::vector<Group> groups_;
+    std::uint32_t filled_ = 0;
+    std::uint32_t luxels_ = 0;
+    V visibility_;
+    VplShading<B> shading_;
+};
+
+template <Bsdf B, Visibility V>
+template <RayCaster R>
+ImageProbe<B, V>::ImageProbe(const ProbeRays& rays, const R& caster,
+                             const SurfaceTable<B>& surfaces, float ray_offset, V visibility,
+                             VplShading<B> shading)
+    : visibility_(visibility), shading_(shading) {
+    expects(rays.luxels >= 1 && rays.luxels <= 65536,
+            "the luxels of an image probe must be 1 to 65536 (256 are usual)");
+    expects(std::isfinite(rays.aspect) && rays.aspect > 0.0f,
+            "the aspect ratio of an image probe is not a positive number; pass width / height");
+    const Extent cells = rays.cells();
+    luxels_ = static_cast<std::uint32_t>(cells.area());
+    for (std::uint32_t i = 0; i < luxels_; ++i) {
+        const Ray ray = rays(i % cells.width, i / cells.width);
+        const auto point = caster.closest_hit(ray);
+        if (!point) continue;
+        const Vec3 n = point->geometric_normal;
+        const auto surface = surfaces.surface(*point, -ray.direction);
+        if (shading.reflects(surface)) add({lift(point->position, n, ray_offset), n}, surface);
+    }
+}
+
+template <Bsdf B, Visibility V>
+void ImageProbe<B, V>::add(const Hit& hit, const typename VplShading<B>::Surface& surface) {
+    const std::uint32_t k = filled_++ % width;
+    if (k == 0) groups_.emplace_back();
+    Group& group = groups_.back();
+    group.points.x[k] = hit.position.x;
+    group.points.y[k] = hit.position.y;
+    group.points.z[k] = hit.position.z;
+    group.hits[k] = hit;
+    group.surfaces[k] = surface;
+}
+
+template <Bsdf B, Visibility V>
+std::uint32_t ImageProbe<B, V>::visible(const Group& group, Vec3 from, std::uint32_t mask) const {
+    if (mask == 0) return 0;
+    if constexpr (PacketVisibility<V>) {
+        return visibility_.visible_packet(from, group.points, mask);
+    } else {
+        std::uint32_t seen = 0;
+        for (std::uint32_t k = 0; k < width; ++k)
+            if ((mask >> k & 1u) != 0 && visibility_.visible(from, group.hits[k].position))
+                seen |= 1u << k;
+        return seen;
+    }
+}
+
+template <Bsdf B, Visibility V>
+template <class F>
+void ImageProbe<B, V>::for_each_lit(const Vpl& place, F&& f) const {
+    const Vpl unit{place.position, place.normal, {1.0f, 1.0f, 1.0f}};
+    for (const Group& group : groups_) {
+        Rgb shaded[width];
+        std::uint32_t reflecting = 0;
+        for (std::uint32_t k = 0; k < width; ++k) {
+            if (!faces(group.hits[k], unit)) continue;
+            shaded[k] = shading_(group.hits[k], group.surfaces[k], unit);
+            if (!is_black(shaded[k])) reflecting |= 1u << k;
+        }
+        const std::uint32_t lit = visible(group, unit.position, reflecting);
+        for (std::uint32_t k = 0; k < width; ++k)
+            if ((lit >> k & 1u) != 0) f(group.hits[k], group.surfaces[k], shaded[k]);
+    }
+}
+
+template <Bsdf B, Visibility V>
+Rgb ImageProbe<B, V>::response(const Vpl& place) const {
+    double r = 0.0;
+    double g = 0.0;
+    double b = 0.0;
+    for_each_lit(place, [&](const Hit&, const auto&, Rgb radiance) {
+        r += radiance.r;
+        g += radiance.g;
+        b += radiance.b;
+    });
+    const double share = 1.0 / luxels_;
+    return {static_cast<float>(r * share), static_cast<float>(g * share),
+            static_cast<float>(b * share)};
+}
+
+}  // namespace mir

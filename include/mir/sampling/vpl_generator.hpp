@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/paths/path_generator.hpp"
+#include "mir/sampling/probe_sight.hpp"
+
+namespace mir {
+
+/// Density of light paths x2 .. x_k, drawn by `t` or another technique.
+struct VplDensity {
+    /// `from_probe`: density of x2 as the end of a ray from the probe.
+    static double mixture(const PathMeasure& m, Technique t, const TechniqueTable& table,
+                          double from_probe) {
+        const std::uint32_t k = t.edges;
+        double light_path = m.emission;
+        for (std::uint32_t i = 2; i < k; ++i) light_path *= m.from_light[i];
+        return from_probe * suffix_density(m, k, table) +
+               table.probability(k) * table.probability_of({k, k - 1}) * light_path;
+    }
+};
+
+/// Builds light paths z = (x2, ..., x_k) from numbers, without a camera: x2 is the place of a VPL.
+/// It is the end of a light path, or what a ray from a luxel of a probe meets; the rest of the path
+/// follows from both ends as in PathGenerator. The target of the paths is
+///     P~(z) = Y(t R) + floor Y(R),
+/// where R is the radiance that leaves x2 and t what the probe responds to it: what z gives to the
+/// probe's luxels, and to luxels that the probe does not know of at least something. The weight of
+/// a path is P~ over the density of all techniques together. The `contribution` of its measure is
+/// t R; x1 and what lies before it are not set.
+///
+/// Sources: Segovia, Iehl, Mitanchey, Peroche, "Bidirectional instant radiosity", EGSR 2006, for
+/// VPLs from either side; Veach 1997, section 9.2, for the density. World and probe must outlive
+/// it; const use from any thread.
+template <class World, class Density = VplDensity>
+class VplGenerator {
+ public:
+    using Probe = ImageProbe<typename World::Bsdf, decltype(World::visibility)>;
+    static constexpr bool has_camera = false;
+
+    /// Paths of min_edges (2: also VPLs on lamps) to max_edges edges. `floor`, sr^-1 m^-2, must be
+    /// positive wherever a target of 0 would lose light.
+    VplGenerator(const World& world, const Probe& probe, std::uint32_t min_edges,
+                 std::uint32_t max_edges, double floor)
+        : world_(world),
+          probe_(probe),
+          // Light paths alone reach every place that sends out light.
+          techniques_(min_edges, max_edges, PathTechniques::bidirectional),
+          floor_(floor) {}
+
+    [[nodiscard]] const World& world() const { return world_; }
+    [[nodiscard]] const TechniqueTable& techniques() const { return techniques_; }
+    [[nodiscard]] double floor() const { return floor_; }
+    /// P~ of a path that generate() has measured.
+    [[nodiscard]] double target(const PathMeasure& m) const {
+        return luminance(m.contribution) + floor_ * luminance(m.leaving);
+    }
+
+    /// The path at the point `u` of primary sample space; `u.at(d)` is coordinate d. `out` is
+    /// written whole; density and weight are 0 when no light leaves x2.
+    template <class Numbers>
+    void generate(Numbers&& u, WeightedPath& out) const {
+        out.weight = out.density = 0.0;
+        const Technique t =
+            techniques_.sample(static_cast<double>(u.at(path_dimension::technique)));
+        if (!build(u, t, out.path)) return;
+        out.path.spread = spread_at(u);
+        if (measure_suffix(world_, out.path, out.measure) && is_connected(out.path, t))
+            weigh(t, out);
+    }
+
+ private:
+    template <class Numbers>
+    bool build(Numbers& u, Technique t, Path& path) const {
+        path.vertices.assign(1, {});
+        if (t.from_light + 1 < t.edges)
+            return start_at_probe(u, path) &&
+                   extend_from_eye(world_, u, t.edges - t.from_light, path) &&
+                   close_path(world_, u, t.from_light, path);
+        LightSubpath part;
+        start_at_light(world_, u, part);
+        if (!extend_from_light(world_, u, t.from_light, part)) return false;
+        join(path, part);
+        return true;
+    }
+
+    template <class Numbers>
+    bool start_at_probe(Numbers& u, Path& path) const {
+        const std::uint32_t d = path_dimension::eye_vertex(1);
+        const auto ray =
+            ray_from_probe(probe_, u.at(path_dimension::film), pair_at(u, d), u.at(d + 2));
+        if (!ray) return false;
+        const auto second = world_.hit(*ray);
+        if (second) path.vertices.push_back(*second);
+        return second.has_value();
+    }
+
+    [[nodiscard]] bool is_connected(const Path& path, Technique t) const {
+        const bool whole = t.from_light == 0 || t.from_light + 1 == t.edges;
+        return whole || edge_is_free(world_, path, t.edges - t.from_light);
+    }
+
+    void weigh(Technique t, WeightedPath& out) const {
+        const PathVertex& x = out.path.x(2);
+        const ProbeSight sight = sight_of(probe_, Vpl{x.position, x.normal, {}});
+        out.measure.response = sight.response;
+        out.measure.contribution = out.measure.response * out.measure.leaving;
+        const double density = Density::mixture(out.measure, t, techniques_, sight.density);
+        const double weight = target(out.measure) / density;
+        if (!(density > 0.0) || !std::isfinite(weight)) return;
+        out.density = density;
+        out.weight = weight;
+    }
+
+    World world_;
+    const Probe& probe_;
+    TechniqueTable techniques_;
+    double floor_;
+};
+
+}  // namespace mir

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+//
+// Every sampler against the path tracer under the same bound: mean radiance of each bounce, tile by
+// tile. Each replicate has its own seed, luxels, bootstrap and P_c, so their variance is inside.
+#include "bounce_means.hpp"
+#include "mir/io/gltf_reader.hpp"
+#include "mir/sampling/visible_area.hpp"
+#include "self_normalised.hpp"
+#include "support/catch.hpp"
+#include "support/shared_scenes.hpp"
+
+using namespace mirtest;
+using mir::Lambert;
+using mir::SamplerKind;
+
+namespace {
+
+constexpr mir::Extent pixels{32, 24};  // of 4 luxels: 64 x 48
+constexpr std::uint32_t runs = 16;
+
+/// A scene, how it is rendered, and what the path tracer says of it.
+class Trial {
+ public:
+    /// The bound is the automatic one of `bound_vpls` VPLs.
+    Trial(mir::Scene scene, std::uint32_t samples, std::uint32_t bound_vpls = 256)
+        : studio(std::move(scene)) {
+        const mir::Camera& camera = studio.scene.cameras.front();
+        const float aspect = static_cast<float>(pixels.width) / static_cast<float>(pixels.height);
+        settings = small_settings(pixels.width, 256);
+        settings.image = pixels;
+        settings.luxels_per_pixel = 4;
+        settings.bounce_layers = true;
+        settings.direct_samples = 1;
+        settings.max_bounce = BounceMeans::last_bounce;
+        settings.bound = {
+            mir::BoundPolicy::Kind::fixed,
+            mir::default_bound(visible_area(camera, aspect, studio.engine.ray_caster()),
+                               bound_vpls)};
+        mir::ReferenceOptions reference;
+        reference.samples = samples;
+        reference.film = mir::FilmPosition::pixel;
+        const auto tracer =
+            studio.tracer({.max_bounce = BounceMeans::last_bounce, .bound = settings.bound.value});
+        for (const auto& image :
+             replicates(tracer, {camera, mir::luxel_grid(pixels, 1), 811}, reference, runs))
+            truth.add(image);
+    }
+
+    /// `runs` renders from seed 0 on; render(settings) makes one.
+    template <class Render>
+    [[nodiscard]] BounceMeans rendered(mir::RenderSettings with, const Render& make) const {
+        BounceMeans means;
+        for (with.seed = 0; with.seed < runs; ++with.seed) means.add(make(with));
+        return means;
+    }
+    [[nodiscard]] BounceMeans rendered(const mir::RenderSettings& with) const {
+        return rendered(with, [&](const auto& s) { return render(studio.scene, s); });
+    }
+    /// p-value of agreement with the path tracer.
+    [[nodiscard]] double p_of(const mir::RenderSettings& with) const {
+        return agreement(rendered(with), truth);
+    }
+
+    Studio<Lambert> studio;
+    mir::RenderSettings settings;
+    BounceMeans truth;
+};
+
+mir::RenderSettings instant_radiosity(mir::RenderSettings s, std::uint32_t vpls) {
+    s.sampler = SamplerKind::instant_radiosity;
+    s.vpls = vpls;
+    return s;
+}
+mir::RenderSettings bidirectional(mir::RenderSettings s) {
+    s.sampler = SamplerKind::bidirectional;
+    return s;
+}
+/// Short strides save time: what is recorded must have the right law whatever the stride.
+mir::RenderSettings metropolis(mir::RenderSettings s) {
+    s.sampler = SamplerKind::metropolis;
+    s.metropolis.stride = 16;
+    s.metropolis.chain.tries = 4;
+    s.metropolis.bootstrap = {1.0, 1u << 15, 1u << 15};
+    return s;
+}
+
+}  // namespace
+
+// H0: equal means. Welch's test over 16 replicates each, D_2 .. D_5 and their sum in 12 tiles,
+// level 1 % over 4 scenes and 3 samplers. Seeds 0 to 15 and 811.
+TEST_CASE("IR, BIR and MIR bring the light of the path tracer", "[statistical]") {
+    const double level = sidak(0.01, 4 * 3);
+    for (const char* name : {"cornell-box", "cornell-inverted", "sphere", "sphere-indirect"}) {
+        const Trial trial(mir::builtin::make(name), 32);
+        CAPTURE(name);
+        CHECK(trial.p_of(instant_radiosity(trial.settings, 512)) > level);
+        CHECK(trial.p_of(bidirectional(trial.settings)) > level);
+        CHECK(trial.p_of(metropolis(trial.settings)) > level);
+    }
+}
+
+// H0 and test as above, over the ways to run the chains on two scenes.
+TEST_CASE("MIR brings the light of the path tracer however its chains run", "[statistical]") {
+    constexpr auto variants = 7;
+    const double level = sidak(0.01, 2 * variants);
+    for (const char* name : {"cornell-inverted", "sphere-indirect"}) {
+        const Trial trial(mir::builtin::make(name), 32);
+        std::vector<mir::RenderSettings> s(variants, metropolis(trial.settings));
+        s[0].metropolis.chain.mutation = mir::Mutation::bidirectional;
+        s[1].metropolis.techniques = mir::PathTechniques::camera;
+        s[2].normalisation = mir::NormalisationPolicy::prepass;
+        s[3].metropolis.suffix_refresh = 0;
+        s[4].metropolis.stride = 1;
+        s[4].metropolis.chain.tries = 1;
+        s[5].metropolis.chain.large_step_probability = 0.05;
+        s[6].normalisation = mir::NormalisationPolicy::proposal;
+        s[6].metropolis.stride = 2;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            CAPTURE(name, i);
+            CHECK(trial.p_of(s[i]) > level);
+        }
+    }
+}
+
+// H0 and test as above, 3 samplers, and 2 comparisons between them. Camera paths seldom find the
+// lamps of the other room: the path tracer's means come close to a normal law over the whole image
+// only. In tiles the samplers are compared with one another; light paths from the lamps share
+// nothing with chains of full paths.
+TEST_CASE("IR, BIR and MIR bring the light of the path tracer to the garage", "[statistical]") {
+    const double level = sidak(0.01, 3 + 2);
+    const Trial trial(mir::builtin::make("garage"), 192);
+    const BounceMeans light_paths = trial.rendered(instant_radiosity(trial.settings, 4096));
+    const BounceMeans resampled = trial.rendered(bidirectional(trial.settings));
+    const BounceMeans chained = trial.rendered(metropolis(trial.settings));
+    CHECK(agreement(light_paths.images(), trial.truth.images()) > level);
+    CHECK(agreement(resampled.images(), trial.truth.images()) > level);
+    CHECK(agreement(chained.images(), trial.truth.images()) > level);
+    CHECK(agreement(chained, light_paths) > level);
+    CHECK(agreement(chained, resampled) > level);
+}
+
+// H0 and test as above, 3 samplers.
+TEST_CASE("IR, BIR and MIR bring the light of the path tracer to Veach's room", "[statistical]") {
+    const auto scenes = shared_scenes();
+    if (!scenes) {
+        WARN("skipped: the shared scenes are not on this machine");
+        return;
+    }
+    const double level = sidak(0.01, 3);
+    const Trial trial(mir::read_gltf(*scenes / "veach-ajar/veach-ajar-diffuse.gltf").scene, 64);
+    CHECK(trial.p_of(instant_radiosity(trial.settings, 4096)) > level);
+    CHECK(trial.p_of(bidirectional(trial.settings)) > level);
+    CHECK(trial.p_of(metropolis(trial.settings)) > level);
+}
+
+namespace {
+
+/// A way to make a picture of a chain's records.
+using Render = mir::RenderResult (*)(const Trial&, const mir::RenderSettings&);
+
+mir::VplRecords sampled(const Trial& trial, const mir::RenderSettings& s, float bound) {
+    mir::cpu::TbbExecutor executor;
+    return chains(trial.studio, s, bound).sample(executor);
+}
+
+/// Renders what normalisation by any responses makes of the chains' records; the responses are
+/// of(list of VPLs).
+template <class Of>
+mir::RenderResult render_normalised(const Trial& trial, const mir::RenderSettings& s,
+                                    const Of& of) {
+    const mir::VplRecords records = sampled(trial, s, s.bound.value);
+    mir::VplList list = aggregate(records);
+    normalise(list, of(list), records.path_luminance, records.states);
+    return render(trial.studio, s, relit(records, list));
+}
+
+/// No mistake: what the renderer does.
+mir::RenderResult right(const Trial& trial, const mir::RenderSettings& s) {
+    return render_normalised(trial, s, [&](const mir::VplList& list) {
+        return responses(trial.studio, s, list, s.bound.value, trial.studio.engine.visibility());
+    });
+}
+
+/// The responses know of no bound.
+mir::RenderResult unbounded_response(const Trial& trial, const mir::RenderSettings& s) {
+    return render_normalised(trial, s, [&](const mir::VplList& list) {
+        return responses(trial.studio, s, list, std::numeric_limits<float>::max(),
+                         trial.studio.engine.visibility());
+    });
+}
+
+/// The responses know of no obstacle.
+mir::RenderResult unshadowed_response(const Trial& trial, const mir::RenderSettings& s) {
+    return render_normalised(trial, s, [&](const mir::VplList& list) {
+        return responses(trial.studio, s, list, s.bound.value, FreeSight{});
+    });
+}
+
+/// All VPLs have the same response, and so the same power; the image has its right mean.
+mir::RenderResult equal_power(const Trial& trial, const mir::RenderSettings& s) {
+    return render_normalised(trial, s, [&](const mir::VplList& list) {
+        const auto t =
+            responses(trial.studio, s, list, s.bound.value, trial.studio.engine.visibility());
+        mir::ImageResponse mean;
+        for (const mir::PathVpl& p : list.path_vpls()) {
+            const double share = static_cast<double>(p.weight) / s.vpls;
+            mean += {t[p.vpl].r * share, t[p.vpl].g * share, t[p.vpl].b * share, 1};
+        }
+        return std::vector(list.size(), mean);
+    });
+}
+
+/// P_c is that of paths which may pass through the bound.
+mir::RenderResult unbounded_chain(const Trial& trial, const mir::RenderSettings& s) {
+    return render(trial.studio, s, chains(trial.studio, s, std::numeric_limits<float>::max()));
+}
+
+/// P_c lacks the last bounce.
+mir::RenderResult shorter_luminance(const Trial& trial, const mir::RenderSettings& s) {
+    mir::VplRecords records = sampled(trial, s, s.bound.value);
+    mir::RenderSettings shorter = s;
+    --shorter.max_bounce;
+    records.path_luminance = sampled(trial, shorter, s.bound.value).path_luminance;
+    return render(trial.studio, s, Given{records});
+}
+
+/// States that a rejection repeats are left out.
+mir::RenderResult without_repeats(const Trial& trial, const mir::RenderSettings& s) {
+    mir::VplRecords records = sampled(trial, s, s.bound.value);
+    const auto last = std::unique(records.records.begin(), records.records.end(), mir::is_same_vpl);
+    records.records.erase(last, records.records.end());
+    records.states = static_cast<double>(records.records.size());
+    return render(trial.studio, s, Given{records});
+}
+
+/// p-value of agreement with the path tracer.
+double p_of_renders(const Trial& trial, const mir::RenderSettings& s, Render make) {
+    return agreement(trial.rendered(s, [&](const auto& with) { return make(trial, with); }),
+                     trial.truth);
+}
+
+}  // namespace
+
+// The test above, level 1 % over both scenes. The bound is low, so that the chains must know it.
+TEST_CASE("MIR that is normalised wrongly does not bring the light of the path tracer",
+          "[statistical]") {
+    const double level = sidak(0.01, 2);
+    for (const char* name : {"cornell-box", "sphere"}) {
+        const Trial trial(mir::builtin::make(name), 32, 32);
+        const auto p_of = [&](Render make) {
+            return p_of_renders(trial, metropolis(trial.settings), make);
+        };
+        CAPTURE(name);
+        CHECK(p_of(right) > level);
+        CHECK(p_of(unbounded_response) < level);
+        CHECK(p_of(unshadowed_response) < level);
+        CHECK(p_of(equal_power) < level);
+        CHECK(p_of(unbounded_chain) < level);
+        CHECK(p_of(shorter_luminance) < level);
+    }
+}
+
+// The same, of an independence chain whose proposals are often worth little.
+TEST_CASE("a chain without its rejections does not bring the light of the path tracer",
+          "[statistical]") {
+    const Trial trial(mir::builtin::make("cornell-inverted"), 32);
+    mir::RenderSettings s = metropolis(trial.settings);
+    s.vpls = 4096;
+    s.metropolis.stride = 1;
+    s.metropolis.suffix_refresh = 0;
+    s.metropolis.techniques = mir::PathTechniques::camera;
+    s.metropolis.chain = {.large_step_probability = 1.0, .tries = 1};
+    CHECK(p_of_renders(trial, s, right) > 0.01);
+    CHECK(p_of_renders(trial, s, without_repeats) < 0.01);
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "mir/scene/builtin.hpp"
+#include "mir/shading/cook_torrance.hpp"
+#include "mir/shading/lambert.hpp"
+#include "support/catch.hpp"
+#include "support/path_lab.hpp"
+#include "support/wedge.hpp"
+
+#include <cmath>
+
+// A path of k edges can be built with 0 to k - 1 vertices from the light. Each way by itself, all
+// ways with the mixture density, and the two generators must estimate the same mean luminance.
+
+namespace {
+
+using mir::CookTorrance;
+using mir::Lambert;
+using mir::LightEndKind;
+using mir::Path;
+using mir::PathMeasure;
+using mir::PathTechniques;
+using mir::Technique;
+using mir::TechniqueTable;
+using mirtest::generator_weights;
+using mirtest::Moments;
+using mirtest::PathLab;
+using mirtest::technique_weights;
+using mirtest::Wedge;
+using mirtest::WedgeLights;
+using mirtest::welch_p_value;
+
+constexpr std::uint64_t paths = 60'000;
+constexpr std::uint32_t longest = 5;
+
+/// Density of a path under one technique; tests of the tests hand in wrong ones.
+struct RightDensity {
+    double operator()(Technique t, const Path&, const PathMeasure& m) const {
+        return technique_density(m, t.edges, t.from_light);
+    }
+};
+
+/// p-value, after Sidak, of "techniques and generators agree at every length".
+template <class World, class Density = RightDensity>
+double agreement(const World& world, std::uint32_t shortest, std::uint64_t seed,
+                 const Density& density = {}) {
+    std::vector<double> p;
+    const bool delta_lights = !world.lights.has_emitters();
+    for (std::uint32_t k = shortest; k <= longest; ++k) {
+        const TechniqueTable all(k, k, PathTechniques::bidirectional);
+        const TechniqueTable camera(k, k, PathTechniques::camera);
+        const Moments wanted = generator_weights(world, all, seed++, 4 * paths);
+        REQUIRE(wanted.mean() > 0.0);
+        p.push_back(welch_p_value(generator_weights(world, camera, seed++, paths), wanted));
+        for (std::uint32_t s = delta_lights ? 1 : 0; s < k; ++s) {
+            const Technique t{k, s};
+            const Moments alone = technique_weights(
+                world, t, seed++, paths,
+                [&](const Path& path, const PathMeasure& m) { return density(t, path, m); });
+            CAPTURE(k, s, alone.mean(), wanted.mean(), alone.standard_error());
+            p.push_back(welch_p_value(alone, wanted));
+            UNSCOPED_INFO("k " << k << " s " << s << " alone " << alone.mean() << " +- "
+                               << alone.standard_error() << ", all " << wanted.mean() << " +- "
+                               << wanted.standard_error() << ", p " << p.back());
+        }
+    }
+    const double smallest = *std::min_element(p.begin(), p.end());
+    return -std::expm1(static_cast<double>(p.size()) * std::log1p(-smallest));
+}
+
+}  // namespace
+
+// H0 of each case: all ways to build paths of 2 (or 3) to 5 edges have the same mean weight.
+// Welch's test against the bidirectional generator, 1 % per case after Sidak; seeds in the cases.
+
+TEST_CASE("all techniques agree under a glowing ceiling", "[statistical]") {
+    const PathLab<Lambert> lab(Wedge(WedgeLights::ceiling).scene());
+    CHECK(agreement(lab.world(), 2, 1000) > 0.01);
+}
+
+TEST_CASE("all techniques agree around a lamp that shines from both sides", "[statistical]") {
+    const PathLab<Lambert> lab(Wedge(WedgeLights::two_sided).scene());
+    CHECK(agreement(lab.world(), 2, 1100) > 0.01);
+}
+
+TEST_CASE("all techniques agree under lights without extent", "[statistical]") {
+    const auto lights = GENERATE(WedgeLights::point, WedgeLights::spot, WedgeLights::directional);
+    CAPTURE(static_cast<int>(lights));
+    const PathLab<Lambert> lab(Wedge(lights).scene());
+    CHECK(agreement(lab.world(), 3, 1200 + 100 * static_cast<std::uint64_t>(lights)) > 0.01);
+}
+
+TEST_CASE("all techniques agree between glossy surfaces", "[statistical]") {
+    const auto lights = GENERATE(WedgeLights::two_sided, WedgeLights::spot);
+    CAPTURE(static_cast<int>(lights));
+    const PathLab<CookTorrance> lab(Wedge(lights, 1.0f).scene());
+    const std::uint32_t shortest = lights == WedgeLights::spot ? 3 : 2;
+    CHECK(agreement(lab.world(), shortest, 1700 + 100 * static_cast<std::uint64_t>(lights)) > 0.01);
+}
+
+TEST_CASE("all techniques agree through a thin lens and with a bounded kernel", "[statistical]") {
+    mir::Scene scene = Wedge(WedgeLights::two_sided).scene();
+    scene.cameras[0].lens_radius = 0.1f;
+    scene.cameras[0].focus_distance = 2.0f;
+    const PathLab<Lambert> lab(scene);
+    CHECK(agreement(lab.world(0.5f), 2, 2200) > 0.01);
+}
+
+// H0: P_c of k edges is L_e rho^(k - 1). Student's t, 1 % over 7 lengths, seeds 2300 to 2306.
+TEST_CASE("in the furnace every bounce is rho times the one before", "[statistical]") {
+    const PathLab<Lambert> lab(mir::builtin::make("furnace"));
+    for (std::uint32_t k = 2; k <= 8; ++k) {
+        const TechniqueTable table(k, k, PathTechniques::bidirectional);
+        const Moments m = generator_weights(lab.world(), table, 2298 + k, 60'000);
+        CAPTURE(k, m.mean(), m.standard_error());
+        CHECK(mirtest::mean_p_value(m, 0.5 * std::pow(0.5, k - 1)) > mirtest::sidak(0.01, 7));
+        CHECK(m.standard_error() < 0.01 * m.mean());
+    }
+}
+
+// H0: camera and bidirectional paths bring the same light. Welch, 1 % over 4 lengths and 2 scenes.
+TEST_CASE("camera and bidirectional paths agree in the Cornell box", "[statistical]") {
+    const auto* name = GENERATE("cornell-box", "cornell-inverted");
+    const PathLab<Lambert> lab(mir::builtin::make(name));
+    for (std::uint32_t k = 2; k <= 5; ++k) {
+        const auto camera = generator_weights(
+            lab.world(), TechniqueTable(k, k, PathTechniques::camera), 2400 + k, 200'000);
+        const auto both = generator_weights(
+            lab.world(), TechniqueTable(k, k, PathTechniques::bidirectional), 2410 + k, 200'000);
+        CAPTURE(name, k, camera.mean(), both.mean());
+        CHECK(welch_p_value(camera, both) > mirtest::sidak(0.01, 8));
+    }
+}
+
+TEST_CASE("a two-sided lamp whose sides are each started with full density is rejected",
+          "[statistical]") {
+    const PathLab<Lambert> lab(Wedge(WedgeLights::two_sided).scene());
+    const auto wrong = [](Technique t, const Path& path, PathMeasure m) {
+        m.emission = path.light.pdf_next_event;
+        return technique_density(m, t.edges, t.from_light);
+    };
+    CHECK(agreement(lab.world(), 2, 1100, wrong) < 0.001);
+}
+
+TEST_CASE("light samples weighed like starts of light paths are rejected", "[statistical]") {
+    const PathLab<Lambert> lab(Wedge(WedgeLights::two_sided).scene());
+    const auto wrong = [](Technique t, const Path&, PathMeasure m) {
+        m.next_event = m.emission;
+        return technique_density(m, t.edges, t.from_light);
+    };
+    CHECK(agreement(lab.world(), 2, 1100, wrong) < 0.001);
+}
+
+TEST_CASE("densities with the cosine of the wrong end are rejected", "[statistical]") {
+    const PathLab<Lambert> lab(Wedge(WedgeLights::ceiling).scene());
+    const bool from_eye = GENERATE(true, false);
+    const auto wrong = [&](Technique t, const Path& path, PathMeasure m) {
+        for (std::uint32_t i = 2; i < t.edges; ++i) {
+            const std::uint32_t other = from_eye ? i - 1 : i + 1;
+            const mir::Vec3 w = glm::normalize(path.position(other) - path.position(i));
+            const double ratio = std::fabs(static_cast<double>(glm::dot(w, path.x(other).normal) /
+                                                               glm::dot(w, path.x(i).normal)));
+            (from_eye ? m.from_eye : m.from_light)[i] *= ratio;
+        }
+        return technique_density(m, t.edges, t.from_light);
+    };
+    CHECK(agreement(lab.world(), 2, 1000, wrong) < 0.001);
+}
+
+// All techniques of one length, each weighed by the mixture; `without` is left out of it.
+TEST_CASE("a mixture that forgets one of its techniques is rejected", "[statistical]") {
+    const PathLab<Lambert> lab(Wedge(WedgeLights::ceiling).scene());
+    constexpr std::uint32_t k = 4;
+    const TechniqueTable table(k, k, PathTechniques::bidirectional);
+    const Moments wanted = generator_weights(lab.world(), table, 2500, paths);
+    const std::uint32_t without = GENERATE(0u, 1u, 2u, 3u, 99u);
+    const auto mixture = [&](const Path&, const PathMeasure& m) {
+        double density = 0.0;
+        for (std::uint32_t s = 0; s < k; ++s)
+            if (s != without) density += technique_density(m, k, s) / k;
+        return density;
+    };
+    double mean = 0.0;
+    double variance = 0.0;
+    for (std::uint32_t s = 0; s < k; ++s) {
+        const Moments m = technique_weights(lab.world(), {k, s}, 2501 + s, paths, mixture);
+        mean += m.mean() / k;
+        variance += m.standard_error() * m.standard_error() / (k * k);
+    }
+    const double z =
+        (mean - wanted.mean()) / std::hypot(std::sqrt(variance), wanted.standard_error());
+    CAPTURE(without, mean, wanted.mean());
+    if (without < k)
+        CHECK(std::fabs(z) > 5.0);
+    else
+        CHECK(std::fabs(z) < 2.576);
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/fill_gbuffer.hpp"
+#include "mir/reconstruct.hpp"
+#include "mir/sampling/image_probe.hpp"
+#include "mir/sampling/instant_radiosity_sampler.hpp"
+#include "mir/sched/cpu_blocks.hpp"
+#include "mir/shading/vpl_shading.hpp"
+#include "support/path_lab.hpp"
+
+#include <vector>
+
+namespace mirtest {
+
+/// The light that a sampler's records bring to a small image, replicate by replicate.
+class SamplerLight {
+ public:
+    static constexpr std::uint64_t replicates = 32;
+    static constexpr std::uint32_t bounces = 5;  ///< 1 .. bounces are told apart
+    static constexpr std::uint32_t luxels = 32;  ///< along either side
+    static constexpr std::uint32_t tiles = 4;    ///< along either side
+
+    /// One for each bounce, then one for each tile, all bounces in one.
+    std::vector<Moments> moments{bounces + tiles * tiles};
+
+    [[nodiscard]] const Moments& bounce(std::uint32_t b) const { return moments[b - 1]; }
+
+    /// Adds the replicate that `records` are.
+    template <mir::Bsdf B>
+    void add(const PathLab<B>& lab, const mir::VplRecords& records) {
+        const auto world = lab.world();
+        mir::BlockedGBuffer<typename B::Params> gbuffer({luxels, luxels}, {luxels, luxels});
+        const mir::CameraRays rays{world.camera, mir::luxel_grid({luxels, luxels}, 1), 77};
+        mir::InlineExecutor one;
+        mir::fill_gbuffer<B>(gbuffer, 0, rays, world.caster, world.surfaces,
+                             world.geometry.ray_offset(), one);
+        std::vector<double> values(moments.size());
+        for (std::uint32_t b = 1; b <= bounces; ++b)
+            add_picture(picture<B>(gbuffer, world.visibility, records, b), b, values);
+        for (std::size_t i = 0; i < values.size(); ++i) moments[i].add(values[i]);
+    }
+
+ private:
+    template <mir::Bsdf B, class G, class V>
+    static mir::Image<mir::Rgb> picture(const G& gbuffer, const V& visibility,
+                                        const mir::VplRecords& records, std::uint32_t b) {
+        std::vector<mir::Vpl> vpls;
+        for (const mir::VplRecord& r : records.records)
+            if (r.bounce == b) vpls.push_back(r.vpl);
+        mir::InlineExecutor one;
+        return mir::reconstruct(mir::sched::CpuBlocks{one}, gbuffer, mir::span_of(vpls), visibility,
+                                mir::VplShading<B>{});
+    }
+    static void add_picture(const mir::Image<mir::Rgb>& image, std::uint32_t b,
+                            std::vector<double>& values) {
+        constexpr std::uint32_t side = luxels / tiles;
+        for (std::uint32_t y = 0; y < luxels; ++y)
+            for (std::uint32_t x = 0; x < luxels; ++x) {
+                const double l = luminance(image(x, y));
+                values[b - 1] += l / (luxels * luxels);
+                values[bounces + y / side * tiles + x / side] += l / (side * side);
+            }
+    }
+};
+
+/// Light that instant radiosity brings, which knows neither probe nor target. Seeds from 40000 on.
+template <mir::Bsdf B>
+SamplerLight instant_radiosity(const PathLab<B>& lab, std::uint32_t vpls = 512) {
+    const auto w = lab.world();
+    SamplerLight light;
+    mir::InlineExecutor one;
+    for (std::uint64_t s = 40'000; s < 40'000 + SamplerLight::replicates; ++s) {
+        mir::InstantRadiosityOptions o;
+        o.vpls = vpls;
+        o.emitter_vpls = true;
+        o.seed = s;
+        light.add(lab, mir::InstantRadiositySampler<B, decltype(w.caster)>(
+                           {w.geometry, w.lights, w.surfaces, w.caster}, o)
+                           .sample(one));
+    }
+    return light;
+}
+
+template <mir::Bsdf B>
+using ProbeOf = mir::ImageProbe<B, decltype(PathLab<B>::World::visibility)>;
+
+/// Probe without a bound.
+template <mir::Bsdf B>
+ProbeOf<B> probe_of(const PathLab<B>& lab, std::uint32_t luxels = 64) {
+    const auto w = lab.world();
+    return {{w.camera, 1.0f, luxels, 5}, w.caster,     w.surfaces,
+            w.geometry.ray_offset(),     w.visibility, {}};
+}
+
+/// p-value, after Sidak, of "both samplers bring the same light to every bounce from `first` on and
+/// to every tile" (Welch's test in each).
+inline double agreement(const SamplerLight& a, const SamplerLight& b, std::uint32_t first) {
+    double smallest = 1.0;
+    const std::size_t tests = a.moments.size() - (first - 1);
+    for (std::size_t i = first - 1; i < a.moments.size(); ++i)
+        smallest = std::min(smallest, welch_p_value(a.moments[i], b.moments[i]));
+    return -std::expm1(static_cast<double>(tests) * std::log1p(-smallest));
+}
+
+}  // namespace mirtest

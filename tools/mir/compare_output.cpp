@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "compare_output.hpp"
+
+#include "mir/compare/error_picture.hpp"
+#include "mir/io/atomic_file.hpp"
+#include "mir/io/exr.hpp"
+#include "mir/io/html_report.hpp"
+#include "mir/io/png.hpp"
+#include "mir/version.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+namespace mirtool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+constexpr std::array<const char*, 3> channel_names{"R", "G", "B"};
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
+std::string triple(const std::array<double, 3>& v) {
+    return number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]);
+}
+
+/// Ratios of the channels' means; NaN where the reference's is zero.
+std::array<double, 3> ratios_of(const mir::ImageMetrics& m) {
+    std::array<double, 3> ratios{};
+    for (std::size_t c = 0; c < 3; ++c)
+        ratios[c] = m.reference_mean[c] == 0.0 ? std::nan("") : m.mean[c] / m.reference_mean[c];
+    return ratios;
+}
+
+/// Rows on the light of both pictures.
+void add_means(Rows& rows, const mir::ImageMetrics& m) {
+    const mir::LargestDifference& most = m.largest;
+    rows.emplace_back("mean R, G, B", triple(m.mean));
+    rows.emplace_back("mean of reference", triple(m.reference_mean));
+    rows.emplace_back("ratio of means", triple(ratios_of(m)));
+    rows.emplace_back("mean difference", number(100.0 * m.mean_difference()) + " %");
+    rows.emplace_back("largest difference",
+                      number(most.value) + " (" + channel_names[most.channel] + " of pixel " +
+                          std::to_string(most.x) + ", " + std::to_string(most.y) + ")");
+}
+
+Rows rows_of(const Comparison& c, const CompareOptions& o) {
+    const mir::ImageMetrics& m = c.metrics;
+    const mir::FlipExposures& e = c.flip_exposures;
+    Rows rows{{"image", o.image},
+              {"reference", o.reference},
+              {"layer", o.layer.empty() ? "beauty" : o.layer},
+              {"size", std::to_string(c.image.width()) + " x " + std::to_string(c.image.height())},
+              {"RMSE", number(m.rmse())},
+              {"MSE", number(m.mse)},
+              {"relMSE", number(m.rel_mse) + " (epsilon " + number(o.epsilon) + ")"},
+              {"MAE", number(m.mae)},
+              {"HDR-FLIP", number(c.flip) + " (" + std::to_string(e.count) + " exposures from " +
+                               number(e.start) + " to " + number(e.stop) + " EV)"},
+              {"LDR-FLIP", number(c.ldr_flip) + " (at " + number(c.exposure) + " EV)"}};
+    add_means(rows, m);
+    for (const std::string& name : c.exceeded) rows.emplace_back("above its limit", name);
+    return rows;
+}
+
+/// What was compared.
+Json head_of(const Comparison& c, const CompareOptions& o) {
+    return {{"version", mir::version}, {"image", o.image},         {"reference", o.reference},
+            {"layer", o.layer},        {"width", c.image.width()}, {"height", c.image.height()}};
+}
+
+void add_flip(Json& out, const Comparison& c, const CompareOptions& o) {
+    const mir::FlipExposures& e = c.flip_exposures;
+    out["flip"] = c.flip;
+    out["flip_exposures"] = {{"start", e.start}, {"stop", e.stop}, {"count", e.count}};
+    out["ldr_flip"] = c.ldr_flip;
+    out["exposure"] = c.exposure;
+    out["pixels_per_degree"] = o.pixels_per_degree;
+}
+
+/// JSON has no infinity and no NaN: they become null.
+Json json_of(const Comparison& c, const CompareOptions& o) {
+    const mir::ImageMetrics& m = c.metrics;
+    Json out = head_of(c, o);
+    out["rmse"] = m.rmse();
+    out["mse"] = m.mse;
+    out["relmse"] = m.rel_mse;
+    out["relmse_epsilon"] = o.epsilon;
+    out["mae"] = m.mae;
+    add_flip(out, c, o);
+    out["mean_radiance"] = {
+        {"image", m.mean}, {"reference", m.reference_mean}, {"ratio", ratios_of(m)}};
+    out["mean_difference_percent"] = 100.0 * m.mean_difference();
+    out["largest_difference"] = {{"value", m.largest.value},
+                                 {"x", m.largest.x},
+                                 {"y", m.largest.y},
+                                 {"channel", channel_names[m.largest.channel]}};
+    out["exceeded"] = c.exceeded;
+    if (!o.report.empty()) out["report"] = o.report;
+    if (!o.error.empty()) out["error"] = o.error;
+    return out;
+}
+
+void write_report(const Comparison& c, const CompareOptions& o,
+                  const mir::Image<mir::Rgb>& error_picture, float range) {
+    const mir::Image<mir::Rgb> flip_picture = mir::flip_picture(c.flip_map);
+    const std::string at = " at " + number(c.exposure) + " EV";
+    mir::write_html_report(
+        o.report,
+        {o.image + " compared with " + o.reference,
+         rows_of(c, o),
+         {{"image" + at, &c.image, c.exposure},
+          {"reference" + at, &c.reference, c.exposure},
+          {"signed error of luminance: red where the image is brighter, blue where it is darker, "
+           "in full colour from " +
+               number(range),
+           &error_picture},
+          {"HDR-FLIP: black for 0, pale yellow for 1", &flip_picture}}});
+}
+
+}  // namespace
+
+void check_outputs(const CompareOptions& o) {
+    const auto place = [](const std::string& name) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
+    };
+    std::set<std::filesystem::path> taken{place(o.image), place(o.reference)};
+    for (const std::string& name : {o.report, o.error}) {
+        if (name.empty()) continue;
+        if (!taken.insert(place(name)).second)
+            throw mir::Error(mir::ErrorCode::invalid_argument,
+                             name +
+                                 ": it would replace another file of this comparison (each "
+                                 "needs a place of its own); give another name");
+        const mir::AtomicFile writable(name);
+    }
+}
+
+void write_outputs(const Comparison& c, const CompareOptions& o) {
+    if (o.report.empty() && o.error.empty()) return;
+    const mir::Image<mir::Rgb> errors = mir::difference(c.image, c.reference);
+    const float range = mir::error_range(errors);
+    const mir::Image<mir::Rgb> picture = mir::signed_error_picture(errors, range);
+    if (o.error.ends_with(".png")) mir::write_png(o.error, picture, 0.0f);
+    if (o.error.ends_with(".exr")) mir::write_exr(o.error, errors.extent(), {{"", &errors}});
+    if (!o.report.empty()) write_report(c, o, picture, range);
+}
+
+void print_metrics(const Comparison& c, const CompareOptions& o) {
+    if (o.json) {
+        // Names of files need not be UTF-8; JSON must be.
+        std::printf("%s\n",
+                    json_of(c, o).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+        return;
+    }
+    for (const auto& [label, value] : rows_of(c, o))
+        std::printf("%-20s %s\n", label.c_str(), value.c_str());
+    if (!o.error.empty()) std::printf("%-20s %s\n", "signed error", o.error.c_str());
+    if (!o.report.empty()) std::printf("%-20s %s\n", "report", o.report.c_str());
+}
+
+}  // namespace mirtool
