@@ -150,7 +150,7 @@ TEST_CASE("the header tells how the picture was made") {
     CHECK(std::stoi(attribute_of(path, "mir:light_paths")) > 0);
     CHECK(std::stof(attribute_of(path, "mir:removed_share")) >= 0.0f);
     CHECK(attribute_of(path, "mir:seconds") == "none");
-    render(small_render(path) + Words{"--record-seconds"});
+    render(small_render(path) + Words{"--record-seconds", "--chains", "4"});
     CHECK(std::stof(attribute_of(path, "mir:seconds")) > 0.0f);
     CHECK(attribute_of(path, "mir:sampler") == "mir");
     CHECK(attribute_of(path, "mir:normalisation") == "full");
@@ -169,7 +169,10 @@ TEST_CASE("the header tells how the picture was made") {
 TEST_CASE("every choice is accepted and changes the picture") {
     const TemporaryFolder folder("render_choices");
     const auto picture = [&](const Words& choice) {
-        render(small_render(folder / "a.exr") + Words{"--aov", "none", "--luxels", "2"} + choice);
+        // Chains that record twice, so that mutations matter.
+        const bool own = !choice.empty() && choice[0] == "--chains";
+        render(small_render(folder / "a.exr") + Words{"--aov", "none", "--luxels", "2"} +
+               (own ? Words{} : Words{"--chains", "4"}) + choice);
         return mir::read_exr(folder / "a.exr").image;
     };
     const auto usual = picture({});
@@ -192,7 +195,7 @@ TEST_CASE("every choice is accepted and changes the picture") {
                                Words{"--sampler", "ir", "--sequence", "halton"},
                                Words{"--normalise", "prepass"},
                                Words{"--normalise", "proposal"},
-                               Words{"--normalise", "prepass", "--prepass-luxels", "100"},
+                               Words{"--normalise", "prepass", "--prepass-luxels", "2000"},
                                Words{"--chains", "3"},
                                Words{"--stride", "3"},
                                Words{"--tries", "2"},
