@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Whole renders against numbers known in closed form.
+#include "reference/studio.hpp"
 #include "support.hpp"
 #include "support/catch.hpp"
-#include "support/statistics.hpp"
 
 using namespace mirtest;
 
@@ -52,12 +52,12 @@ TEST_CASE("facing unit squares exchange light by their form factor", "[statistic
 }
 
 TEST_CASE("VPLs on the lamp give the same form factor", "[statistical]") {
-    // H0: as above, with direct light by 512 VPLs on the lamp; Student's t over 16 seeds, level 1 %
+    // H0: as above, with direct light by 256 VPLs on the lamp; Student's t over 16 seeds, level 1 %
     // over 3 samplers.
     const mir::Scene scene = seen_from_above(mir::builtin::parallel_squares(), {0, 0, 0}, 0.9f);
     for (const mir::SamplerKind sampler : samplers) {
         Moments f;
-        auto settings = small_settings(32, 512);
+        auto settings = small_settings(32, 256);
         settings.sampler = sampler;
         settings.direct = mir::DirectLight::vpl;
         settings.max_bounce = 1;
@@ -71,6 +71,34 @@ TEST_CASE("VPLs on the lamp give the same form factor", "[statistical]") {
     }
 }
 
+TEST_CASE("VPLs on the lamp light each ninth of a facing square as it should be", "[statistical]") {
+    // H0: mean radiance of each ninth is int int 1 / (pi d^4), by quadrature, for squares 1 m
+    // apart. Student's t over 16 seeds, level 1 % over 9 parts and 3 samplers. The tolerance of
+    // 1e-4 is for means over luxels instead of areas.
+    const auto radiance = [](double x, double y) {
+        return mirtest::integrate(0.0, 1.0, 0.0, 1.0, 4, [&](double u, double v) {
+            const double d2 = 1.0 + (x - u) * (x - u) + (y - v) * (y - v);
+            return 1.0 / (mirtest::pi * d2 * d2);
+        });
+    };
+    const std::vector<double> expected = cell_integrals(3, 3, 4, radiance);
+    const mir::Scene scene = seen_from_above(mir::builtin::parallel_squares(), {0, 0, 0}, 0.9f);
+    for (const mir::SamplerKind sampler : samplers) {
+        TileMeans parts(8);
+        auto settings = small_settings(24, 256);
+        settings.sampler = sampler;
+        settings.direct = mir::DirectLight::vpl;
+        settings.max_bounce = 1;
+        for (settings.seed = 0; settings.seed < 16; ++settings.seed)
+            parts.add(render(scene, settings).indirect);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const Moments& part = parts.moments()[i];
+            CAPTURE(int(sampler), i, part.mean(), part.standard_error());
+            CHECK(mean_p_value(part, 9.0 * expected[i], 1e-4) > sidak(0.01, 9 * samplers.size()));
+        }
+    }
+}
+
 TEST_CASE("the furnace has radiance L / (1 - rho) in every bounce", "[statistical]") {
     // H0: D_0 = L, D_1 = rho L, D_b = rho^b L with rho = L = 0.5; Student's t over 32 seeds, level
     // 1 % over 5 means and 3 samplers. No bound, so nothing is removed.
@@ -78,7 +106,7 @@ TEST_CASE("the furnace has radiance L / (1 - rho) in every bounce", "[statistica
     const double expected[] = {0.5, 0.25, 0.125, 0.0625, 0.03125, 1.0};
     for (const mir::SamplerKind sampler : samplers) {
         std::vector<Moments> d(std::size(expected));
-        auto settings = small_settings(24, 512);
+        auto settings = small_settings(24, 256);
         settings.sampler = sampler;
         settings.bounce_layers = true;
         settings.direct_samples = 16;

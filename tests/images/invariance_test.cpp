@@ -86,7 +86,7 @@ double p_of_equal_light(const mir::Scene& a, const mir::Scene& b, mir::SamplerKi
     constexpr std::uint32_t side = 24;
     TileMeans first(side / 2);
     TileMeans second(side / 2);
-    mir::RenderSettings s = settings_of(sampler, side, 256);
+    mir::RenderSettings s = settings_of(sampler, side, 128);
     s.direct_samples = 1;
     s.bound = {mir::BoundPolicy::Kind::fixed, 14.0f};
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
@@ -124,7 +124,7 @@ TEST_CASE("a picture does not depend on the scale of the scene") {
 TEST_CASE("a scene far from the origin looks the same and does not leak") {
     const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
     for (const mir::SamplerKind sampler : samplers) {
-        auto settings = settings_of(sampler, 48, 1024);
+        auto settings = settings_of(sampler, 48, 512);
         settings.bound.kind = mir::BoundPolicy::Kind::automatic;
         const auto reference = render(scene, settings);
         for (float away : {8.0f, 128.0f, 1024.0f}) {

@@ -203,7 +203,7 @@ TEST_CASE("every choice is accepted and changes the picture") {
                                Words{"--mutation", "bidirectional"},
                                Words{"--paths", "camera"},
                                Words{"--suffix-refresh", "1"},
-                               Words{"--bootstrap-error", "0.2"},
+                               Words{"--bootstrap-error", "0.005"},
                                Words{"--stop", "paper"},
                                Words{"--integrator", "path"},
                                Words{"--integrator", "path", "--samples", "4"},

@@ -6,6 +6,8 @@
 #include "mir/metropolis/chain_ensemble.hpp"
 #include "mir/sampling/target_floor.hpp"
 
+#include <utility>
+
 namespace mir {
 
 /// Metropolis instant radiosity whose chains run over light paths z = (x2, ..., x_k) alone, with
@@ -26,9 +28,9 @@ class ProposalSampler {
     /// @throws Error(invalid_argument) when options are out of range or ask for Veach's mutations,
     ///         which need a camera; Error(limit_exceeded) when more states are wanted than `limits`
     ///         allows VPLs.
-    ProposalSampler(const World& world, const Probe& probe, const MetropolisOptions& options,
+    ProposalSampler(World world, const Probe& probe, const MetropolisOptions& options,
                     TargetFloor floor = {}, const Limits& limits = {})
-        : world_(world), probe_(probe), options_(options), floor_(floor) {
+        : world_(std::move(world)), probe_(probe), options_(options), floor_(floor) {
         options.check(limits);
         floor.validate();
         expects(options.chain.mutation == Mutation::primary,

@@ -3,6 +3,8 @@
 
 #include "mir/paths/path_generator.hpp"
 
+#include <utility>
+
 namespace mir {
 
 /// Draws x3 .. x_k of a path anew while x0, x1 and x2 stay, at least one reflection behind x2: an
@@ -13,8 +15,8 @@ template <class World>
 class SuffixProposal {
  public:
     /// `floor`: that of VplGenerator, in the unit of PathMeasure::response.
-    SuffixProposal(const World& world, const TechniqueTable& techniques, double floor = 0.0)
-        : world_(world), techniques_(techniques), floor_(floor) {}
+    SuffixProposal(World world, const TechniqueTable& techniques, double floor = 0.0)
+        : world_(std::move(world)), techniques_(techniques), floor_(floor) {}
 
     /// Density of x3 .. x_k under draw(), up to a factor that all paths share.
     [[nodiscard]] double density(const PathMeasure& m, std::uint32_t k) const {

@@ -4,6 +4,8 @@
 #include "mir/paths/grow.hpp"
 #include "mir/paths/technique.hpp"
 
+#include <utility>
+
 namespace mir {
 
 /// A path together with what it is worth.
@@ -45,8 +47,8 @@ class PathGenerator {
     /// Paths reach from the camera to a light.
     static constexpr bool has_camera = true;
 
-    PathGenerator(const World& world, const TechniqueTable& techniques)
-        : world_(world), techniques_(techniques) {}
+    PathGenerator(World world, const TechniqueTable& techniques)
+        : world_(std::move(world)), techniques_(techniques) {}
 
     [[nodiscard]] const World& world() const { return world_; }
     [[nodiscard]] const TechniqueTable& techniques() const { return techniques_; }

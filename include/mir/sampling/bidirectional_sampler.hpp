@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace mir {
 
@@ -49,9 +50,9 @@ class BidirectionalSampler {
 
     /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when
     ///         more VPLs are wanted than `limits` allows.
-    BidirectionalSampler(const World& world, const Probe& probe,
-                         const BidirectionalOptions& options, const Limits& limits = {})
-        : world_(world), probe_(probe), options_(options) {
+    BidirectionalSampler(World world, const Probe& probe, const BidirectionalOptions& options,
+                         const Limits& limits = {})
+        : world_(std::move(world)), probe_(probe), options_(options) {
         expects(options.vpls > 0,
                 "0 VPLs were asked for (there would be no light); ask for at least 1, 256 is "
                 "usual");

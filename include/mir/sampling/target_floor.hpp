@@ -33,7 +33,7 @@ template <class Generator, class World, Executor E>
 Generator generator_with_floor(const World& world, const typename Generator::Probe& probe,
                                std::uint32_t min_edges, std::uint32_t max_edges, TargetFloor floor,
                                std::uint64_t seed, E& executor) {
-    const Generator pilot(world, probe, min_edges, max_edges, 0.0);
+    Generator pilot(world, probe, min_edges, max_edges, 0.0);
     if (world.lights.empty()) return pilot;
     std::vector<double> image(floor.pilot_paths);
     std::vector<double> leaving(floor.pilot_paths);

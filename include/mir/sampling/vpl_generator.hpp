@@ -4,6 +4,8 @@
 #include "mir/paths/path_generator.hpp"
 #include "mir/sampling/probe_sight.hpp"
 
+#include <utility>
+
 namespace mir {
 
 /// Density of light paths x2 .. x_k, drawn by `t` or another technique.
@@ -39,9 +41,9 @@ class VplGenerator {
 
     /// Paths of min_edges (2: also VPLs on lamps) to max_edges edges. `floor`, sr^-1 m^-2, must be
     /// positive wherever a target of 0 would lose light.
-    VplGenerator(const World& world, const Probe& probe, std::uint32_t min_edges,
-                 std::uint32_t max_edges, double floor)
-        : world_(world),
+    VplGenerator(World world, const Probe& probe, std::uint32_t min_edges, std::uint32_t max_edges,
+                 double floor)
+        : world_(std::move(world)),
           probe_(probe),
           // Light paths alone reach every place that sends out light.
           techniques_(min_edges, max_edges, PathTechniques::bidirectional),
