@@ -86,8 +86,9 @@ mir::RenderSettings metropolis(mir::RenderSettings s) {
 
 }  // namespace
 
-// H0: equal means. Welch's test over 16 replicates each, D_2 .. D_5 and their sum in 12 tiles,
-// level 1 % over 4 scenes and 3 samplers. Seeds 0 to 15 and 811.
+// H0: equal means. Welch's test over 16 replicates each, D_2 .. D_5 and their sum, in 12 tiles of
+// 16 x 16 luxels and over the image; level 1 % over all of them, 4 scenes and 3 samplers. Seeds 0
+// to 15, path tracer 811.
 TEST_CASE("IR, BIR and MIR bring the light of the path tracer", "[statistical]") {
     const double level = sidak(0.01, 4 * 3);
     for (const char* name : {"cornell-box", "cornell-inverted", "sphere", "sphere-indirect"}) {
@@ -241,7 +242,8 @@ double p_of_renders(const Trial& trial, const mir::RenderSettings& s, Render mak
 
 }  // namespace
 
-// The test above, level 1 % over both scenes. The bound is low, so that the chains must know it.
+// The same hypothesis and test, level 1 % over both scenes: true for the first, rejected for the
+// others. The bound is low, so that it matters who knows it.
 TEST_CASE("MIR that is normalised wrongly does not bring the light of the path tracer",
           "[statistical]") {
     const double level = sidak(0.01, 2);
@@ -260,7 +262,7 @@ TEST_CASE("MIR that is normalised wrongly does not bring the light of the path t
     }
 }
 
-// The same, of an independence chain whose proposals are often worth little.
+// The same, level 1 %, of an independence chain whose proposals are often worth little.
 TEST_CASE("a chain without its rejections does not bring the light of the path tracer",
           "[statistical]") {
     const Trial trial(mir::builtin::make("cornell-inverted"), 32);

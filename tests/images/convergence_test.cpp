@@ -28,6 +28,8 @@ struct Brighter {
         return records;
     }
 };
+template <mir::Sampler S>
+Brighter(S, double) -> Brighter<S>;
 
 /// Indirect light of the Cornell box at 48 x 48 luxels that are the same for every seed, bounces 2
 /// to 5 under one bound for any number of VPLs.

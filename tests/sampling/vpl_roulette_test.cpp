@@ -168,7 +168,7 @@ TEST_CASE("kept VPLs light the image as all VPLs do, bounce by bounce", "[statis
         const Probe probe = stage.probe(seed);
         mir::InstantRadiosityOptions options;
         options.seed = seed;
-        const auto records =
+        auto records =
             Sampler(stage.world(), options, probe, {.pilot_vpls = 1000}).sample(stage.executor);
         kept.add(static_cast<double>(records.records.size()));
         return records;

@@ -3,6 +3,7 @@
 
 #include "mir/core/random.hpp"
 #include "support/catch.hpp"
+#include "support/kolmogorov.hpp"
 
 namespace {
 
@@ -21,18 +22,6 @@ Histogram ramp(std::uint64_t seed, int count) {
         h.add(x, static_cast<double>(random.next()));
     }
     return h;
-}
-
-/// Distance of the largest gap between the sorted p-values and the uniform distribution.
-double kolmogorov_distance(std::vector<double> p) {
-    std::sort(p.begin(), p.end());
-    double worst = 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const double n = static_cast<double>(p.size());
-        worst = std::max(
-            {worst, p[i] - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - p[i]});
-    }
-    return worst;
 }
 
 }  // namespace
@@ -110,9 +99,9 @@ TEST_CASE("p-values of true hypotheses are uniform", "[statistical]") {
         mean.push_back(mirtest::mean_p_value(a, 0.5));
         welch.push_back(mirtest::welch_p_value(a, b));
     }
-    CHECK(kolmogorov_distance(chi) < 1.63 / std::sqrt(300.0));
-    CHECK(kolmogorov_distance(mean) < 1.63 / std::sqrt(300.0));
-    CHECK(kolmogorov_distance(welch) < 1.63 / std::sqrt(300.0));
+    CHECK(mirtest::kolmogorov_distance(chi) < 1.63 / std::sqrt(300.0));
+    CHECK(mirtest::kolmogorov_distance(mean) < 1.63 / std::sqrt(300.0));
+    CHECK(mirtest::kolmogorov_distance(welch) < 1.63 / std::sqrt(300.0));
 }
 
 // H0: the mean is 0.5. True mean 0.52 must be rejected at 1e-6. Seed 3.

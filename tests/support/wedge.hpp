@@ -15,10 +15,10 @@ enum class WedgeLights { ceiling, two_sided, point, spot, directional };
 /// normals are bent by up to 20 degrees.
 class Wedge {
  public:
-    explicit Wedge(WedgeLights lights, float specular = 0.0f) {
-        floor_ = material("floor", {0.9f, 0.8f, 0.7f}, specular);
-        ceiling_ = material("ceiling", {0.7f, 0.8f, 0.9f}, specular);
-        board_ = material("board", {0.6f, 0.6f, 0.6f}, 0.0f);
+    explicit Wedge(WedgeLights lights, float specular = 0.0f)
+        : floor_(material("floor", {0.9f, 0.8f, 0.7f}, specular)),
+          ceiling_(material("ceiling", {0.7f, 0.8f, 0.9f}, specular)),
+          board_(material("board", {0.6f, 0.6f, 0.6f}, 0.0f)) {
         place_surfaces();
         add(lights);
         scene_.cameras.push_back(
