@@ -25,7 +25,7 @@ TEST_CASE("philox4x32 gives the known answers of Random123 at run time too") {
     CHECK(found == Bits128{{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}});
 }
 
-TEST_CASE("to_unit_float stays in [0, 1)") {
+TEST_CASE("to_unit_float stays below one and not below zero") {
     CHECK(mir::to_unit_float(0) == 0.0f);
     CHECK(mir::to_unit_float(0x80000000u) == 0.5f);
     CHECK(mir::to_unit_float(0xFFFFFFFFu) == 1.0f - 0x1p-24f);

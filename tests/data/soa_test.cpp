@@ -51,7 +51,7 @@ TEST_CASE("What is stored is loaded again, neighbours untouched") {
     for (std::uint32_t i = 0; i < count; ++i) REQUIRE(view.load(i) == numbered(i == 7 ? 1000 : i));
 }
 
-TEST_CASE("Word k of element i lies at planes[k * stride + i]") {
+TEST_CASE("Word k of element i lies at place k * stride + i") {
     std::vector<std::uint32_t> memory(mir::SoaView<Particle>::words * 4);
     const mir::SoaView<Particle> view{memory.data(), 4};
     view.store(2, {1.0f, 42, {3, 4, 5}});

@@ -137,7 +137,7 @@ TEST_CASE("the health counts what the chains did") {
     CHECK(std::fabs(h.luminance_z()) < 5.0);
 }
 
-TEST_CASE("emitter VPLs stand on lamps and bring direct light; without them none does") {
+TEST_CASE("emitter VPLs stand on lamps and bring direct light, which no other VPL does") {
     const PathLab<Lambert> lab(mir::builtin::make("cornell-box"));
     MetropolisOptions o = small();
     o.states = 200;

@@ -113,7 +113,7 @@ TEST_CASE("asymmetric small steps are rejected") {
     }
 }
 
-TEST_CASE("a small step stays in [0, 1) at the borders too") {
+TEST_CASE("a small step stays below one and not below zero, at the borders too") {
     for (const SmallStep& s : {SmallStep(), SmallStep(0x1p-24f, 0.5f)})
         for (float u : {0.0f, 0x1p-24f, 0x1p-10f, 0.5f, 1 - 0x1p-6f, almost_one})
             for (int i = 0; i < 4096; ++i) {

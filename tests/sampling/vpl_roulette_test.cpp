@@ -201,7 +201,7 @@ TEST_CASE("survivors that are not divided, and VPLs dropped for good, are reject
     CHECK(with(4, no_floor) < level);
 }
 
-TEST_CASE("odds follow the flux: floor, share of the mean, one; intensities are divided by them") {
+TEST_CASE("odds follow the flux: floor, share of the mean, one. Intensities are divided by them") {
     const Stage stage(mir::builtin::make("garage"));
     const Probe probe = stage.probe(1);
     const VplRecords pilot = stage.plain(2, 2000);

@@ -242,7 +242,7 @@ TEST_CASE("without interface the surface is exactly Lambertian") {
     CHECK(CookTorrance::albedo(params(m), up, wo) == m.base_color);
 }
 
-TEST_CASE("albedo() of a smooth interface is the directional albedo and never leaves [0, 1]") {
+TEST_CASE("albedo() of a smooth interface is the directional albedo and never leaves 0 to 1") {
     for (float metallic : {0.0f, 0.4f, 1.0f})
         for (double cosine : {0.0, 0.2, 0.6, 1.0}) {
             const Vec3 wo = mirtest::direction(cosine, 0.0);
