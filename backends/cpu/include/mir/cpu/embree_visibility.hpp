@@ -35,17 +35,20 @@ struct EmbreeVisibility {
         RTCRay16 rays;
         alignas(64) int valid[16];
         for (std::uint32_t k = 0; k < 16; ++k) {
+            const bool on = (active >> k & 1u) != 0;
             rays.org_x[k] = origin.x;
             rays.org_y[k] = origin.y;
             rays.org_z[k] = origin.z;
-            rays.dir_x[k] = points.x[k] - origin.x;
-            rays.dir_y[k] = points.y[k] - origin.y;
-            rays.dir_z[k] = points.z[k] - origin.z;
-            rays.tnear[k] = 0.0f;
-            rays.tfar[k] = 1.0f;
+            // Without AVX-512 Embree cuts the packet up and looks at lanes that are off, which may
+            // hold anything: they get an empty interval and a direction that is a number.
+            rays.dir_x[k] = on ? points.x[k] - origin.x : 1.0f;
+            rays.dir_y[k] = on ? points.y[k] - origin.y : 1.0f;
+            rays.dir_z[k] = on ? points.z[k] - origin.z : 1.0f;
+            rays.tnear[k] = on ? 0.0f : 1.0f;
+            rays.tfar[k] = on ? 1.0f : 0.0f;
             rays.time[k] = 0.0f;
             rays.mask[k] = detail::all_rays;
-            valid[k] = (active >> k & 1u) != 0 ? -1 : 0;
+            valid[k] = on ? -1 : 0;
         }
         detail::occluded16(valid, scene, rays);
         std::uint32_t seen = 0;
