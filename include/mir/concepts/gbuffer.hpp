@@ -6,6 +6,7 @@
 #include "mir/data/tile.hpp"
 
 #include <concepts>
+#include <span>
 #include <vector>
 
 namespace mir {
@@ -29,6 +30,13 @@ concept TiledGBuffer = requires(const T t, TileIndex i) {
     { t.extent() } -> std::same_as<Extent>;
     { t.tiles() } -> std::same_as<const std::vector<Tile>&>;
     { t.view(i) } -> GBuffer;
+};
+
+/// A TiledGBuffer on the host whose tiles are runs of words, as they are copied to a device.
+template <class T>
+concept PackedGBuffer = TiledGBuffer<T> && requires(const T t, TileIndex i) {
+    { t.hit_words_of(i) } -> std::same_as<std::span<const std::uint32_t>>;
+    { t.surface_words_of(i) } -> std::same_as<std::span<const std::uint32_t>>;
 };
 
 }  // namespace mir

@@ -16,6 +16,8 @@ template <Space S, class Params>
 struct GBufferView {
     static constexpr Space space = S;
     using Surface = mir::Surface<Params>;
+    template <Space Other>
+    using In = GBufferView<Other, Params>;  ///< the same luxels in other memory
 
     SoaView<const Hit> hits;
     SoaView<const Surface> surfaces;

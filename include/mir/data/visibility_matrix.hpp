@@ -10,12 +10,37 @@
 
 namespace mir {
 
+/// Masks of one tile of a VisibilityMatrix: who of its luxels sees which VPL. A view.
+template <Space S>
+struct TileMasks {
+    static constexpr Space space = S;
+    static constexpr std::uint32_t group_size = 16;  ///< luxels of one mask, 4 x 4 of the image
+    static constexpr std::uint32_t groups_per_block = BlockedLayout::block_size / group_size;
+
+    const std::uint16_t* masks = nullptr;
+    std::uint32_t vpls = 0;
+
+    /// Masks of a tile of `luxels` luxels, padding included.
+    static constexpr std::size_t count(std::uint32_t luxels, std::uint32_t vpls) {
+        return std::size_t{luxels / group_size} * vpls;
+    }
+
+    /// Place of a mask: block by block, and in a block VPL by VPL, which is how blocks are shaded.
+    [[nodiscard]] MIR_HD std::size_t index(std::uint32_t group, VplIndex j) const {
+        return (std::size_t{group / groups_per_block} * vpls + j) * groups_per_block +
+               group % groups_per_block;
+    }
+    [[nodiscard]] MIR_HD bool sees(LuxelIndex i, VplIndex j) const {
+        return (masks[index(i / group_size, j)] >> (i % group_size) & 1u) != 0;
+    }
+};
+
 /// View of a VisibilityMatrix; the model of KnownVisibility.
 template <Space S>
 struct VisibilityBits {
     static constexpr Space space = S;
-    static constexpr std::uint32_t group_size = 16;  ///< luxels of one mask, 4 x 4 of the image
-    static constexpr std::uint32_t groups_per_block = BlockedLayout::block_size / group_size;
+    static constexpr std::uint32_t group_size = TileMasks<S>::group_size;
+    static constexpr std::uint32_t groups_per_block = TileMasks<S>::groups_per_block;
 
     const std::uint16_t* masks = nullptr;
     const std::size_t* first_block = nullptr;  ///< of each tile
@@ -26,13 +51,22 @@ struct VisibilityBits {
         return masks[index(t, group, j)];
     }
     [[nodiscard]] MIR_HD bool sees(TileIndex t, LuxelIndex i, VplIndex j) const {
-        return (mask(t, i / group_size, j) >> (i % group_size) & 1u) != 0;
+        return tile(t).sees(i, j);
     }
 
-    /// Place of a mask: block by block, and in a block VPL by VPL, which is how blocks are shaded.
+    /// Place of a mask among those of all tiles.
     [[nodiscard]] MIR_HD std::size_t index(TileIndex t, std::uint32_t group, VplIndex j) const {
-        const std::size_t block = first_block[t] + group / groups_per_block;
-        return (block * vpls + j) * groups_per_block + group % groups_per_block;
+        return first_mask(t) + tile(t).index(group, j);
+    }
+
+    /// The masks of tile `t`.
+    [[nodiscard]] MIR_HD TileMasks<S> tile(TileIndex t) const {
+        return {masks + first_mask(t), vpls};
+    }
+
+ private:
+    [[nodiscard]] MIR_HD std::size_t first_mask(TileIndex t) const {
+        return first_block[t] * vpls * groups_per_block;
     }
 };
 

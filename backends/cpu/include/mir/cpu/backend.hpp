@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/backend.hpp"
+#include "mir/concepts/executor.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+namespace mir::cpu {
+
+/// Memory of the CPU backend. The CPU copies from any memory equally well, so this is also its
+/// host buffer.
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+    explicit Buffer(std::size_t size = 0) : elements_(size) {}
+
+    [[nodiscard]] T* data() { return elements_.data(); }
+    [[nodiscard]] const T* data() const { return elements_.data(); }
+    [[nodiscard]] std::size_t size() const { return elements_.size(); }
+    [[nodiscard]] std::span<T> span() { return elements_; }
+
+ private:
+    std::vector<T> elements_;
+};
+
+/// Work is done when it is given, so every event has passed.
+struct Event {
+    void sync() const {}
+};
+
+/// Does everything at once, loops on the executor's threads.
+template <Executor E>
+class Queue {
+ public:
+    explicit Queue(E& executor) : executor_(&executor) {}
+
+    template <class T>
+    void upload(std::span<const T> from, Buffer<T>& to) {
+        expects(from.size() <= to.size(), "a copy is larger than the buffer it goes to");
+        std::copy(from.begin(), from.end(), to.data());
+    }
+    template <class T>
+    void download(const Buffer<T>& from, std::span<T> to) {
+        expects(to.size() <= from.size(), "a copy is larger than the buffer it comes from");
+        std::copy_n(from.data(), to.size(), to.data());
+    }
+    template <class Kernel>
+    void for_each(std::uint32_t n, const Kernel& kernel) {
+        const std::uint32_t chunks = (n + grain - 1) / grain;
+        executor_->for_each(chunks, [&](std::size_t c) {
+            const auto first = static_cast<std::uint32_t>(c) * grain;
+            const std::uint32_t last = std::min(n, first + grain);
+            for (std::uint32_t i = first; i < last; ++i) kernel(i);
+        });
+    }
+    template <class Kernel>
+    void fill_bits(std::uint32_t rows, std::uint32_t columns, const Kernel& kernel,
+                   std::uint32_t* words) {
+        expects(rows % 32 == 0, "bits are made 32 rows at a time; pad the rows");
+        executor_->for_each(rows / 32, [&](std::size_t group) {
+            std::uint32_t* out = words + group * columns;
+            std::fill_n(out, columns, 0u);
+            for (std::uint32_t k = 0; k < 32; ++k) {
+                const auto row = kernel.row(static_cast<std::uint32_t>(group) * 32 + k);
+                for (std::uint32_t j = 0; j < columns; ++j)
+                    out[j] |= static_cast<std::uint32_t>(kernel(row, j)) << k;
+            }
+        });
+    }
+    [[nodiscard]] Event record() { return {}; }
+    void wait(const Event&) {}
+
+ private:
+    static constexpr std::uint32_t grain = 256;
+
+    E* executor_;
+};
+
+/// The host as a Backend, so that every scheduler runs, and is tested, without a GPU.
+template <Executor E>
+class Backend {
+ public:
+    static constexpr Space space = Space::host;
+    template <class T>
+    using Buffer = cpu::Buffer<T>;
+    template <class T>
+    using HostBuffer = cpu::Buffer<T>;
+    using Event = cpu::Event;
+    using Queue = cpu::Queue<E>;
+
+    /// `executor` must outlive the backend and what it hands out.
+    explicit Backend(E& executor) : executor_(&executor) {}
+
+    [[nodiscard]] Queue queue() const { return Queue(*executor_); }
+    template <class T>
+    [[nodiscard]] Buffer<T> buffer(std::size_t size) const {
+        return Buffer<T>(size);
+    }
+    template <class T>
+    [[nodiscard]] HostBuffer<T> host_buffer(std::size_t size) const {
+        return HostBuffer<T>(size);
+    }
+
+ private:
+    E* executor_;
+};
+
+static_assert(mir::Backend<Backend<InlineExecutor>>);
+
+}  // namespace mir::cpu

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/gbuffer.hpp"
+#include "mir/concepts/shading.hpp"
+#include "mir/concepts/vpl_set.hpp"
+#include "mir/data/soa.hpp"
+
+namespace mir {
+
+/// One luxel, all VPLs that it is known to see: the second kernel of RCVP. `seen.sees(i, j)` is
+/// true where luxel i faces and sees VPL j. Writes W m^-2 sr^-1, VPLs summed in their order.
+template <GBuffer G, VplSet P, class Seen, Shading F>
+struct ShadingPass {
+    G luxels;
+    P vpls;
+    Seen seen;
+    F shade;
+    SoaView<Rgb> radiance;
+
+    MIR_HD void operator()(LuxelIndex i) const {
+        const Hit hit = luxels.hit(i);
+        if (is_empty(hit)) return radiance.store(i, {});
+        const auto surface = luxels.surface(i);
+        Rgb sum;
+        for (VplIndex j = 0; j < vpls.size(); ++j)
+            if (seen.sees(i, j)) sum += shade(hit, surface, vpls[j]);
+        radiance.store(i, sum);
+    }
+};
+template <class G, class P, class Seen, class F>
+ShadingPass(G, P, Seen, F, SoaView<Rgb>) -> ShadingPass<G, P, Seen, F>;
+
+}  // namespace mir

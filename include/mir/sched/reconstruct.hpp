@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/kernels/fused.hpp"
+#include "mir/kernels/shading_pass.hpp"
+#include "mir/reconstruct.hpp"
+#include "mir/sched/detail/tile_ring.hpp"
+#include "mir/sched/detail/uploaded_vpls.hpp"
+
+namespace mir::sched {
+
+/// RC, figure 5 of the paper: per tile, one kernel for rays, shading and sum, while the next tile
+/// goes up and the last one comes home. Given a KnownVisibility it traces no ray. On the host the
+/// image is that of sched::Cpu in every bit. Not thread-safe; several may share a backend.
+template <Backend B>
+struct Reconstruct {
+    B backend;
+    Monitor* monitor = nullptr;  ///< may be null
+
+    template <class In>
+    class Pipeline {
+     public:
+        Pipeline(const In& in, Image<Rgb>& image, const Reconstruct& scheduler)
+            : in_(in),
+              vpls_(scheduler.backend, in.vpls),
+              ring_(scheduler.backend, in.gbuffer, vpls_.size(),
+                    is_known ? detail::SlotVisibility::masks : detail::SlotVisibility::none, image,
+                    scheduler.monitor),
+              copy_(scheduler.backend.queue()),
+              compute_(scheduler.backend.queue()) {
+            vpls_.send(copy_);
+        }
+
+        void submit(TileIndex t) {
+            auto& slot = ring_.acquire(t);
+            ring_.upload_hits(slot, copy_);
+            ring_.upload_surfaces(slot, copy_);
+            if constexpr (is_known) ring_.upload_known(slot, copy_, in_.visibility);
+            compute_.wait(copy_.record());
+            if constexpr (is_known)
+                compute_.for_each(slot.luxels,
+                                  ShadingPass{ring_.luxels(slot), vpls_.view(),
+                                              slot.known(vpls_.size()), in_.shading, slot.sums()});
+            else
+                compute_.for_each(slot.luxels,
+                                  FusedKernel{ring_.luxels(slot), vpls_.view(), in_.visibility,
+                                              in_.shading, slot.sums()});
+            ring_.send_back(slot, compute_);
+        }
+        void finish() { ring_.drain(); }
+
+     private:
+        using G = std::remove_cvref_t<decltype(std::declval<In>().gbuffer)>;
+        static constexpr bool is_known = KnownVisibility<decltype(In::visibility)>;
+
+        const In& in_;
+        detail::UploadedVpls<B> vpls_;
+        detail::TileRing<B, G> ring_;
+        // Last, so that they end, and wait for their work, before the memory goes.
+        typename B::Queue copy_;
+        typename B::Queue compute_;
+    };
+
+    template <class In>
+    Pipeline<In> open(const In& in, Image<Rgb>& image) const {
+        detail::check_pairing<In, B>();
+        return {in, image, *this};
+    }
+};
+template <Backend B>
+Reconstruct(B) -> Reconstruct<B>;
+template <Backend B>
+Reconstruct(B, Monitor*) -> Reconstruct<B>;
+
+}  // namespace mir::sched

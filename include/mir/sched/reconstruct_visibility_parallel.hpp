@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/kernels/shading_pass.hpp"
+#include "mir/kernels/visibility_pass.hpp"
+#include "mir/reconstruct.hpp"
+#include "mir/sched/detail/tile_ring.hpp"
+#include "mir/sched/detail/uploaded_vpls.hpp"
+
+namespace mir::sched {
+
+/// RCVP, figure 6 of the paper: per tile, a kernel of rays that needs the hits alone, and behind it
+/// one of shading; the surfaces go up while rays are traced. Given a KnownVisibility the first
+/// kernel is left out. On the host the image is that of sched::Cpu in every bit. Not thread-safe;
+/// several may share a backend.
+template <Backend B>
+struct ReconstructVisibilityParallel {
+    B backend;
+    Monitor* monitor = nullptr;  ///< may be null
+
+    template <class In>
+    class Pipeline {
+     public:
+        Pipeline(const In& in, Image<Rgb>& image, const ReconstructVisibilityParallel& scheduler)
+            : in_(in),
+              vpls_(scheduler.backend, in.vpls),
+              ring_(scheduler.backend, in.gbuffer, vpls_.size(),
+                    is_known ? detail::SlotVisibility::masks : detail::SlotVisibility::words, image,
+                    scheduler.monitor),
+              copy_(scheduler.backend.queue()),
+              compute_(scheduler.backend.queue()) {
+            vpls_.send(copy_);
+        }
+
+        void submit(TileIndex t) {
+            auto& slot = ring_.acquire(t);
+            ring_.upload_hits(slot, copy_);
+            const auto hits_there = copy_.record();
+            if constexpr (is_known) ring_.upload_known(slot, copy_, in_.visibility);
+            ring_.upload_surfaces(slot, copy_);  // hidden behind the rays below
+            const auto surfaces_there = copy_.record();
+
+            compute_.wait(hits_there);
+            if constexpr (!is_known)
+                compute_.fill_bits(slot.luxels, vpls_.size(),
+                                   VisibilityPass{ring_.luxels(slot), vpls_.view(), in_.visibility},
+                                   slot.words.data());
+            compute_.wait(surfaces_there);
+            compute_.for_each(slot.luxels, ShadingPass{ring_.luxels(slot), vpls_.view(),
+                                                       seen_by(slot), in_.shading, slot.sums()});
+            ring_.send_back(slot, compute_);
+        }
+        void finish() { ring_.drain(); }
+
+     private:
+        using G = std::remove_cvref_t<decltype(std::declval<In>().gbuffer)>;
+        static constexpr bool is_known = KnownVisibility<decltype(In::visibility)>;
+
+        [[nodiscard]] auto seen_by(const detail::TileSlot<B>& slot) const {
+            if constexpr (is_known)
+                return slot.known(vpls_.size());
+            else
+                return slot.seen(vpls_.size());
+        }
+
+        const In& in_;
+        detail::UploadedVpls<B> vpls_;
+        detail::TileRing<B, G> ring_;
+        // Last, so that they end, and wait for their work, before the memory goes.
+        typename B::Queue copy_;
+        typename B::Queue compute_;
+    };
+
+    template <class In>
+    Pipeline<In> open(const In& in, Image<Rgb>& image) const {
+        detail::check_pairing<In, B>();
+        return {in, image, *this};
+    }
+};
+template <Backend B>
+ReconstructVisibilityParallel(B) -> ReconstructVisibilityParallel<B>;
+template <Backend B>
+ReconstructVisibilityParallel(B, Monitor*) -> ReconstructVisibilityParallel<B>;
+
+}  // namespace mir::sched
