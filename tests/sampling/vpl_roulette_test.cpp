@@ -157,7 +157,7 @@ struct Trial {
 // runs of 2000 VPLs (seeds from 3001 on) and 40 runs of 256 survivors (from 4001 on), level 1 %
 // over 2 scenes, 4 tiles and 4 groups of bounces.
 TEST_CASE("kept VPLs light the image as all VPLs do, bounce by bounce", "[statistical]") {
-    const char* name = GENERATE("garage", "cornell-inverted");
+    const char* name = GENERATE("door-ajar", "cornell-inverted");
     CAPTURE(name);
     const Stage stage(mir::builtin::make(name));
     const double level = mirtest::sidak(0.01, 2 * tiles * bounces);
@@ -202,7 +202,7 @@ TEST_CASE("survivors that are not divided, and VPLs dropped for good, are reject
 }
 
 TEST_CASE("odds follow the flux: floor, share of the mean, one. Intensities are divided by them") {
-    const Stage stage(mir::builtin::make("garage"));
+    const Stage stage(mir::builtin::make("door-ajar"));
     const Probe probe = stage.probe(1);
     const VplRecords pilot = stage.plain(2, 2000);
     const VplRecords from = stage.plain(1, 2000);
@@ -244,11 +244,11 @@ TEST_CASE("odds follow the flux: floor, share of the mean, one. Intensities are 
     }
 }
 
-// H0: as much as 3 %, or as little as 1 %, of the garage's power gets through its gap. Student's t
+// H0: as much as 3 %, or as little as 1 %, of the lamps' power gets through its gap. Student's t
 // over 40 runs of 8000 VPLs (seeds from 8001 on), level 1 % over both; both must be rejected.
-TEST_CASE("the garage's lamps send 1 to 3 % of their power into the camera's room",
+TEST_CASE("lamps behind a door ajar send 1 to 3 % of their power into the camera's room",
           "[statistical]") {
-    const Stage stage(mir::builtin::make("garage"));
+    const Stage stage(mir::builtin::make("door-ajar"));
     Moments share;
     for (std::uint64_t seed = 8001; seed < 8041; ++seed) {
         const VplRecords records = stage.plain(seed, 8000);
@@ -275,8 +275,8 @@ TEST_CASE("the garage's lamps send 1 to 3 % of their power into the camera's roo
 
 // Variance per kept VPL, summed over the luxels, of 60 runs each (seeds from 7001 on); less than
 // half of plain instant radiosity's is asked for.
-TEST_CASE("in the garage a kept VPL is worth several plain ones", "[statistical]") {
-    const Stage stage(mir::builtin::make("garage"));
+TEST_CASE("with a door ajar a kept VPL is worth several plain ones", "[statistical]") {
+    const Stage stage(mir::builtin::make("door-ajar"));
     const auto cost = [&](const auto& sample) {
         std::vector<Moments> luxels(side * side);
         double kept = 0.0;
@@ -303,7 +303,7 @@ TEST_CASE("in the garage a kept VPL is worth several plain ones", "[statistical]
 }
 
 TEST_CASE("the sampler keeps the axioms of Sampler") {
-    const Stage stage(mir::builtin::make("garage"));
+    const Stage stage(mir::builtin::make("door-ajar"));
     const Probe probe = stage.probe(1);
     mir::cpu::TbbExecutor two(2);
     mirtest::sampler_suite(
@@ -316,7 +316,7 @@ TEST_CASE("the sampler keeps the axioms of Sampler") {
 }
 
 TEST_CASE("where the pilot lights nothing, every VPL is kept as it is") {
-    mir::Scene scene = mir::builtin::make("garage");
+    mir::Scene scene = mir::builtin::make("door-ajar");
     scene.cameras[0] = mir::Camera::look_at({0, 9, 0}, {0, 20, 0}, {0, 0, 1}, 0.8f);
     const Stage stage(scene);
     const Probe probe = stage.probe(1);
@@ -326,7 +326,7 @@ TEST_CASE("where the pilot lights nothing, every VPL is kept as it is") {
 }
 
 TEST_CASE("a scene without light yields no record") {
-    mir::Scene scene = mir::builtin::make("garage");
+    mir::Scene scene = mir::builtin::make("door-ajar");
     for (mir::Material& m : scene.materials) m.emission = {};
     const Stage stage(scene);
     const Probe probe = stage.probe(1);
@@ -334,7 +334,7 @@ TEST_CASE("a scene without light yields no record") {
 }
 
 TEST_CASE("roulette options out of range are refused, and more candidates than the limit") {
-    const Stage stage(mir::builtin::make("garage"));
+    const Stage stage(mir::builtin::make("door-ajar"));
     const Probe probe = stage.probe(1);
     const auto make = [&](mir::VplRouletteOptions roulette, std::uint32_t vpls = 10) {
         mir::InstantRadiosityOptions options;

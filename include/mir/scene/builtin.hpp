@@ -2,8 +2,10 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/scene/builtin/car_room.hpp"
 #include "mir/scene/builtin/check_rooms.hpp"
 #include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scene/builtin/door_ajar.hpp"
 #include "mir/scene/builtin/garage.hpp"
 #include "mir/scene/builtin/sphere_room.hpp"
 
@@ -21,14 +23,22 @@ struct Entry {
 };
 
 /// Every built-in scene, in the order in which help lists them.
-inline constexpr std::array<Entry, 9> scenes{{
+inline constexpr std::array<Entry, 14> scenes{{
     {"cornell-box", "the Cornell box", [] { return cornell_box(Lamp::down); }},
     {"cornell-inverted", "the Cornell box with its lamp turned to the ceiling",
      [] { return cornell_box(Lamp::up); }},
     {"sphere", "the paper's sphere, main lamp down", [] { return sphere_room(Lamp::down); }},
     {"sphere-indirect", "the paper's sphere, main lamp up", [] { return sphere_room(Lamp::up); }},
-    {"garage", "the paper's hard case: all light comes through a door ajar",
+    {"car", "the paper's car, 480 000 triangles, main lamp down",
+     [] { return car_room(Lamp::down); }},
+    {"car-indirect", "the paper's car, main lamp up", [] { return car_room(Lamp::up); }},
+    {"car-grille", "the car behind woven wire, 1.4 million triangles, main lamp down",
+     [] { return car_grille(Lamp::down); }},
+    {"car-grille-indirect", "the car behind woven wire, main lamp up",
+     [] { return car_grille(Lamp::up); }},
+    {"garage", "the paper's garage: the car, lit through a door from the next room",
      [] { return garage(); }},
+    {"door-ajar", "all light comes through a door ajar, small", [] { return door_ajar(); }},
     {"furnace", "closed box whose radiance is exactly 1", [] { return furnace_box(); }},
     {"parallel-squares", "form factor 0.199824896", [] { return parallel_squares(); }},
     {"perpendicular-squares", "form factor 0.200043776", [] { return perpendicular_squares(); }},
