@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/triangle_rows.hpp"
+#include "mir/scene/world_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mir {
+
+// hits_segment() rounds, so it also accepts segments that pass a triangle at a small distance. A
+// structure that culls with boxes gives its bits only if the boxes hold all places where it may
+// accept. This header computes such boxes.
+//
+// Let M be the largest |coordinate| of all corners, let the ends p, q of segments keep within
+// reach() = 1.5 M, e = 2^-24, g_u = |gradient of u|_1, g_v likewise, G = g_u + g_v.
+//
+// Lemma. If hits_segment() is true there is a point X on the segment with
+//   |s(X)| <= 17 e M, u(X) >= -13 e M g_u, v(X) >= -13 e M g_v, w(X) >= -(18 e M G + 2 e).
+// Proof. A row with gradient g is computed with an error of at most e times: g 1.5 M (products),
+// g (1.5 + 1.5 + 2.5) M (sums), g (1.5 + 1) M (storing gradient and offset) = 9.5 e g M; below
+// 9.5 sqrt(3) e M < 17 e M for s. Let s_p, s_q be the computed values, D = |s_p| + |s_q| and X the
+// point that divides the segment in the ratio |s_p| : |s_q|. There s, u, v differ from the same
+// mean of the computed values, which is 0 for s, by no more than that error. U / D is that mean of
+// u, and sign(U) is wrong only below e (|u_p| |s_q| + |u_q| |s_p|) / D <= 2.5 e M g_u. W takes two
+// more subtractions and d: 2 e + 2.5 e M (3 g_u + 2 g_v) in all. Underflow adds below 2^-75, since
+// opposite() keeps D > 2^-74.
+//
+// Contract. sigma() = 32 e M leaves 14 e M in every direction, and a traversal may use them up:
+// walking with rounded plane distances it may find X up to 14 e M outside of a cell that it visits
+// (kd_traverse.hpp). In return it needs no slack of its own, provided that each leaf lists every
+// triangle whose accept_box() shares a point with the leaf's closed cell. A builder that clips
+// triangles may leave those out that stay farther than overshoot() from the cell in some axis.
+
+/// Largest |coordinate| in a box, metres: the M of the error bounds. Zero for an empty box.
+[[nodiscard]] inline float magnitude_of(const Bounds& box) {
+    return box.empty() ? 0.0f : larger(max_abs(box.low), max_abs(box.high));
+}
+
+/// Largest |coordinate| that the ends of a segment may have for the bounds to hold, metres. Farther
+/// segments are cut to that cube first (reach.hpp).
+[[nodiscard]] MIR_HD inline float reach_of(float magnitude) { return 1.5f * magnitude; }
+
+/// Largest distance in metres, per axis, between a segment that is taken to cross a triangle's
+/// plane and the plane, the rounding of traversal included.
+[[nodiscard]] inline double sigma_of(float magnitude) {
+    return 32.0 * 0x1p-24 * static_cast<double>(magnitude);
+}
+
+namespace detail {
+
+/// Where segments are accepted, projected on the triangle's plane: a triangle around the triangle.
+struct AcceptTriangle {
+    Double3 a{0};
+    Double3 b{0};
+    Double3 c{0};
+};
+
+inline double l1_norm(Double3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+inline AcceptTriangle accept_triangle(const TriangleFrame& f, double sigma) {
+    const double e_u = sigma * l1_norm(f.gradient_u);
+    const double e_v = sigma * l1_norm(f.gradient_v);
+    const double e_w = e_u + e_v + 0x1p-22;
+    AcceptTriangle t;
+    t.a = f.corner - e_u * f.e1 - e_v * f.e2;
+    t.b = f.corner + (1.0 + e_v + e_w) * f.e1 - e_v * f.e2;
+    t.c = f.corner - e_u * f.e1 + (1.0 + e_u + e_w) * f.e2;
+    return t;
+}
+
+/// Triangles that are never crossed have no frame; their corners will do.
+inline AcceptTriangle accept_triangle(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
+    const AcceptTriangle t = accept_triangle(triangle_frame(a, b, c), sigma_of(magnitude));
+    const bool usable = std::isfinite(l1_norm(t.a) + l1_norm(t.b) + l1_norm(t.c));
+    return usable ? t : AcceptTriangle{Double3(a), Double3(b), Double3(c)};
+}
+
+inline float rounded_down(double x) {
+    const auto f = static_cast<float>(x);
+    return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
+                                      : f;
+}
+inline float rounded_up(double x) { return -rounded_down(-x); }
+
+inline Bounds rounded_outwards(Double3 low, Double3 high) {
+    return {{rounded_down(low.x), rounded_down(low.y), rounded_down(low.z)},
+            {rounded_up(high.x), rounded_up(high.y), rounded_up(high.z)}};
+}
+
+}  // namespace detail
+
+/// Box around all places where hits_segment() may accept a segment for the triangle a, b, c and
+/// where traversal may look for it, rounded outwards. `magnitude` is magnitude_of() the bounds of
+/// the whole scene, metres. Cut to the cube of reach_of(magnitude), outside of which there are no
+/// segments: needles would have boxes without end.
+[[nodiscard]] inline Bounds accept_box(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
+    const detail::AcceptTriangle t = detail::accept_triangle(a, b, c, magnitude);
+    const detail::Double3 sigma(sigma_of(magnitude));
+    const detail::Double3 reach(static_cast<double>(reach_of(magnitude)));
+    const detail::Double3 low = glm::min(t.a, glm::min(t.b, t.c));
+    const detail::Double3 high = glm::max(t.a, glm::max(t.b, t.c));
+    return detail::rounded_outwards(glm::max(low, -reach) - sigma, glm::min(high, reach) + sigma);
+}
+
+/// Largest distance, per axis and in metres, of a point of the region that accept_box() surrounds
+/// from the triangle itself, rounded up. Boxes around clipped parts of a triangle grow by it.
+[[nodiscard]] inline float overshoot(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
+    const detail::AcceptTriangle t = detail::accept_triangle(a, b, c, magnitude);
+    const auto largest = [](detail::Double3 v) {
+        return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+    };
+    const double moved =
+        std::max(largest(t.a - detail::Double3(a)),
+                 std::max(largest(t.b - detail::Double3(b)), largest(t.c - detail::Double3(c))));
+    return detail::rounded_up(moved + sigma_of(magnitude));
+}
+
+}  // namespace mir

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/detail/kd_assemble.hpp"
+#include "mir/accel/detail/kd_grow.hpp"
+#include "mir/accel/detail/kd_prepare.hpp"
+#include "mir/accel/detail/kd_top.hpp"
+#include "mir/accel/kd_tree.hpp"
+#include "mir/runtime/stopwatch.hpp"
+
+#include <cmath>
+
+namespace mir {
+
+namespace detail {
+
+inline std::uint32_t kd_depth(const KdTreeOptions& options, std::size_t triangles) {
+    if (options.max_depth > 0) return options.max_depth;
+    const double depth = 8.0 + 1.3 * std::log2(static_cast<double>(triangles) + 1.0);
+    return std::min(KdTreeOptions::depth_limit, static_cast<std::uint32_t>(depth));
+}
+
+/// Scale at which half the surface of a cell is 1.
+inline float kd_area_scale(const KdCell& cell) {
+    const Float4 extent = cell.high - cell.low;
+    const float widest = larger(extent[0], larger(extent[1], extent[2]));
+    return widest > 0.0f ? 1.0f / (widest * std::sqrt(half_area(cell, 1.0f / widest))) : 1.0f;
+}
+
+/// Size of a subtree that one thread grows: enough of them for many threads, each large enough to
+/// pay for itself. Must not depend on the number of threads, for the tree's bytes do on it.
+inline std::size_t kd_subtree_size(std::size_t triangles) {
+    return std::max<std::size_t>(4096, triangles / 64);
+}
+
+/// Sizes and areas of such scenes, and the margins around them, stay finite.
+inline void check_kd_coordinates(const WorldGeometry& geometry) {
+    if (magnitude_of(geometry.bounds()) <= 1e36f) return;
+    throw Error(ErrorCode::invalid_input,
+                "the scene has a coordinate beyond 1e36 metres (sizes of boxes around it would "
+                "not be finite numbers); scale the scene");
+}
+
+/// Runs a stage and adds the time it took.
+template <class Stage>
+void timed(double& seconds, const Stage& stage) {
+    const Stopwatch watch(seconds);
+    stage();
+}
+
+}  // namespace detail
+
+template <Executor E>
+KdTree::KdTree(const WorldGeometry& geometry, const KdTreeOptions& options, E& executor) {
+    check(options);
+    detail::check_kd_coordinates(geometry);
+    const std::size_t count = geometry.triangles().size();
+    detail::KdPrepared prepared;
+    detail::timed(statistics_.prepare_seconds,
+                  [&] { prepared = detail::prepare(geometry, triangles_, executor); });
+    const detail::KdPlan plan{options, prepared.triangles.data(), detail::kd_depth(options, count),
+                              detail::kd_area_scale(prepared.cell)};
+    detail::KdGrowerPool pool(plan);
+    detail::KdTop top;
+    detail::timed(statistics_.top_seconds, [&] {
+        detail::KdTopGrower grower(plan, pool, detail::kd_subtree_size(count), executor);
+        top = grower.grow(std::move(prepared.fragments), prepared.cell);
+    });
+    std::vector<detail::KdGrown> grown;
+    detail::timed(statistics_.subtrees_seconds,
+                  [&] { grown = detail::grow_subtrees(top.open, pool, executor); });
+    detail::timed(statistics_.assemble_seconds,
+                  [&] { detail::assemble(top, grown, options, nodes_, references_, executor); });
+    for (int axis = 0; axis < 3; ++axis) {
+        low_[axis] = prepared.cell.low[axis];
+        high_[axis] = prepared.cell.high[axis];
+    }
+    reach_ = reach_of(magnitude_of(geometry.bounds()));
+    count_parts(top.tally, grown);
+}
+
+inline void KdTree::count_parts(detail::KdTally total, const std::vector<detail::KdGrown>& grown) {
+    for (const detail::KdGrown& part : grown) total.add(part.subtree.tally);
+    statistics_.triangles = triangles_.size();
+    statistics_.nodes = nodes_.size();
+    statistics_.leaves = total.leaves;
+    statistics_.empty_leaves = total.empty_leaves;
+    statistics_.references = references_.size();
+    statistics_.depth = total.depth;
+    statistics_.largest_leaf = total.largest_leaf;
+    statistics_.sah_cost = total.cost;
+    statistics_.bytes = bytes();
+}
+
+}  // namespace mir

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd_traverse.hpp"
+#include "mir/concepts/visibility.hpp"
+
+namespace mir {
+
+// Sixteen segments from one origin walk a kd-tree together. The origin decides for all of them
+// which side of a plane comes first, so a node is fetched and its children are ordered once. Loops
+// over lanes have no branches: they become vector instructions of the caller's instruction
+// set.
+
+namespace detail {
+
+inline constexpr std::uint32_t packet_lanes = PointPacket::width;
+
+/// A number per lane.
+struct alignas(64) LaneFloats {
+    float at[packet_lanes];
+};
+
+/// One mask bit per lane: lane k where `test(k)`.
+template <class Test>
+std::uint32_t lanes_where(Test test) {
+    std::int32_t bits[packet_lanes];
+    for (std::uint32_t k = 0; k < packet_lanes; ++k) bits[k] = test(k) ? 1 << k : 0;
+    std::int32_t all = 0;
+    for (std::uint32_t k = 0; k < packet_lanes; ++k) all |= bits[k];
+    return static_cast<std::uint32_t>(all);
+}
+
+/// Part of each lane's segment inside a cell; empty where begin > end.
+struct LaneIntervals {
+    LaneFloats begin;
+    LaneFloats end;
+};
+
+struct WaitingLanes {
+    std::uint32_t node;
+    LaneIntervals part;
+};
+
+/// The packet, its lanes' directions, and which of them have met a triangle.
+class PacketWalk {
+ public:
+    PacketWalk(const KdTreeView<Space::host>& tree, Vec3 origin, const PointPacket& points,
+               std::uint32_t active)
+        : tree_(tree), origin_(origin), points_(points), open_(active) {
+        for (std::uint32_t k = 0; k < packet_lanes; ++k) {
+            inverse_[0].at[k] = loose::reciprocal(never_zero(points.x[k] - origin.x));
+            inverse_[1].at[k] = loose::reciprocal(never_zero(points.y[k] - origin.y));
+            inverse_[2].at[k] = loose::reciprocal(never_zero(points.z[k] - origin.z));
+        }
+    }
+
+    /// Lanes of `active` that meet no triangle.
+    std::uint32_t run();
+
+ private:
+    std::uint32_t enter_children(KdNode node, LaneIntervals& part);
+    void test_leaf(KdNode leaf);
+    std::uint32_t hit_lanes(const TriangleRows& rows) const;
+
+    const KdTreeView<Space::host>& tree_;
+    Vec3 origin_;
+    const PointPacket& points_;
+    std::uint32_t open_;  ///< lanes that still ask
+    LaneFloats inverse_[3];
+    std::uint32_t waiting_ = 0;
+    WaitingLanes stack_[KdTreeView<Space::host>::max_depth];
+};
+
+/// Splits the lanes' intervals at the node's plane. Returns the child to go on with; another
+/// one that lanes need is put on the stack.
+inline std::uint32_t PacketWalk::enter_children(KdNode node, LaneIntervals& part) {
+    const float* inverse = inverse_[node.axis()].at;
+    const float gap = node.split() - component(origin_, node.axis());
+    const bool starts_below = gap >= 0.0f;
+    LaneIntervals far;
+    for (std::uint32_t k = 0; k < packet_lanes; ++k) {
+        // Lanes that move away from the plane never cross it.
+        const bool towards = (inverse[k] > 0.0f) == starts_below;
+        const float t = towards ? gap * inverse[k] : 2.0f;
+        far.begin.at[k] = larger(part.begin.at[k], t);
+        far.end.at[k] = part.end.at[k];
+        part.end.at[k] = smaller(part.end.at[k], t);
+    }
+    const std::uint32_t in_near =
+        open_ & lanes_where([&](std::uint32_t k) { return part.begin.at[k] <= part.end.at[k]; });
+    const std::uint32_t in_far =
+        open_ & lanes_where([&](std::uint32_t k) { return far.begin.at[k] <= far.end.at[k]; });
+    const std::uint32_t near_child = node.below() + (starts_below ? 0u : 1u);
+    const std::uint32_t far_child = node.below() + (starts_below ? 1u : 0u);
+    if (in_near == 0) {
+        part = far;
+        return far_child;
+    }
+    if (in_far != 0) stack_[waiting_++] = {far_child, far};
+    return near_child;
+}
+
+inline std::uint32_t PacketWalk::hit_lanes(const TriangleRows& rows) const {
+    const float s_from = row_at(rows.s, origin_);
+    LaneFloats s_to;
+    for (std::uint32_t k = 0; k < packet_lanes; ++k)
+        s_to.at[k] = row_at(rows.s, {points_.x[k], points_.y[k], points_.z[k]});
+    const std::uint32_t crossing_lanes =
+        open_ & lanes_where([&](std::uint32_t k) { return opposite(s_from, s_to.at[k]); });
+    if (crossing_lanes == 0) return 0;
+    const float u_from = row_at(rows.u, origin_);
+    const float v_from = row_at(rows.v, origin_);
+    return crossing_lanes & lanes_where([&](std::uint32_t k) {
+               const Vec3 to{points_.x[k], points_.y[k], points_.z[k]};
+               return is_inside(crossing(u_from, v_from, s_from, row_at(rows.u, to),
+                                         row_at(rows.v, to), s_to.at[k]));
+           });
+}
+
+inline void PacketWalk::test_leaf(KdNode leaf) {
+    const std::uint32_t* reference = tree_.references + leaf.first();
+    for (const std::uint32_t* end = reference + leaf.count(); reference != end; ++reference)
+        open_ &= ~hit_lanes(tree_.triangles[*reference]);
+}
+
+inline std::uint32_t PacketWalk::run() {
+    LaneIntervals part;
+    for (std::uint32_t k = 0; k < packet_lanes; ++k) {
+        part.begin.at[k] = 0.0f;
+        part.end.at[k] = 1.0f;
+    }
+    KdNode node = tree_.nodes[0];
+    for (;;) {
+        while (!node.is_leaf()) node = tree_.nodes[enter_children(node, part)];
+        test_leaf(node);
+        do {
+            if (waiting_ == 0 || open_ == 0) return open_;
+            --waiting_;
+            part = stack_[waiting_].part;
+        } while ((open_ & lanes_where([&](std::uint32_t k) {
+                      return part.begin.at[k] <= part.end.at[k];
+                  })) == 0);
+        node = tree_.nodes[stack_[waiting_].node];
+    }
+}
+
+}  // namespace detail
+
+/// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
+/// !is_hidden(tree, origin, point i). Thread-safe.
+[[nodiscard]] inline std::uint32_t visible_in_packet(const KdTreeView<Space::host>& tree,
+                                                     Vec3 origin, const PointPacket& points,
+                                                     std::uint32_t active) {
+    std::uint32_t seen = 0;
+    std::uint32_t together = 0;
+    const bool origin_within = within_reach(origin, tree.reach);
+    for (std::uint32_t k = 0; k < PointPacket::width; ++k) {
+        if ((active >> k & 1u) == 0) continue;
+        const Vec3 point{points.x[k], points.y[k], points.z[k]};
+        if (origin_within && within_reach(point, tree.reach))
+            together |= 1u << k;
+        else if (!is_hidden(tree, origin, point))
+            seen |= 1u << k;
+    }
+    if (together == 0) return seen;
+    return seen | detail::PacketWalk(tree, origin, points, together).run();
+}
+
+}  // namespace mir

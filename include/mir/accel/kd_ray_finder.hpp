@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd_traverse.hpp"
+#include "mir/concepts/ray_finder.hpp"
+
+namespace mir {
+
+/// Finds first triangles by a kd-tree in memory of space `S`. Model of RayFinder; the same bits on
+/// host and device. The tree must outlive it. Thread-safe.
+template <Space S>
+struct KdRayFinder {
+    static constexpr Space space = S;
+
+    KdTreeView<S> tree;
+
+    [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray) const { return first_hit(tree, ray); }
+};
+
+static_assert(RayFinder<KdRayFinder<Space::host>> && RayFinder<KdRayFinder<Space::device>>);
+
+}  // namespace mir

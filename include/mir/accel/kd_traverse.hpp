@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd_tree.hpp"
+#include "mir/accel/reach.hpp"
+#include "mir/accel/triangle_rows.hpp"
+
+namespace mir {
+
+// Walks a segment through a kd-tree, front to back, with a stack of one entry per level (Hapala and
+// Havran, "Review: kd-tree traversal algorithms for ray tracing", CGF 30(1), 2011, TA-B).
+//
+// Why the bits are those of asking every triangle. Let X = from + t_x (to - from) be the point of
+// accept_box.hpp's lemma. At each plane the walk compares t_x, by way of the interval it carries,
+// with a computed t: it goes to the first side only if t_x <= t and to the second only if t_x >= t,
+// so X is never dropped. What rounding costs is that the side may be the wrong one for an X close
+// to the plane. With d = to - from, e = 2^-24 and M as there, t is the fraction at which the
+// segment passes a plane that is displaced by at most
+//   |t d - (split - origin)| <= 3 e |split - origin| + e |split| + e |origin| <= 12 e M  (host)
+//                            <= 4 e |split - origin| + e |origin|             <= 14 e M  (device),
+// because X, and so the plane, lies within 1.5 M; that is what sigma() leaves over. It needs no
+// case for segments along an axis, in a plane or from a plane: a component of zero becomes 2^-90 m,
+// whose t compare like infinities. Intervals are closed, a tie may go either way.
+
+namespace detail {
+
+/// t of a plane on an axis is split * inverse - offset.
+struct AxisSteps {
+    Vec3 inverse{0};
+    Vec3 offset{0};
+};
+
+/// Keeps reciprocals finite: zero becomes a step so short that it moves nothing (far below the
+/// rounding of coordinates in scenes larger than 1e-15 m), and times which no coordinate up to
+/// 1e11 m overflows.
+MIR_HD inline float never_zero(float x) { return copysignf(larger(fabsf(x), 0x1p-90f), x); }
+
+MIR_HD inline AxisSteps axis_steps(Vec3 from, Vec3 to) {
+    const Vec3 inverse(loose::reciprocal(never_zero(strict::sub(to.x, from.x))),
+                       loose::reciprocal(never_zero(strict::sub(to.y, from.y))),
+                       loose::reciprocal(never_zero(strict::sub(to.z, from.z))));
+    return {inverse, from * inverse};
+}
+
+/// Selects: an array would be put into memory on the device.
+MIR_HD inline float component(Vec3 v, std::uint32_t axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/// A cell that waits on the stack. Its part of the segment begins where the last one visited ended.
+/// Without defaults, which would clear the whole stack for every segment.
+struct WaitingCell {
+    std::uint32_t node;
+    float end;
+};
+
+/// The walk: calls `leaf(node, end)` for the leaves along the segment until one returns true, which
+/// the walk then returns. `end` is the fraction of the segment at which the leaf's cell ends.
+template <Space S, class Leaf>
+MIR_HD bool walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to, Leaf& leaf) {
+    const AxisSteps steps = axis_steps(from, to);
+    WaitingCell stack[KdTreeView<S>::max_depth];
+    std::uint32_t waiting = 0;
+    KdNode node = tree.nodes[0];
+    float begin = 0.0f;
+    float end = 1.0f;
+    for (;;) {
+        while (!node.is_leaf()) {
+            const float inverse = component(steps.inverse, node.axis());
+            const float t =
+                loose::mul_sub(node.split(), inverse, component(steps.offset, node.axis()));
+            const bool downwards = inverse < 0.0f;
+            const bool behind = t <= begin;
+            if (!behind && t < end) {
+                stack[waiting++] = {node.below() + (downwards ? 0u : 1u), end};
+                end = t;
+            }
+            node = tree.nodes[node.below() + (downwards != behind ? 1u : 0u)];
+        }
+        if (leaf(node, end)) return true;
+        if (waiting == 0) return false;
+        begin = end;
+        end = stack[--waiting].end;
+        node = tree.nodes[stack[waiting].node];
+    }
+}
+
+/// True when one of the triangles listed at `first` hides the ends of the segment from each
+/// other. This is hits_segment(), with its two conditions apart: one boolean less per triangle on
+/// the device, which is a sixth of the instructions of a triangle whose plane is not crossed.
+MIR_HD inline bool any_hides(const TriangleRows* triangles, const std::uint32_t* first,
+                             std::uint32_t count, Vec3 from, Vec3 to) {
+    for (std::uint32_t i = 0; i != count; ++i) {
+        const TriangleRows& rows = triangles[first[i]];
+        const float s_from = row_at(rows.s, from);
+        const float s_to = row_at(rows.s, to);
+        if (!opposite(s_from, s_to)) continue;
+        if (is_inside(crossing(rows, from, to, s_from, s_to))) return true;
+    }
+    return false;
+}
+
+/// Leaf visitor of shadow segments: any triangle will do, in whichever cell the crossing lies.
+template <Space S>
+struct FindAny {
+    const KdTreeView<S>& tree;
+    Vec3 from{0};
+    Vec3 to{0};
+
+    MIR_HD bool operator()(KdNode leaf, float) const {
+        return any_hides(tree.triangles, tree.references + leaf.first(), leaf.count(), from, to);
+    }
+};
+
+/// Leaf visitor of rays. The walk may stop where the best crossing, enlarged by the rounding of its
+/// t, ends: no triangle of a later cell can come before it, or beside it.
+template <Space S>
+struct FindFirst {
+    const KdTreeView<S>& tree;
+    Vec3 from{0};
+    Vec3 to{0};
+    TriangleHit best;
+
+    MIR_HD bool operator()(KdNode leaf, float end) {
+        const std::uint32_t last = leaf.first() + leaf.count();
+        for (std::uint32_t i = leaf.first(); i != last; ++i) {
+            const std::uint32_t triangle = tree.references[i];
+            keep_closer(tree.triangles[triangle], from, to, triangle, best);
+        }
+        return best.t * (1.0f + 0x1p-20f) < end;
+    }
+};
+
+}  // namespace detail
+
+/// True when a triangle of the tree hides the points from each other. Equal in bits to an "or" of
+/// hits_segment() over all triangles, and under exchange of the points, which are cut to the tree's
+/// reach. Cheapest when `from` is the end next to which most occluders are; thread-safe.
+template <Space S>
+[[nodiscard]] MIR_HD bool is_hidden(const KdTreeView<S>& tree, Vec3 from, Vec3 to) {
+    if (!within_reach(from, tree.reach) || !within_reach(to, tree.reach)) {
+        const CutSegment cut = cut_to_reach(from, to, tree.reach);
+        if (cut.empty) return false;
+        from = cut.from;
+        to = cut.to;
+    }
+    detail::FindAny<S> any{tree, from, to};
+    return detail::walk(tree, from, to, any);
+}
+
+/// The first triangle along a ray, with t in metres; TriangleHit::none if there is none. Equal in
+/// bits to keep_closer() over all triangles. Thread-safe.
+template <Space S>
+[[nodiscard]] MIR_HD TriangleHit first_hit(const KdTreeView<S>& tree, const Ray& ray) {
+    const CutSegment cut = cut_to_reach(ray, tree.reach);
+    if (cut.empty) return {};
+    detail::FindFirst<S> first{tree, cut.from, cut.to, {}};
+    detail::walk(tree, cut.from, cut.to, first);
+    if (first.best.triangle == TriangleHit::none) return {};
+    first.best.t = strict::add(cut.t_from, strict::mul(first.best.t, cut.t_length));
+    return first.best;
+}
+
+}  // namespace mir

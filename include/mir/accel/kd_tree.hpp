@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/detail/raw_array.hpp"
+#include "mir/accel/kd_node.hpp"
+#include "mir/accel/kd_options.hpp"
+#include "mir/accel/kd_statistics.hpp"
+#include "mir/accel/triangle_rows.hpp"
+#include "mir/concepts/executor.hpp"
+#include "mir/core/space.hpp"
+#include "mir/scene/world_geometry.hpp"
+
+#include <span>
+#include <vector>
+
+namespace mir {
+
+namespace detail {
+struct KdGrown;
+struct KdTally;
+}  // namespace detail
+
+/// What traversal reads of a kd-tree. Node 0 is the root; cells at the border of the tree have no
+/// outer limit. accept_box.hpp says which triangles a leaf must list.
+template <Space S>
+struct KdTreeView {
+    static constexpr Space space = S;
+
+    /// Largest number of planes between the root and a leaf. Traversal keeps a stack of this size.
+    static constexpr std::uint32_t max_depth = KdTreeOptions::depth_limit;
+
+    const KdNode* nodes = nullptr;
+    const std::uint32_t* references = nullptr;  ///< triangle indices, leaf by leaf
+    const TriangleRows* triangles = nullptr;    ///< by triangle index of WorldGeometry
+    Vec3 low{0};                                ///< box around all accept boxes
+    Vec3 high{0};
+    float reach = 0.0f;  ///< metres: reach_of(magnitude_of(bounds of the scene)), accept_box.hpp
+};
+
+/// A kd-tree over all triangles of a scene, in host memory. Move only; const use from any thread.
+/// Equal in bytes for any number of threads. The constructor is defined in kd_build.hpp.
+class KdTree {
+ public:
+    /// Builds by the surface area heuristic: planes at the ends of clipped triangles, exact below
+    /// and beside the best of up to 256 borders in large nodes. A leaf lists every triangle that
+    /// may be accepted (accept_box.hpp) in its closed cell. O(N log N).
+    /// Source: Wald and Havran, "On building fast kd-trees for ray tracing, and on doing that in
+    /// O(N log N)", IEEE Symposium on Interactive Ray Tracing 2006.
+    /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
+    ///         beyond 1e36 metres; Error(limit_exceeded) on more than options.max_references.
+    template <Executor E>
+    KdTree(const WorldGeometry& geometry, const KdTreeOptions& options, E& executor);
+
+    [[nodiscard]] KdTreeView<Space::host> view() const {
+        return {nodes_.data(), references_.data(), triangles_.data(), low_, high_, reach_};
+    }
+    [[nodiscard]] const KdTreeStatistics& statistics() const { return statistics_; }
+
+    [[nodiscard]] std::span<const KdNode> nodes() const { return nodes_.span(); }
+    [[nodiscard]] std::span<const std::uint32_t> references() const { return references_.span(); }
+    [[nodiscard]] std::span<const TriangleRows> triangles() const { return triangles_.span(); }
+
+    /// Memory held, bytes.
+    [[nodiscard]] std::size_t bytes() const {
+        return nodes().size_bytes() + references().size_bytes() + triangles().size_bytes();
+    }
+
+ private:
+    void count_parts(detail::KdTally total, const std::vector<detail::KdGrown>& grown);
+
+    detail::RawArray<KdNode> nodes_;
+    detail::RawArray<std::uint32_t> references_;
+    detail::RawArray<TriangleRows> triangles_;
+    Vec3 low_{0};
+    Vec3 high_{0};
+    float reach_ = 0.0f;
+    KdTreeStatistics statistics_;
+};
+
+}  // namespace mir

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd_packet.hpp"
+#include "mir/accel/kd_traverse.hpp"
+#include "mir/concepts/visibility.hpp"
+
+namespace mir {
+
+/// Answers a kd-tree in memory of space `S`: a value that may be passed to a kernel. Model of
+/// Visibility, on the host of PacketVisibility too. Both faces give the bits of hits_segment()
+/// asked of every triangle, on the host and on the device. The tree must outlive it. Thread-safe.
+template <Space S>
+struct KdTreeVisibility {
+    static constexpr Space space = S;
+
+    KdTreeView<S> tree;
+
+    [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return !is_hidden(tree, a, b); }
+
+    [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
+                                               std::uint32_t active) const
+        requires(S == Space::host) {
+        return visible_in_packet(tree, origin, points, active);
+    }
+};
+
+static_assert(PacketVisibility<KdTreeVisibility<Space::host>>);
+static_assert(Visibility<KdTreeVisibility<Space::device>>);
+
+}  // namespace mir

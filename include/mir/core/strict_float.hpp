@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/hd.hpp"
+
+namespace mir::strict {
+
+// Products, sums and quotients that are rounded one by one, to nearest even, in every compilation.
+// A compiler that may contract turns a * b + c into one fused operation with one rounding less;
+// bits of results that are compared with zero would then depend on who compiled them. On the device
+// the intrinsics below are never contracted, whatever -fmad says. On the host plain operators do:
+// host code of the library is compiled with -ffp-contract=off. This is the one place where host and
+// device read different source; they compute the same.
+
+/// a * b, rounded once.
+[[nodiscard]] MIR_HD inline float mul(float a, float b) {
+#if defined(__CUDA_ARCH__)
+    return __fmul_rn(a, b);
+#else
+    return a * b;
+#endif
+}
+
+/// a + b, rounded once.
+[[nodiscard]] MIR_HD inline float add(float a, float b) {
+#if defined(__CUDA_ARCH__)
+    return __fadd_rn(a, b);
+#else
+    return a + b;
+#endif
+}
+
+/// a - b, rounded once.
+[[nodiscard]] MIR_HD inline float sub(float a, float b) {
+#if defined(__CUDA_ARCH__)
+    return __fsub_rn(a, b);
+#else
+    return a - b;
+#endif
+}
+
+/// a / b, rounded once.
+[[nodiscard]] MIR_HD inline float div(float a, float b) {
+#if defined(__CUDA_ARCH__)
+    return __fdiv_rn(a, b);
+#else
+    return a / b;
+#endif
+}
+
+}  // namespace mir::strict
+
+namespace mir::loose {
+
+// Operations whose last bits may differ between host and device: for decisions that carry their own
+// margin, such as the order in which a traversal visits cells.
+
+/// 1 / a with a relative error below 2^-23; `a` between 2^-120 and 2^120 in size.
+[[nodiscard]] MIR_HD inline float reciprocal(float a) {
+#if defined(__CUDA_ARCH__)
+    float estimate = 0.0f;
+    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
+    return __fmaf_rn(estimate, __fmaf_rn(-a, estimate, 1.0f), estimate);
+#else
+    return 1.0f / a;
+#endif
+}
+
+/// a * b - c, rounded once or twice.
+[[nodiscard]] MIR_HD inline float mul_sub(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    return __fmaf_rn(a, b, -c);
+#else
+    return a * b - c;
+#endif
+}
+
+}  // namespace mir::loose

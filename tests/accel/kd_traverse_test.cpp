@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "mir/accel/kd_traverse.hpp"
+
+#include "accel/brute_force_rows.hpp"
+#include "accel/hard_segments.hpp"
+#include "accel/simple_kd_tree.hpp"
+#include "conformance/worlds.hpp"
+#include "mir/accel/kd_packet.hpp"
+#include "support/catch.hpp"
+
+#include <cstring>
+
+namespace {
+
+using mirtest::HardSegment;
+using mirtest::HardSegments;
+using mirtest::SimpleKdTree;
+using mirtest::World;
+
+/// Answers of the tree that differ from asking every triangle.
+struct Differences {
+    std::size_t asked = 0;
+    std::size_t hidden = 0;
+    std::size_t wrong = 0;
+    std::size_t wrong_backwards = 0;
+};
+
+Differences compare(const World& world, const SimpleKdTree& tree, std::size_t count,
+                    std::uint64_t index) {
+    HardSegments segments(world.geometry, tree.nodes(), index);
+    Differences d;
+    for (std::size_t i = 0; i < count; ++i) {
+        const HardSegment s = segments.next();
+        const auto view = tree.view();
+        const bool truth = mirtest::hidden_by_any(tree.triangles(), view.reach, s.from, s.to);
+        ++d.asked;
+        d.hidden += truth ? 1 : 0;
+        if (mir::is_hidden(view, s.from, s.to) != truth) ++d.wrong;
+        if (mir::is_hidden(view, s.to, s.from) != truth) ++d.wrong_backwards;
+    }
+    return d;
+}
+
+void check_equal_bits(const World& world, std::uint64_t index, std::size_t count = 20000) {
+    const SimpleKdTree tree(world.geometry);
+    const Differences d = compare(world, tree, count, index);
+    INFO(d.hidden << " of " << d.asked << " hidden");
+    CHECK(d.hidden > d.asked / 20);
+    CHECK(d.hidden < d.asked);
+    CHECK(d.wrong == 0);
+    CHECK(d.wrong_backwards == 0);
+}
+
+bool same_bits(const mir::TriangleHit& a, const mir::TriangleHit& b) {
+    return a.triangle == b.triangle && std::memcmp(&a.t, &b.t, sizeof a.t) == 0 &&
+           std::memcmp(&a.barycentrics, &b.barycentrics, sizeof a.barycentrics) == 0;
+}
+
+/// Number of rays whose first triangle is not the one found by asking all, to the last bit.
+std::size_t wrong_rays(const World& world, const SimpleKdTree& tree, std::size_t count,
+                       std::uint64_t index) {
+    HardSegments segments(world.geometry, tree.nodes(), index);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const HardSegment s = segments.next();
+        if (s.from == s.to) continue;
+        const mir::Ray ray{s.from, glm::normalize(s.to - s.from)};
+        const auto truth = mirtest::first_of_all(tree.triangles(), tree.view().reach, ray);
+        if (!same_bits(mir::first_hit(tree.view(), ray), truth)) ++wrong;
+    }
+    return wrong;
+}
+
+mir::WorldGeometry stacked_squares() {
+    mir::Scene scene;
+    const std::uint32_t grey = scene.add(mir::lambertian("grey", {0.5f, 0.5f, 0.5f}));
+    for (int i = 0; i < 3; ++i)
+        scene.place(mir::builtin::quad("square", grey, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+    return mir::WorldGeometry(scene);
+}
+
+}  // namespace
+
+TEST_CASE("A kd-tree hides exactly what asking every triangle hides") {
+    SECTION("at any scale and place") {
+        const auto [scale, x] = GENERATE(table<float, float>({{1.0f, 0.0f},
+                                                              {1e-3f, 0.0f},
+                                                              {1e4f, 0.0f},
+                                                              {1.0f, 1000.0f},
+                                                              {0.01f, 50.0f},
+                                                              {1e-3f, 1e-2f}}));
+        INFO("scale " << scale << ", moved by " << x);
+        check_equal_bits(mirtest::triangle_soup(150, 1, scale, {x, 0.3f * x, -x}), 2);
+    }
+    SECTION("among needles") {
+        const auto [scale, x] = GENERATE(
+            table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e4f, 0.0f}, {1.0f, 100.0f}}));
+        INFO("scale " << scale << ", moved by " << x);
+        check_equal_bits(mirtest::needle_soup(150, 3, scale, {x, 0.3f * x, -x}), 4);
+    }
+    SECTION("where walls lie along the axes") { check_equal_bits(mirtest::sphere_in_box(), 5); }
+}
+
+TEST_CASE("A kd-tree over the exact boxes of triangles would lose hits") {
+    const World world = mirtest::needle_soup(20, 3);
+    const SimpleKdTree good(world.geometry, 1, 12);
+    const SimpleKdTree bad(world.geometry, 1, 12, mirtest::Boxes::exact);
+    HardSegments segments(world.geometry, bad.nodes(), 4);
+    std::size_t lost_by_good = 0;
+    std::size_t lost_by_bad = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const HardSegment s = segments.at_corner();
+        if (!mirtest::hidden_by_any(good.triangles(), good.view().reach, s.from, s.to)) continue;
+        if (!mir::is_hidden(good.view(), s.from, s.to)) ++lost_by_good;
+        if (!mir::is_hidden(bad.view(), s.from, s.to)) ++lost_by_bad;
+    }
+    CHECK(lost_by_good == 0);
+    CHECK(lost_by_bad > 0);
+}
+
+TEST_CASE("Packets of a kd-tree answer like its single segments in every bit") {
+    const int kind = GENERATE(0, 1, 2);
+    const World world = kind == 0   ? mirtest::triangle_soup(150, 6)
+                        : kind == 1 ? mirtest::needle_soup(150, 7)
+                                    : mirtest::sphere_in_box();
+    const SimpleKdTree tree(world.geometry);
+    HardSegments segments(world.geometry, tree.nodes(), 8);
+    std::size_t wrong = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const mir::Vec3 origin = segments.next().from;
+        mir::PointPacket points;
+        std::uint32_t alone = 0;
+        for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k) {
+            const mir::Vec3 p = segments.next().to;
+            points.x[k] = p.x;
+            points.y[k] = p.y;
+            points.z[k] = p.z;
+            if (!mir::is_hidden(tree.view(), origin, p)) alone |= 1u << k;
+        }
+        if (mir::visible_in_packet(tree.view(), origin, points, 0xFFFF) != alone) ++wrong;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("A kd-tree finds the first triangle that asking every triangle finds") {
+    SECTION("at any scale and place") {
+        const auto [scale, x] = GENERATE(
+            table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e4f, 0.0f}, {1.0f, 1000.0f}}));
+        INFO("scale " << scale << ", moved by " << x);
+        const World world = mirtest::triangle_soup(150, 11, scale, {x, 0.3f * x, -x});
+        CHECK(wrong_rays(world, SimpleKdTree(world.geometry), 20000, 12) == 0);
+    }
+    SECTION("among needles") {
+        const World world = mirtest::needle_soup(150, 13);
+        CHECK(wrong_rays(world, SimpleKdTree(world.geometry), 20000, 14) == 0);
+    }
+    SECTION("where walls lie along the axes") {
+        const World world = mirtest::sphere_in_box();
+        CHECK(wrong_rays(world, SimpleKdTree(world.geometry), 20000, 15) == 0);
+    }
+}
+
+TEST_CASE("Of triangles at the same place the one with the smallest index is met") {
+    const mir::WorldGeometry geometry = stacked_squares();
+    const SimpleKdTree tree(geometry, 1, 6);
+    mir::Random random = mirtest::test_random(16);
+    for (int i = 0; i < 200; ++i) {
+        const mir::Vec3 p = mirtest::point_in_cube(random);
+        const mir::TriangleHit hit = mir::first_hit(tree.view(), {{p.x, p.y, 2.0f}, {0, 0, -1}});
+        REQUIRE(hit.triangle < 2);
+        CHECK(hit.t == mirtest::Approx(2.0f));
+    }
+}
+
+TEST_CASE("Ends outside of a kd-tree's reach are cut and see what is in between") {
+    const World world = mirtest::sphere_in_box();
+    const SimpleKdTree tree(world.geometry);
+    const float far = GENERATE(3.0f, 1e3f, 1e6f, 1e30f);
+    CHECK(mir::is_hidden(tree.view(), {0.1f, 0.2f, far}, {0.1f, 0.2f, -far}));
+    CHECK(mir::is_hidden(tree.view(), {0.1f, far, 0.2f}, {0.1f, 0.7f, 0.2f}));
+    CHECK_FALSE(mir::is_hidden(tree.view(), {far, 2.0f, 0.0f}, {0.0f, 2.0f, far}));
+    CHECK_FALSE(mir::is_hidden(tree.view(), {far, 0.0f, 0.0f}, {2.0f * far, 0.0f, 0.0f}));
+    const mir::TriangleHit hit = mir::first_hit(tree.view(), {{0.1f, 0.2f, far}, {0, 0, -1}});
+    CHECK(hit.triangle < 12);
+    CHECK(hit.t == mirtest::Approx(far - 1.0f));
+}
+
+TEST_CASE("Segments without length and ends that are not numbers are hidden by nothing") {
+    const World world = mirtest::sphere_in_box();
+    const SimpleKdTree tree(world.geometry);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK_FALSE(mir::is_hidden(tree.view(), {0.1f, 0.2f, 0.8f}, {0.1f, 0.2f, 0.8f}));
+    CHECK_FALSE(mir::is_hidden(tree.view(), {nan, 0, 0}, {0, 0, -2}));
+    CHECK_FALSE(mir::is_hidden(tree.view(), {0, 0, 0}, {0, nan, -2}));
+    CHECK(mir::first_hit(tree.view(), {{0, nan, 0}, {0, 0, 1}}).triangle == mir::TriangleHit::none);
+}
+
+TEST_CASE("A kd-tree without triangles hides nothing and is never hit") {
+    const World world{mir::Scene{}};
+    const SimpleKdTree tree(world.geometry);
+    CHECK_FALSE(mir::is_hidden(tree.view(), {0, 0, 0}, {1, 2, 3}));
+    CHECK(mir::first_hit(tree.view(), {{0, 0, 0}, {0, 0, 1}}).triangle == mir::TriangleHit::none);
+}
