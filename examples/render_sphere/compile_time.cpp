@@ -18,13 +18,19 @@ int main() {
     mir::BlockedGBuffer<Bsdf::Params> luxels(rays.grid.luxels(), {256, 256});
     fill_gbuffer(luxels, 0, rays, embree.ray_caster(), surfaces, geometry.ray_offset(), cores);
 
-    // What lights it: virtual point lights, on the lamps too.
-    const mir::InstantRadiositySampler<Bsdf, mir::cpu::EmbreeRayCaster> sampler(
-        {geometry, lights, surfaces, embree.ray_caster()}, {.vpls = 1024, .emitter_vpls = true});
-    const mir::VplList vpls = aggregate(sampler.sample(cores));
+    // What lights it: virtual point lights, on the lamps too, all of equal weight in the image.
+    const mir::VplShading<Bsdf> shading{.bound = 1.0f};
+    const mir::PathWorld world{
+        geometry,    lights,      surfaces,     embree.ray_caster(), embree.visibility(),
+        rays.camera, 4.0f / 3.0f, shading.bound};
+    mir::MetropolisOptions options;
+    options.states = 1024;
+    options.emitter_vpls = true;
+    const mir::PlacedVpls placed = place_vpls(mir::MetropolisSampler(world, options), luxels,
+                                              embree.visibility(), shading, cores);
 
     // Every VPL through every luxel.
-    const auto image = reconstruct(mir::sched::CpuBlocks{cores}, luxels, vpls.span(),
-                                   embree.visibility(), mir::VplShading<Bsdf>{.bound = 1.0f});
+    const auto image = reconstruct(mir::sched::CpuBlocks{cores}, luxels, placed.vpls.span(),
+                                   embree.visibility(), shading);
     mir::write_exr("sphere.exr", image.extent(), {{"", &image}});
 }

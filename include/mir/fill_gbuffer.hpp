@@ -3,9 +3,8 @@
 
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/ray_caster.hpp"
-#include "mir/core/random.hpp"
 #include "mir/data/gbuffer.hpp"
-#include "mir/film/luxel_grid.hpp"
+#include "mir/film/luxel_rays.hpp"
 #include "mir/scene/camera.hpp"
 #include "mir/shading/surface_table.hpp"
 
@@ -17,15 +16,12 @@ struct CameraRays {
     LuxelGrid grid;
     std::uint64_t seed = 0;
 
+    /// The same for kernels.
+    [[nodiscard]] LuxelRays luxel_rays() const { return {camera.optics(), grid, seed}; }
+
     /// Ray of the luxel at (x, y) of the whole luxel image.
     [[nodiscard]] Ray operator()(std::uint32_t x, std::uint32_t y) const {
-        const Extent pixels = grid.pixels;
-        const Vec2 position = grid.position(x, y, seed);
-        const float aspect = static_cast<float>(pixels.width) / static_cast<float>(pixels.height);
-        Random random(seed, Stream::lens, std::uint64_t{y} * grid.luxels().width + x);
-        return camera.ray({position.x / static_cast<float>(pixels.width),
-                           position.y / static_cast<float>(pixels.height)},
-                          aspect, random.next_2d());
+        return luxel_rays()(x, y);
     }
 };
 

@@ -34,17 +34,19 @@ ShadedPair<Surface> random_pair(const Params& params, mir::Random& random) {
     return pair;
 }
 
-/// Finite, not negative, zero below either horizon. Pairs on all sides of each other; the horizon
-/// is that of the luxel's shading normal and of the VPL's normal, kept away from by a rounding.
+/// Finite, not negative, zero below either horizon and without intensity. Pairs on all sides of
+/// each other; the horizon is that of the luxel's shading normal and of the VPL's normal, kept away
+/// from by a rounding.
 template <mir::Shading F, class Params>
 void shading_suite(const F& shade, std::span<const Params> list) {
     mir::Random random = test_random(41);
     std::size_t lit = 0;
     std::size_t not_a_radiance = 0;
     std::size_t lit_below_horizon = 0;
+    std::size_t lit_by_nothing = 0;
     for (int i = 0; i < 20000; ++i) {
         const Params& params = list[static_cast<std::size_t>(i) % list.size()];
-        const auto pair = random_pair<typename F::Surface>(params, random);
+        auto pair = random_pair<typename F::Surface>(params, random);
         const mir::Rgb c = shade(pair.hit, pair.surface, pair.vpl);
         not_a_radiance += is_radiance(c) ? 0 : 1;
         lit += mir::is_black(c) ? 0 : 1;
@@ -52,10 +54,13 @@ void shading_suite(const F& shade, std::span<const Params> list) {
         const bool below =
             glm::dot(d, pair.surface.normal) < -1e-6f || glm::dot(d, pair.vpl.normal) > 1e-6f;
         lit_below_horizon += below && !mir::is_black(c) ? 1 : 0;
+        pair.vpl.intensity = {};
+        lit_by_nothing += mir::is_black(shade(pair.hit, pair.surface, pair.vpl)) ? 0 : 1;
     }
     CHECK(lit > 100);
     CHECK(not_a_radiance == 0);
     CHECK(lit_below_horizon == 0);
+    CHECK(lit_by_nothing == 0);
 }
 
 /// ReachLimitedShading: nothing at all beyond the reach.

@@ -127,7 +127,8 @@ TEST_CASE("MIR brings the light of the path tracer however its chains run", "[st
 // lamps of the other room: the path tracer's means come close to a normal law over the whole image
 // only. In tiles the samplers are compared with one another; light paths from the lamps share
 // nothing with chains of full paths.
-TEST_CASE("IR, BIR and MIR bring the light of the path tracer to the room behind a door ajar", "[statistical]") {
+TEST_CASE("IR, BIR and MIR bring the light of the path tracer to the room behind a door ajar",
+          "[statistical]") {
     const double level = sidak(0.01, 3 + 2);
     const Trial trial(mir::builtin::make("door-ajar"), 192);
     const BounceMeans light_paths = trial.rendered(instant_radiosity(trial.settings, 4096));

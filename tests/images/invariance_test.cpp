@@ -117,6 +117,12 @@ TEST_CASE("a picture does not depend on the scale of the scene") {
             const auto scaled = render(transformed(scene, scale, {0, 0, 0}), settings);
             CAPTURE(int(sampler), scale);
             CHECK(relative_difference(reference.beauty, scaled.beauty) < 2e-3);
+            // A length that does not grow with the scene is noticed, here one over the root of a
+            // bound.
+            settings.bound = {mir::BoundPolicy::Kind::fixed, reference.statistics.bound};
+            const auto unscaled = render(transformed(scene, scale, {0, 0, 0}), settings);
+            CHECK(relative_difference(reference.indirect, unscaled.indirect) > 1e-2);
+            settings.bound.kind = mir::BoundPolicy::Kind::automatic;
         }
     }
 }

@@ -14,7 +14,7 @@ namespace mirtest {
 inline mir::RenderResult render(const mir::Scene& scene, const mir::RenderSettings& settings) {
     mir::Registry registry;
     mir::cpu::add_to(registry);
-    return registry.make(settings.scheduler)->render(scene, settings, nullptr);
+    return registry.make(settings.backend, settings.scheduler)->render(scene, settings, nullptr);
 }
 
 /// Settings of a small picture without any bound.

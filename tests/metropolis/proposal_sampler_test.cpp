@@ -40,15 +40,13 @@ MetropolisOptions small_options(std::uint64_t seed) {
 template <mir::Bsdf B, class Change>
 SamplerLight light_of(const PathLab<B>& lab, const ProbeOf<B>& probe, std::uint64_t seed,
                       TargetFloor floor, const Change& change) {
-    SamplerLight light;
     mir::cpu::TbbExecutor threads(2);
-    for (std::uint64_t s = seed; s < seed + SamplerLight::replicates; ++s) {
+    return light_of_seeds(lab, seed, [&](std::uint64_t s) {
         VplRecords records =
             ProposalSampler(lab.world(), probe, small_options(s), floor).sample(threads);
         change(records);
-        light.add(lab, records);
-    }
-    return light;
+        return records;
+    });
 }
 template <mir::Bsdf B>
 SamplerLight light_of(const PathLab<B>& lab, std::uint64_t seed) {
@@ -112,17 +110,10 @@ TEST_CASE("the floor keeps light that the probe of a chain does not see", "[stat
     CHECK(agreement(light_of(lab, probe, 2300, {.share = 1e-9f}, keep), judge, 1) < 1e-4);
 }
 
-// H0: bounce b has the mean radiance L rho^b. Student's t over 32 replicates, 1 % over 5 bounces;
-// seeds from 2400 on.
+// H0: see check_furnace(); seeds from 2400 on.
 TEST_CASE("in the furnace chains over light paths bring every bounce its light", "[statistical]") {
     const PathLab<Lambert> lab(mir::builtin::make("furnace"));
-    const SamplerLight light = light_of(lab, 2400);
-    for (std::uint32_t b = 1; b <= SamplerLight::bounces; ++b) {
-        const mirtest::Moments& m = light.bounce(b);
-        CAPTURE(b, m.mean(), m.standard_error());
-        CHECK(mirtest::mean_p_value(m, std::pow(0.5, b + 1)) > mirtest::sidak(0.01, 5));
-        CHECK(m.standard_error() < 0.1 * m.mean());
-    }
+    mirtest::check_furnace(light_of(lab, 2400), 0.1);
 }
 
 TEMPLATE_TEST_CASE("ProposalSampler is a Sampler whose records are the same on any executor", "",
@@ -153,10 +144,7 @@ TEST_CASE("the states of chains over light paths give the probe about equal flux
 }
 
 TEST_CASE("where there is no light, chains over light paths yield no VPL") {
-    mir::Scene scene = mir::builtin::make("cornell-box");
-    const bool black = GENERATE(true, false);
-    for (mir::Material& m : scene.materials) (black ? m.base_color : m.emission) = {};
-    const PathLab<Lambert> lab(scene);
+    const PathLab<Lambert> lab(mirtest::dark_box(GENERATE(true, false)));
     const auto probe = probe_of(lab);
     MetropolisOptions o = small_options(1);
     o.emitter_vpls = false;

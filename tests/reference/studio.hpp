@@ -1,40 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/reference/trace_reference.hpp"
 #include "support/statistics.hpp"
+#include "support/traced_scene.hpp"
 
 namespace mirtest {
 
-/// A scene with everything that a path tracer needs.
+/// A scene that a path tracer looks at.
 template <mir::Bsdf B>
-class Studio {
- public:
-    explicit Studio(mir::Scene s) : scene(std::move(s)) {}
-    Studio(const Studio&) = delete;
-    Studio& operator=(const Studio&) = delete;
-    ~Studio() = default;
+struct Studio : TracedScene<B> {
+    using TracedScene<B>::TracedScene;
 
     template <mir::PathRules Rules = mir::BalanceRules>
     [[nodiscard]] auto tracer(const mir::PathTracerOptions& options) const {
         using Tracer =
             mir::PathTracer<B, mir::cpu::EmbreeRayCaster, mir::cpu::EmbreeVisibility, Rules>;
-        return Tracer({geometry, lights, surfaces, engine.ray_caster(), engine.visibility()},
+        return Tracer({this->geometry, this->lights, this->surfaces, this->engine.ray_caster(),
+                       this->engine.visibility()},
                       options);
     }
 
     /// Rays of a square image with one luxel per pixel.
     [[nodiscard]] mir::CameraRays rays(std::uint32_t side, std::uint64_t seed) const {
-        return {scene.cameras.front(), {{side, side}}, seed};
+        return {this->scene.cameras.front(), {{side, side}}, seed};
     }
-
-    mir::Scene scene;
-    mir::WorldGeometry geometry{scene};
-    mir::LightTable lights{scene, geometry};
-    mir::SurfaceTable<B> surfaces{scene};
-    mir::cpu::EmbreeScene engine{geometry};
 };
 
 /// One image per replicate.

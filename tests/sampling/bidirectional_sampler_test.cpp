@@ -42,14 +42,12 @@ template <class Rules, mir::Bsdf B>
 SamplerLight resampled(const PathLab<B>& lab, const ProbeOf<B>& probe, std::uint64_t seed,
                        mir::TargetFloor floor = {}) {
     using World = typename PathLab<B>::World;
-    SamplerLight light;
     mir::cpu::TbbExecutor threads(2);
-    for (std::uint64_t s = seed; s < seed + SamplerLight::replicates; ++s) {
+    return light_of_seeds(lab, seed, [&](std::uint64_t s) {
         BidirectionalOptions o = small_options(s);
         o.floor = floor;
-        light.add(lab, BidirectionalSampler<World, Rules>(lab.world(), probe, o).sample(threads));
-    }
-    return light;
+        return BidirectionalSampler<World, Rules>(lab.world(), probe, o).sample(threads);
+    });
 }
 
 struct GeneratingTechniqueAlone : mir::ResamplingRules {
@@ -114,17 +112,10 @@ TEST_CASE("the floor keeps the light that the probe does not see", "[statistical
     CHECK(agreement(wrong, judge, 1) < 1e-4);
 }
 
-// H0: bounce b has the mean radiance L rho^b. Student's t over 32 replicates, 1 % over 5 bounces;
-// seeds from 1400 on.
+// H0: see check_furnace(); seeds from 1400 on.
 TEST_CASE("in the furnace resampled VPLs bring every bounce its light", "[statistical]") {
     const PathLab<Lambert> lab(mir::builtin::make("furnace"));
-    const SamplerLight light = resampled<mir::ResamplingRules>(lab, probe_of(lab), 1400);
-    for (std::uint32_t b = 1; b <= SamplerLight::bounces; ++b) {
-        const mirtest::Moments& m = light.bounce(b);
-        CAPTURE(b, m.mean(), m.standard_error());
-        CHECK(mirtest::mean_p_value(m, std::pow(0.5, b + 1)) > mirtest::sidak(0.01, 5));
-        CHECK(m.standard_error() < 0.05 * m.mean());
-    }
+    mirtest::check_furnace(resampled<mir::ResamplingRules>(lab, probe_of(lab), 1400), 0.05);
 }
 
 // Bulb of 3 W sr^-1 in the centre of a sphere whose halves reflect 0.8 and 0.2: bounce b sends out
@@ -195,10 +186,8 @@ TEST_CASE("a resampled set stands for as many VPLs as were asked for, each of ab
 }
 
 TEST_CASE("where there is no light, resampling yields no VPL") {
-    mir::Scene scene = mir::builtin::make("cornell-box");
     const bool black = GENERATE(true, false);
-    for (mir::Material& m : scene.materials) (black ? m.base_color : m.emission) = {};
-    const PathLab<Lambert> lab(scene);
+    const PathLab<Lambert> lab(mirtest::dark_box(black));
     const auto probe = probe_of(lab);
     BidirectionalOptions o = small_options(1);
     o.emitter_vpls = false;

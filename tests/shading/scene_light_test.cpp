@@ -193,6 +193,19 @@ TEST_CASE("delta lights of all kinds add up") {
     CHECK(Lit(s).from_deltas({0, 0, 0}, up) == Approx(5.0 + 1.0 + 2.0));
 }
 
+TEST_CASE("a point or spot light on the luxel, or so near that light overflows, brings nothing") {
+    const Vec3 lamp = GENERATE(Vec3(0, 0, 0), Vec3(0, 1e-30f, 0), Vec3(0, 1e-19f, 0));
+    mir::SpotLight spot;
+    spot.position = lamp;
+    spot.direction = {0, -1, 0};
+    spot.intensity = {1e3f, 1e3f, 1e3f};
+    Scene scene;
+    scene.directional_lights.push_back({"sun", {0, -1, 0}, {5, 5, 5}});
+    scene.spot_lights.push_back(spot);
+    scene.point_lights.push_back({"bulb", lamp, {1e3f, 1e3f, 1e3f}});
+    CHECK(Lit(scene).from_deltas({0, 0, 0}, up) == Approx(5.0));
+}
+
 TEST_CASE("light that the shading or the geometric normal turns away from is not reflected") {
     const Vec3 tilted = glm::normalize(Vec3(1, 1, 0));
     auto s = Lit::receiver(tilted);

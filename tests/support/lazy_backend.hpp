@@ -4,6 +4,7 @@
 #include "mir/concepts/backend.hpp"
 #include "mir/cpu/backend.hpp"
 
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -14,7 +15,8 @@ namespace mirtest {
 /// waits for them and not before, so that whoever forgets to wait reads what is not there.
 class PutOff {
  public:
-    /// Queues whose bit is set in `eager` work at once, as far as events let them.
+    /// Queues whose bit is set in `eager` work at once, as far as events let them; those behind the
+    /// 32nd never do.
     explicit PutOff(std::uint32_t eager) : eager_(eager) {}
 
     std::size_t add_queue() {
@@ -23,7 +25,7 @@ class PutOff {
     }
     void add(std::size_t queue, std::function<void()> operation) {
         queues_[queue].operations.push_back(std::move(operation));
-        if ((eager_ >> queue & 1u) != 0) run(queue, size(queue));
+        if (queue < 32 && (eager_ >> queue & 1u) != 0) run(queue, size(queue));
     }
     [[nodiscard]] std::size_t size(std::size_t queue) const {
         return queues_[queue].operations.size();
@@ -57,7 +59,7 @@ class LazyBackend {
     class Buffer : public mir::cpu::Buffer<T> {
      public:
         explicit Buffer(std::size_t size) : mir::cpu::Buffer<T>(size) {
-            std::memset(static_cast<void*>(this->data()), 0xFF, size * sizeof(T));
+            if (size > 0) std::memset(static_cast<void*>(this->data()), 0xFF, size * sizeof(T));
         }
     };
     template <class T>

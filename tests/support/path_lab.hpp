@@ -2,41 +2,31 @@
 #pragma once
 
 #include "mir/core/random.hpp"
-#include "mir/cpu/embree_scene.hpp"
 #include "mir/paths/path_generator.hpp"
 #include "support/statistics.hpp"
+#include "support/traced_scene.hpp"
 
 #include <algorithm>
 
 namespace mirtest {
 
-/// A scene with everything that full paths run through.
+/// A scene that full paths run through.
 template <mir::Bsdf B>
-class PathLab {
- public:
+struct PathLab : TracedScene<B> {
     using World = mir::PathWorld<B, mir::cpu::EmbreeRayCaster, mir::cpu::EmbreeVisibility>;
 
-    explicit PathLab(mir::Scene s) : scene(std::move(s)) {}
-    PathLab(const PathLab&) = delete;
-    PathLab& operator=(const PathLab&) = delete;
-    ~PathLab() = default;
+    using TracedScene<B>::TracedScene;
 
     [[nodiscard]] World world(float bound = std::numeric_limits<float>::max()) const {
-        return {geometry,
-                lights,
-                surfaces,
-                engine.ray_caster(),
-                engine.visibility(),
-                scene.cameras.front(),
+        return {this->geometry,
+                this->lights,
+                this->surfaces,
+                this->engine.ray_caster(),
+                this->engine.visibility(),
+                this->scene.cameras.front(),
                 1.0f,
                 bound};
     }
-
-    mir::Scene scene;
-    mir::WorldGeometry geometry{scene};
-    mir::LightTable lights{scene, geometry};
-    mir::SurfaceTable<B> surfaces{scene};
-    mir::cpu::EmbreeScene engine{geometry};
 };
 
 /// Builds a path by one technique, the length given too. Nothing about how likely that was.

@@ -5,8 +5,10 @@
 #include "mir/reconstruct.hpp"
 #include "mir/sampling/image_probe.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
+#include "mir/scene/builtin.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/vpl_shading.hpp"
+#include "support/catch.hpp"
 #include "support/path_lab.hpp"
 
 #include <vector>
@@ -64,22 +66,29 @@ class SamplerLight {
     }
 };
 
+/// Light of the records `sample(seed)`, one replicate for each seed from `first` on.
+template <mir::Bsdf B, class Sample>
+SamplerLight light_of_seeds(const PathLab<B>& lab, std::uint64_t first, const Sample& sample) {
+    SamplerLight light;
+    for (std::uint64_t s = first; s < first + SamplerLight::replicates; ++s)
+        light.add(lab, sample(s));
+    return light;
+}
+
 /// Light that instant radiosity brings, which knows neither probe nor target. Seeds from 40000 on.
 template <mir::Bsdf B>
 SamplerLight instant_radiosity(const PathLab<B>& lab, std::uint32_t vpls = 512) {
     const auto w = lab.world();
-    SamplerLight light;
     mir::InlineExecutor one;
-    for (std::uint64_t s = 40'000; s < 40'000 + SamplerLight::replicates; ++s) {
+    return light_of_seeds(lab, 40'000, [&](std::uint64_t seed) {
         mir::InstantRadiosityOptions o;
         o.vpls = vpls;
         o.emitter_vpls = true;
-        o.seed = s;
-        light.add(lab, mir::InstantRadiositySampler<B, decltype(w.caster)>(
-                           {w.geometry, w.lights, w.surfaces, w.caster}, o)
-                           .sample(one));
-    }
-    return light;
+        o.seed = seed;
+        return mir::InstantRadiositySampler<B, decltype(w.caster)>(
+                   {w.geometry, w.lights, w.surfaces, w.caster}, o)
+            .sample(one);
+    });
 }
 
 template <mir::Bsdf B>
@@ -101,6 +110,24 @@ inline double agreement(const SamplerLight& a, const SamplerLight& b, std::uint3
     for (std::size_t i = first - 1; i < a.moments.size(); ++i)
         smallest = std::min(smallest, welch_p_value(a.moments[i], b.moments[i]));
     return -std::expm1(static_cast<double>(tests) * std::log1p(-smallest));
+}
+
+/// Checks that in `furnace` bounce b has the mean radiance L rho^b, and that its standard error is
+/// less than `relative_error` of it. Student's t over the replicates, 1 % over all bounces.
+inline void check_furnace(const SamplerLight& light, double relative_error) {
+    for (std::uint32_t b = 1; b <= SamplerLight::bounces; ++b) {
+        const Moments& m = light.bounce(b);
+        CAPTURE(b, m.mean(), m.standard_error());
+        CHECK(mean_p_value(m, std::pow(0.5, b + 1)) > sidak(0.01, SamplerLight::bounces));
+        CHECK(m.standard_error() < relative_error * m.mean());
+    }
+}
+
+/// The Cornell box without light: its surfaces black, or its lamp put out.
+inline mir::Scene dark_box(bool black) {
+    mir::Scene scene = mir::builtin::make("cornell-box");
+    for (mir::Material& m : scene.materials) (black ? m.base_color : m.emission) = {};
+    return scene;
 }
 
 }  // namespace mirtest

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 namespace mirtest {
@@ -13,10 +14,13 @@ class TemporaryFolder {
  public:
     explicit TemporaryFolder(const std::string& name) {
         const auto parent = std::filesystem::temp_directory_path();
-        for (int i = 0; path_.empty(); ++i) {
+        // Another process may take a name, or give it back, while it is asked for.
+        for (int i = 0; path_.empty() && i < 10000; ++i) {
             const auto candidate = parent / ("mir_test_" + name + "_" + std::to_string(i));
-            if (std::filesystem::create_directory(candidate)) path_ = candidate;
+            std::error_code taken;
+            if (std::filesystem::create_directory(candidate, taken)) path_ = candidate;
         }
+        if (path_.empty()) throw std::runtime_error("no folder can be made in " + parent.string());
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;

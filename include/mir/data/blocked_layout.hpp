@@ -5,6 +5,12 @@
 
 namespace mir {
 
+/// Column and row of a luxel in its tile.
+struct LuxelPlace {
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+};
+
 /// Order of the luxels of one tile in memory: squares of 16x16, one after another (figure 4 of the
 /// paper), each cut into 8x4 and those into 4x4, so that 16 or 32 consecutive luxels (a vector
 /// register, a warp) are neighbours in both directions. The blocked index of a luxel is the global
@@ -31,6 +37,14 @@ struct BlockedLayout {
     /// Index inside a block of the luxel at (x, y), both below `side`.
     [[nodiscard]] MIR_HD static constexpr LuxelIndex inside(std::uint32_t x, std::uint32_t y) {
         return (y / 4) * 64 + (x / 4) * 16 + (y % 4) * 4 + x % 4;
+    }
+
+    /// The luxel of a blocked index; outside of ragged tiles for luxels of the padding.
+    [[nodiscard]] MIR_HD constexpr LuxelPlace place(LuxelIndex i) const {
+        const std::uint32_t block = i / block_size;
+        const std::uint32_t x = i / 16 % 4 * 4 + i % 4;
+        const std::uint32_t y = i / 64 % 4 * 4 + i / 4 % 4;
+        return {block % blocks_x * side + x, block / blocks_x * side + y};
     }
 
     /// The part of tile `t` that block `block` covers; empty extents never occur.

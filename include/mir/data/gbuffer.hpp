@@ -61,6 +61,10 @@ class BlockedGBuffer {
         return {surface_plane(t), std::size_t{luxels(t)} * surface_words};
     }
 
+    /// All words, tile after tile, for copies of a whole image.
+    [[nodiscard]] std::span<std::uint32_t> words() { return words_; }
+    [[nodiscard]] std::span<const std::uint32_t> words() const { return words_; }
+
     /// Writes luxel `i` (blocked index) of tile `t`.
     void store(TileIndex t, LuxelIndex i, const Hit& hit, const Surface& surface) {
         SoaView<Hit>{words_.data() + hit_offset(t), luxels(t)}.store(i, hit);

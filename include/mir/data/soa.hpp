@@ -43,13 +43,22 @@ struct SoaView {
     [[nodiscard]] MIR_HD Value load(std::uint32_t i, std::index_sequence<K...>) const {
         Value value;
         auto* bytes = reinterpret_cast<unsigned char*>(&value);
-        (memcpy(bytes + 4 * K, planes + K * stride + i, 4), ...);
+        (put(bytes + 4 * K, planes[K * stride + i]), ...);
         return value;
     }
     template <std::size_t... K>
     MIR_HD void store(std::uint32_t i, const Value& value, std::index_sequence<K...>) const {
         const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
-        (memcpy(planes + K * stride + i, bytes + 4 * K, 4), ...);
+        ((planes[K * stride + i] = word_at(bytes + 4 * K)), ...);
+    }
+
+    // Planes are read and written as words: nvcc makes four accesses of a memcpy from memory that
+    // it takes for bytes.
+    MIR_HD static void put(unsigned char* bytes, std::uint32_t word) { memcpy(bytes, &word, 4); }
+    MIR_HD static std::uint32_t word_at(const unsigned char* bytes) {
+        std::uint32_t word = 0;
+        memcpy(&word, bytes, 4);
+        return word;
     }
 };
 

@@ -7,8 +7,6 @@
 #include "mir/core/random.hpp"
 #include "mir/data/tile.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -26,7 +24,7 @@ inline constexpr std::uint32_t max_luxels_per_pixel = 64;
 class PixelPattern {
  public:
     /// `pixel` is the raster index of the pixel; nx, ny >= 1 and nx * ny <= max_luxels_per_pixel.
-    PixelPattern(std::uint32_t nx, std::uint32_t ny, std::uint64_t pixel, std::uint64_t seed)
+    MIR_HD PixelPattern(std::uint32_t nx, std::uint32_t ny, std::uint64_t pixel, std::uint64_t seed)
         : nx_(nx), ny_(ny), random_(seed, Stream::luxel, pixel) {
         Random draws = random_;
         shuffle(column_order_, nx, draws);
@@ -35,42 +33,45 @@ class PixelPattern {
 
     /// Position of the luxel of cell (cx, cy), in (0, 1)^2 of the pixel; the centre when the pixel
     /// has one luxel.
-    [[nodiscard]] Vec2 operator()(std::uint32_t cx, std::uint32_t cy) const {
+    [[nodiscard]] MIR_HD Vec2 operator()(std::uint32_t cx, std::uint32_t cy) const {
         if (nx_ * ny_ == 1) return {0.5f, 0.5f};
         // Even, so that both numbers come from one block of random bits.
         const std::uint32_t dimension = first_jitter + 2 * (cy * nx_ + cx);
-        return {inside(cx * ny_ + row_order_[cy], random_.at(dimension)),
-                inside(cy * nx_ + column_order_[cx], random_.at(dimension | 1u))};
+        return {inside(cx * ny_ + row_order_.place[cy], random_.at(dimension)),
+                inside(cy * nx_ + column_order_.place[cx], random_.at(dimension | 1u))};
     }
 
  private:
-    using Order = std::array<std::uint8_t, max_luxels_per_pixel>;
+    /// A plain array, because device code cannot index std::array.
+    struct Order {
+        std::uint8_t place[max_luxels_per_pixel] = {};
+    };
     // Beyond every number that the two shuffles draw.
     static constexpr std::uint32_t first_jitter = 2 * max_luxels_per_pixel;
 
     /// Uniform permutation of 0..n-1 (Fisher and Yates, built inside out).
-    static void shuffle(Order& order, std::uint32_t n, Random& draws) {
+    MIR_HD static void shuffle(Order& order, std::uint32_t n, Random& draws) {
         for (std::uint32_t i = 1; i < n; ++i) {
             // The product can round up to i + 1.
-            const auto j =
-                std::min(static_cast<std::uint32_t>(draws.next() * static_cast<float>(i + 1)), i);
-            order[i] = order[j];
-            order[j] = static_cast<std::uint8_t>(i);
+            const auto drawn = static_cast<std::uint32_t>(draws.next() * static_cast<float>(i + 1));
+            const std::uint32_t j = drawn < i ? drawn : i;
+            order.place[i] = order.place[j];
+            order.place[j] = static_cast<std::uint8_t>(i);
         }
     }
 
     /// Point of a stratum, never on its border: jitter is rounded to the middles of 2^16 intervals,
     /// which leaves the sum exact.
-    [[nodiscard]] float inside(std::uint32_t stratum, float jitter) const {
-        const float kept = (std::floor(jitter * 0x1p16f) + 0.5f) * 0x1p-16f;
+    [[nodiscard]] MIR_HD float inside(std::uint32_t stratum, float jitter) const {
+        const float kept = (floorf(jitter * 0x1p16f) + 0.5f) * 0x1p-16f;
         return (static_cast<float>(stratum) + kept) / static_cast<float>(nx_ * ny_);
     }
 
     std::uint32_t nx_;
     std::uint32_t ny_;
     Random random_;
-    Order column_order_{};
-    Order row_order_{};
+    Order column_order_;
+    Order row_order_;
 };
 
 /// How the pixels of an image are cut into luxels. Luxel (x, y) belongs to pixel
@@ -80,23 +81,25 @@ struct LuxelGrid {
     std::uint32_t per_pixel_x = 1;
     std::uint32_t per_pixel_y = 1;
 
-    [[nodiscard]] constexpr std::uint32_t per_pixel() const { return per_pixel_x * per_pixel_y; }
+    [[nodiscard]] MIR_HD constexpr std::uint32_t per_pixel() const {
+        return per_pixel_x * per_pixel_y;
+    }
 
     /// Size of the image of luxels.
-    [[nodiscard]] constexpr Extent luxels() const {
+    [[nodiscard]] MIR_HD constexpr Extent luxels() const {
         return {pixels.width * per_pixel_x, pixels.height * per_pixel_y};
     }
 
     /// The luxels of pixel (px, py).
-    [[nodiscard]] PixelPattern pattern(std::uint32_t px, std::uint32_t py,
-                                       std::uint64_t seed) const {
+    [[nodiscard]] MIR_HD PixelPattern pattern(std::uint32_t px, std::uint32_t py,
+                                              std::uint64_t seed) const {
         return {per_pixel_x, per_pixel_y, std::uint64_t{py} * pixels.width + px, seed};
     }
 
     /// Position of luxel (x, y) in pixels from the top left corner of the image: the pixel's centre
     /// for one luxel per pixel, else multi-jittered inside the pixel. A pure function of (x, y,
     /// seed), safe from any thread.
-    [[nodiscard]] Vec2 position(std::uint32_t x, std::uint32_t y, std::uint64_t seed) const {
+    [[nodiscard]] MIR_HD Vec2 position(std::uint32_t x, std::uint32_t y, std::uint64_t seed) const {
         const std::uint32_t px = x / per_pixel_x, py = y / per_pixel_y;
         const Vec2 offset = pattern(px, py, seed)(x % per_pixel_x, y % per_pixel_y);
         return {add_down(px, offset.x), add_down(py, offset.y)};
@@ -106,10 +109,10 @@ struct LuxelGrid {
 
  private:
     /// Sum rounded down: rounded to nearest it can leave the pixel.
-    static float add_down(std::uint32_t pixel, float offset) {
+    MIR_HD static float add_down(std::uint32_t pixel, float offset) {
         const double exact = static_cast<double>(pixel) + static_cast<double>(offset);
         const auto rounded = static_cast<float>(exact);
-        return static_cast<double>(rounded) > exact ? std::nextafter(rounded, 0.0f) : rounded;
+        return static_cast<double>(rounded) > exact ? nextafterf(rounded, 0.0f) : rounded;
     }
 };
 

@@ -6,27 +6,12 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/data/visibility_matrix.hpp"
+#include "mir/normalise/detail/response_bands.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
 
 #include <bit>
 
 namespace mir {
-
-/// What a VPL of intensity 1 W sr^-1 in each channel does to an image.
-struct ImageResponse {
-    double r = 0.0;  ///< t_v: mean radiance over all luxels, W m^-2 sr^-1 per W sr^-1
-    double g = 0.0;
-    double b = 0.0;
-    std::uint64_t lit_luxels = 0;  ///< luxels that see the VPL and reflect something
-
-    ImageResponse& operator+=(const ImageResponse& o) {
-        r += o.r;
-        g += o.g;
-        b += o.b;
-        lit_luxels += o.lit_luxels;
-        return *this;
-    }
-};
 
 /// Sums responses over an image that comes in bands of rows: t_v = 1/M sum_l V f min(G, b) over all
 /// M luxels, empty ones included (docs/method.md, 10.2). Luxels are summed in the fixed order of
@@ -35,7 +20,7 @@ struct ImageResponse {
 class ResponseSum {
  public:
     /// For an image of `luxels` and a set of `vpls` VPLs.
-    ResponseSum(Extent luxels, std::uint32_t vpls) : luxels_(luxels), sums_(vpls) {}
+    ResponseSum(Extent luxels, std::uint32_t vpls) : bands_(luxels, vpls), sums_(vpls) {}
 
     /// Adds the rows below those added before. `bits` are those of this band and these VPLs, whose
     /// intensities are not read.
@@ -46,16 +31,13 @@ class ResponseSum {
 
     /// Responses in the order of the VPLs.
     /// @throws Error(invalid_argument) before all rows were added.
-    [[nodiscard]] std::vector<ImageResponse> mean() const;
+    [[nodiscard]] std::vector<ImageResponse> mean() const { return bands_.mean(sums_); }
 
  private:
     /// VPLs that one task sums: enough to pay for reading a block, few enough to share out.
     static constexpr std::uint32_t vpls_per_task = 32;
 
-    void check(Extent band, const std::vector<Tile>& tiles, std::uint32_t vpls) const;
-
-    Extent luxels_;
-    std::uint32_t rows_ = 0;
+    detail::ResponseBands bands_;
     std::vector<ImageResponse> sums_;
 };
 
@@ -109,24 +91,10 @@ void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shad
 
 }  // namespace detail
 
-inline void ResponseSum::check(Extent band, const std::vector<Tile>& tiles,
-                               std::uint32_t vpls) const {
-    expects(vpls == sums_.size() && band.width == luxels_.width &&
-                band.height <= luxels_.height - rows_,
-            "a response was given luxels or VPLs of another image (it would be the mean of "
-            "nothing); give the bands of one image from top to bottom");
-    bool whole = rows_ % BlockedLayout::side == 0;
-    for (const Tile& t : tiles)
-        whole = whole && t.x % BlockedLayout::side == 0 && t.y % BlockedLayout::side == 0;
-    expects(whole,
-            "tiles or bands cut blocks of 16x16 luxels (the order of sums would depend on "
-            "them); round sizes up with whole_blocks()");
-}
-
 template <TiledGBuffer G, VplSet P, KnownVisibility V, Shading F, Executor E>
 void ResponseSum::add_band(const G& gbuffer, P vpls, V bits, const F& shading, E& executor,
                            InstructionSet instructions) {
-    check(gbuffer.extent(), gbuffer.tiles(), vpls.size());
+    bands_.check(gbuffer.extent(), gbuffer.tiles(), vpls.size());
     const std::uint32_t count = vpls.size();
     const std::uint32_t rows =
         (gbuffer.extent().height + BlockedLayout::side - 1) / BlockedLayout::side;
@@ -142,17 +110,7 @@ void ResponseSum::add_band(const G& gbuffer, P vpls, V bits, const F& shading, E
         });
     });
     for (std::size_t i = 0; i < row_sums.size(); ++i) sums_[i % count] += row_sums[i];
-    rows_ += gbuffer.extent().height;
-}
-
-inline std::vector<ImageResponse> ResponseSum::mean() const {
-    expects(rows_ == luxels_.height,
-            "a response was asked for before every row of the image was added (the mean is over "
-            "all luxels); add the bands that are missing");
-    const double share = 1.0 / static_cast<double>(luxels_.area());
-    std::vector<ImageResponse> means = sums_;
-    for (ImageResponse& m : means) m = {m.r * share, m.g * share, m.b * share, m.lit_luxels};
-    return means;
+    bands_.count(gbuffer.extent());
 }
 
 /// Responses of VPLs over an image that one G-buffer holds; see ResponseSum.

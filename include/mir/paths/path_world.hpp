@@ -44,5 +44,8 @@ struct PathWorld {
         return surfaces.params(v.material);
     }
 };
+template <Bsdf B, RayCaster R, Visibility V>
+PathWorld(const WorldGeometry&, const LightTable&, const SurfaceTable<B>&, R, V, Camera, float,
+          float) -> PathWorld<B, R, V>;
 
 }  // namespace mir

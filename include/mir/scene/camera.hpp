@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/ray.hpp"
-#include "mir/core/warp.hpp"
+#include "mir/scene/camera_optics.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace mir {
@@ -32,17 +32,16 @@ struct Camera {
         return c;
     }
 
+    /// What kernels need to make rays.
+    [[nodiscard]] CameraOptics optics() const {
+        return {position,    right,         up, back, std::tan(0.5f * vertical_fov),
+                lens_radius, focus_distance};
+    }
+
     /// Ray through `film` in [0,1]^2 (origin top left) of an image with `aspect` = width / height,
     /// from the point of the lens that `lens` in [0,1)^2 picks.
     [[nodiscard]] Ray ray(Vec2 film, float aspect, Vec2 lens) const {
-        const float half = std::tan(0.5f * vertical_fov);
-        const Vec3 through = (2.0f * film.x - 1.0f) * half * aspect * right +
-                             (1.0f - 2.0f * film.y) * half * up - back;
-        if (lens_radius <= 0.0f) return {position, glm::normalize(through)};
-        const Vec2 disc = lens_radius * square_to_disc(lens);
-        const Vec3 on_lens = position + disc.x * right + disc.y * up;
-        const Vec3 in_focus = position + focus_distance * through;
-        return {on_lens, glm::normalize(in_focus - on_lens)};
+        return optics().ray(film, aspect, lens);
     }
 
     /// Depth of a point: its distance from the lens plane, metres.

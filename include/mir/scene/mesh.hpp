@@ -3,14 +3,28 @@
 
 #include "mir/core/math.hpp"
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace mir {
 
-using TriangleIndices = std::array<std::uint32_t, 3>;
+/// Vertices of a triangle, counter-clockwise seen from the front. A type of its own, because device
+/// code cannot index std::array.
+struct TriangleIndices {
+    std::uint32_t vertex[3] = {};
+
+    [[nodiscard]] MIR_HD constexpr std::uint32_t& operator[](std::size_t k) { return vertex[k]; }
+    [[nodiscard]] MIR_HD constexpr std::uint32_t operator[](std::size_t k) const {
+        return vertex[k];
+    }
+    [[nodiscard]] constexpr std::uint32_t* begin() { return vertex; }
+    [[nodiscard]] constexpr std::uint32_t* end() { return vertex + 3; }
+    [[nodiscard]] constexpr const std::uint32_t* begin() const { return vertex; }
+    [[nodiscard]] constexpr const std::uint32_t* end() const { return vertex + 3; }
+    friend constexpr bool operator==(const TriangleIndices&, const TriangleIndices&) = default;
+};
 
 /// Triangles in their own coordinate system, metres. Counter-clockwise seen from the front.
 struct Mesh {

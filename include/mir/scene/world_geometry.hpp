@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/core/limits.hpp"
-#include "mir/core/ray.hpp"
+#include "mir/scene/geometry_view.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <span>
@@ -34,8 +34,18 @@ class WorldGeometry {
     ///         Error(limit_exceeded) before memory is taken.
     explicit WorldGeometry(const Scene& scene, const Limits& limits = {});
 
+    /// What kernels on the host read; valid until the geometry is moved or ends.
+    [[nodiscard]] GeometryView<Space::host> view() const {
+        return {positions_.data(), normals_.data(), triangles_.data(), materials_.data(),
+                ray_offset_};
+    }
+
     [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
+    /// Unit normals of the vertices, zero where their mesh has none.
+    [[nodiscard]] std::span<const Vec3> normals() const { return normals_; }
     [[nodiscard]] std::span<const TriangleIndices> triangles() const { return triangles_; }
+    /// Material of each triangle.
+    [[nodiscard]] std::span<const std::uint32_t> materials() const { return materials_; }
     [[nodiscard]] std::uint32_t material_of(std::uint32_t triangle) const {
         return materials_[triangle];
     }
@@ -44,23 +54,25 @@ class WorldGeometry {
 
     /// Corner `k` (0..2) of a triangle, metres.
     [[nodiscard]] Vec3 corner(std::uint32_t triangle, std::uint32_t k) const {
-        return positions_[triangles_[triangle][k]];
+        return view().corner(triangle, k);
     }
 
     /// Unit normal of the front of a triangle.
     [[nodiscard]] Vec3 front_normal(std::uint32_t triangle) const {
-        return glm::normalize(area_vector(triangle));
+        return view().front_normal(triangle);
     }
 
     /// m^2.
     [[nodiscard]] float area(std::uint32_t triangle) const {
-        return 0.5f * glm::length(area_vector(triangle));
+        return 0.5f * glm::length(view().area_vector(triangle));
     }
 
     /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
     /// travels along `direction`.
     [[nodiscard]] SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
-                                             Vec3 direction) const;
+                                             Vec3 direction) const {
+        return view().surface_point(triangle, barycentrics, direction);
+    }
 
     /// Distance by which points are lifted off surfaces, metres: sixteen units in the last place of
     /// the largest coordinate, which covers the rounding of hit points and of traversal at any
@@ -68,9 +80,6 @@ class WorldGeometry {
     [[nodiscard]] float ray_offset() const { return ray_offset_; }
 
  private:
-    [[nodiscard]] Vec3 area_vector(std::uint32_t t) const {
-        return glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
-    }
     void place(const Scene& scene, const Instance& instance);
     void place_vertices(const Mesh& mesh, const Mat4& to_world);
     void place_triangles(const Mesh& mesh, std::uint32_t first_vertex, bool mirrored);
@@ -177,29 +186,6 @@ inline void WorldGeometry::place_triangles(const Mesh& mesh, std::uint32_t first
         triangles_.push_back(t);
         materials_.push_back(mesh.material);
     }
-}
-
-inline SurfacePoint WorldGeometry::surface_point(std::uint32_t triangle, Vec2 barycentrics,
-                                                 Vec3 direction) const {
-    const TriangleIndices& t = triangles_[triangle];
-    const float u = barycentrics.x;
-    const float v = barycentrics.y;
-    const float w = 1.0f - u - v;
-    SurfacePoint p;
-    p.position = w * positions_[t[0]] + u * positions_[t[1]] + v * positions_[t[2]];
-    p.barycentrics = barycentrics;
-    p.triangle = triangle;
-    p.material = materials_[triangle];
-    const Vec3 normal = front_normal(triangle);
-    p.front = glm::dot(direction, normal) <= 0.0f;
-    p.geometric_normal = p.front ? normal : -normal;
-    const Vec3 smooth = w * normals_[t[0]] + u * normals_[t[1]] + v * normals_[t[2]];
-    const float length = glm::length(smooth);
-    p.shading_normal = length > 0.0f ? smooth / length : p.geometric_normal;
-    if (glm::dot(p.shading_normal, p.geometric_normal) < 0.0f) p.shading_normal = -p.shading_normal;
-    // At silhouettes the smooth normal may turn away from the ray: shading would be undefined.
-    if (glm::dot(p.shading_normal, direction) >= 0.0f) p.shading_normal = p.geometric_normal;
-    return p;
 }
 
 }  // namespace mir

@@ -168,10 +168,7 @@ template <Backend B, Executor E>
 template <class In>
 void ShadingOnly<B, E>::Pipeline<In>::write(const Slot& slot) {
     const Tile tile = in_.gbuffer.tiles()[slot.tile];
-    const auto layout = BlockedLayout::of(tile);
-    for (std::uint32_t y = 0; y < tile.height; ++y)
-        for (std::uint32_t x = 0; x < tile.width; ++x)
-            image_(tile.x + x, tile.y + y) = sums_[layout(x, y)];
+    detail::write_tile(image_, tile, [&](LuxelIndex i) { return sums_[i]; });
     if (scheduler_.monitor != nullptr)
         scheduler_.monitor->contributions += std::uint64_t{tile.width} * tile.height * vpls_.size();
 }

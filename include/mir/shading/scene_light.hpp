@@ -115,7 +115,8 @@ class EmitterLight {
 };
 
 /// Light of point, spot and directional lights at a luxel, exact. They have no extent, so they are
-/// never VPLs (docs/method.md, 5.2).
+/// never VPLs (docs/method.md, 5.2). A light at the luxel itself, or so near that its radiance is
+/// no float, adds nothing: 1/d^2 has no value there, and one luxel must not spoil its neighbours.
 template <Bsdf B, Visibility V>
 class DeltaLight {
  public:
@@ -142,8 +143,8 @@ class DeltaLight {
         const Vec3 d = position - hit.position;
         const float d2 = length_squared(d);
         const Rgb light = reflected<B>(hit, s, d * (1.0f / std::sqrt(d2))) * intensity * (1 / d2);
-        if (is_black(light) || !visibility_.visible(position, hit.position)) return {};
-        return light;
+        if (is_black(light) || !is_finite(light)) return {};
+        return visibility_.visible(position, hit.position) ? light : Rgb{};
     }
 
     [[nodiscard]] Rgb from_direction(const Hit& hit, const Surface<typename B::Params>& s,

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/bsdf.hpp"
-#include "mir/core/ray.hpp"
-#include "mir/data/luxel.hpp"
 #include "mir/scene/scene.hpp"
 #include "mir/shading/material_params.hpp"
+#include "mir/shading/surface_table_view.hpp"
 
+#include <span>
 #include <vector>
 
 namespace mir {
@@ -23,10 +22,13 @@ class SurfaceTable {
                                 m.is_lambertian(), mean_albedo(m)});
     }
 
+    /// What kernels on the host read; valid until the table is moved or ends.
+    [[nodiscard]] SurfaceTableView<Space::host, B> view() const { return {entries_.data()}; }
+    [[nodiscard]] std::span<const SurfaceEntry<B>> entries() const { return entries_; }
+
     /// Surface data of a point for light that leaves along the unit vector `wo`.
     [[nodiscard]] Surface surface(const SurfacePoint& p, Vec3 wo) const {
-        const Entry& e = entries_[p.material];
-        return {p.shading_normal, wo, p.front || e.both_sides ? e.emission : Rgb{}, e.params};
+        return view().surface(p, wo);
     }
 
     [[nodiscard]] const typename B::Params& params(std::uint32_t material) const {
@@ -41,21 +43,14 @@ class SurfaceTable {
     }
 
  private:
-    struct Entry {
-        typename B::Params params;
-        Rgb emission;
-        bool both_sides = false;
-        bool lambertian = true;
-        float mean_albedo = 0.0f;
-    };
-
     static float mean_albedo(const Material& m) {
         const CookTorrance::Params p = material_params(m, CookTorrance{});
         const Vec3 n(0.0f, 0.0f, 1.0f);
         const Vec3 wo(0.6f, 0.0f, 0.8f);
         return smaller(luminance(CookTorrance::albedo(p, n, wo)), 1.0f);
     }
-    std::vector<Entry> entries_;
+
+    std::vector<SurfaceEntry<B>> entries_;
 };
 
 }  // namespace mir

@@ -7,6 +7,7 @@
 #include "mir/data/visibility_matrix.hpp"
 #include "mir/data/visibility_words.hpp"
 #include "mir/sched/detail/check_pairing.hpp"
+#include "mir/sched/detail/write_tile.hpp"
 
 #include <optional>
 #include <vector>
@@ -133,11 +134,8 @@ class TileRing {
         slot.done->sync();
         slot.done.reset();
         const Tile tile = gbuffer_.tiles()[slot.tile];
-        const auto layout = BlockedLayout::of(tile);
         const SoaView<const Rgb> radiance{slot.at_home.span().data(), slot.luxels};
-        for (std::uint32_t y = 0; y < tile.height; ++y)
-            for (std::uint32_t x = 0; x < tile.width; ++x)
-                image_(tile.x + x, tile.y + y) = radiance.load(layout(x, y));
+        write_tile(image_, tile, [&](LuxelIndex i) { return radiance.load(i); });
         if (monitor_ != nullptr)
             monitor_->contributions += std::uint64_t{tile.width} * tile.height * vpls_;
     }

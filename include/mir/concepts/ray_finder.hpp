@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/triangle_rows.hpp"
+#include "mir/core/ray.hpp"
+#include "mir/core/space.hpp"
+
+#include <concepts>
+
+namespace mir {
+
+/// Finds the first triangle along a ray, from kernels: the face of a ray engine that knows nothing
+/// of surfaces. `triangle` of the answer is TriangleHit::none for rays that leave the scene.
+///
+/// Axioms: those of RayCaster, once the answer went through GeometryView::surface_point().
+template <class F>
+concept RayFinder = DeviceCopyable<F> && requires(const F f, const Ray& ray) {
+    { F::space } -> std::convertible_to<Space>;
+    { f.closest(ray) } -> std::same_as<TriangleHit>;
+};
+
+}  // namespace mir

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/random.hpp"
+#include "mir/film/luxel_grid.hpp"
+#include "mir/scene/camera_optics.hpp"
+
+namespace mir {
+
+/// The camera rays of an image as kernels make them: one per luxel, a pure function of its place
+/// and the seed. CameraRays::luxel_rays() makes it. Host and device: see CameraOptics.
+struct LuxelRays {
+    CameraOptics optics;
+    LuxelGrid grid;
+    std::uint64_t seed = 0;
+
+    /// Ray of the luxel at (x, y) of the whole luxel image.
+    [[nodiscard]] MIR_HD Ray operator()(std::uint32_t x, std::uint32_t y) const {
+        const Extent pixels = grid.pixels;
+        const Vec2 position = grid.position(x, y, seed);
+        const float aspect = static_cast<float>(pixels.width) / static_cast<float>(pixels.height);
+        Random random(seed, Stream::lens, std::uint64_t{y} * grid.luxels().width + x);
+        return optics.ray({position.x / static_cast<float>(pixels.width),
+                           position.y / static_cast<float>(pixels.height)},
+                          aspect, random.next_2d());
+    }
+};
+
+}  // namespace mir

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/ray_finder.hpp"
+#include "mir/data/gbuffer_words.hpp"
+#include "mir/scene/geometry_view.hpp"
+#include "mir/shading/surface_table_view.hpp"
+
+namespace mir {
+
+/// One luxel, one camera ray: writes what the ray saw first, or an empty luxel. Kernel over all
+/// luxels of a G-buffer, padding included: index i is luxel i % 256 of block i / 256. The words are
+/// those that fill_gbuffer() writes, given the same rays and the same closest hits.
+template <class Rays, RayFinder Finder, Space S, Bsdf B>
+struct PrimaryHits {
+    Rays rays;  ///< rays(x, y) is the ray of a luxel of the whole image, as in LuxelRays
+    Finder finder;
+    GeometryView<S> geometry;
+    SurfaceTableView<S, B> surfaces;
+    GBufferWords<typename B::Params> out;
+    std::uint32_t first_row = 0;  ///< of the image that `out` begins with
+
+    MIR_HD void operator()(std::uint32_t i) const {
+        const TileIndex t = out.tiles.tile_of(i / BlockedLayout::block_size);
+        const LuxelIndex luxel = i - out.tiles.first_block(t) * BlockedLayout::block_size;
+        const Tile tile = out.tiles[t];
+        const LuxelPlace at = BlockedLayout::of(tile).place(luxel);
+        TriangleHit found;
+        Ray ray;
+        if (at.x < tile.width && at.y < tile.height) {
+            ray = rays(tile.x + at.x, first_row + tile.y + at.y);
+            found = finder.closest(ray);
+        }
+        if (found.triangle == TriangleHit::none)
+            clear(t, luxel);
+        else
+            store(t, luxel, ray, found);
+    }
+
+ private:
+    MIR_HD void store(TileIndex t, LuxelIndex i, const Ray& ray, const TriangleHit& found) const {
+        const SurfacePoint p =
+            geometry.surface_point(found.triangle, found.barycentrics, ray.direction);
+        const Vec3 n = p.geometric_normal;
+        out.hits(t).store(i, {lift(p.position, n, geometry.ray_offset), n});
+        out.surfaces(t).store(i, surfaces.surface(p, -ray.direction));
+    }
+
+    MIR_HD void clear(TileIndex t, LuxelIndex i) const {
+        clear(out.hits(t), i);
+        clear(out.surfaces(t), i);
+    }
+    /// Zero words, as in a new BlockedGBuffer; the zeros of parameters may have others.
+    template <class T>
+    MIR_HD static void clear(SoaView<T> view, LuxelIndex i) {
+        for (std::uint32_t k = 0; k < SoaView<T>::words; ++k)
+            view.planes[std::size_t{k} * view.stride + i] = 0;
+    }
+};
+template <class Rays, class Finder, Space S, class B>
+PrimaryHits(Rays, Finder, GeometryView<S>, SurfaceTableView<S, B>, GBufferWords<typename B::Params>,
+            std::uint32_t) -> PrimaryHits<Rays, Finder, S, B>;
+
+}  // namespace mir

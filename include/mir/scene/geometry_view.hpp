@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/ray.hpp"
+#include "mir/core/space.hpp"
+#include "mir/scene/mesh.hpp"
+
+namespace mir {
+
+/// What kernels read of a WorldGeometry: turns the answers of ray engines (triangle, barycentrics)
+/// into surface points, with the same bits on host and device. A view; thread-safe.
+template <Space S>
+struct GeometryView {
+    static constexpr Space space = S;
+
+    const Vec3* positions = nullptr;  ///< of vertices, metres
+    const Vec3* normals = nullptr;    ///< of vertices, unit; zero where there is none
+    const TriangleIndices* triangles = nullptr;
+    const std::uint32_t* materials = nullptr;  ///< of triangles
+    float ray_offset = 0.0f;                   ///< WorldGeometry::ray_offset(), metres
+
+    /// Corner `k` (0..2) of a triangle, metres.
+    [[nodiscard]] MIR_HD Vec3 corner(std::uint32_t triangle, std::uint32_t k) const {
+        return positions[triangles[triangle][k]];
+    }
+
+    /// Along the front normal, as long as twice the area; m^2.
+    [[nodiscard]] MIR_HD Vec3 area_vector(std::uint32_t t) const {
+        return glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    }
+
+    /// Unit normal of the front of a triangle.
+    [[nodiscard]] MIR_HD Vec3 front_normal(std::uint32_t triangle) const {
+        return glm::normalize(area_vector(triangle));
+    }
+
+    /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
+    /// travels along `direction`.
+    [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
+                                                    Vec3 direction) const;
+};
+
+template <Space S>
+MIR_HD SurfacePoint GeometryView<S>::surface_point(std::uint32_t triangle, Vec2 barycentrics,
+                                                   Vec3 direction) const {
+    const TriangleIndices& t = triangles[triangle];
+    const float u = barycentrics.x;
+    const float v = barycentrics.y;
+    const float w = 1.0f - u - v;
+    SurfacePoint p;
+    p.position = w * positions[t[0]] + u * positions[t[1]] + v * positions[t[2]];
+    p.barycentrics = barycentrics;
+    p.triangle = triangle;
+    p.material = materials[triangle];
+    const Vec3 normal = front_normal(triangle);
+    p.front = glm::dot(direction, normal) <= 0.0f;
+    p.geometric_normal = p.front ? normal : -normal;
+    const Vec3 smooth = w * normals[t[0]] + u * normals[t[1]] + v * normals[t[2]];
+    const float length = glm::length(smooth);
+    p.shading_normal = length > 0.0f ? smooth / length : p.geometric_normal;
+    if (glm::dot(p.shading_normal, p.geometric_normal) < 0.0f) p.shading_normal = -p.shading_normal;
+    // At silhouettes the smooth normal may turn away from the ray: shading would be undefined.
+    if (glm::dot(p.shading_normal, direction) >= 0.0f) p.shading_normal = p.geometric_normal;
+    return p;
+}
+
+}  // namespace mir

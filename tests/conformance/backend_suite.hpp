@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/backend.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+// The axioms of Backend. Free of Catch2, so that a compiler of kernels can build it: what is found
+// is returned, and the file that asked asserts that nothing is wrong.
+
+namespace mirtest {
+
+/// How many elements of an experiment came out wrong.
+struct Finding {
+    std::string experiment;
+    std::size_t wrong = 0;
+};
+
+/// A number that has no pattern. Source: the finaliser of MurmurHash3, public domain.
+MIR_HD inline std::uint32_t scrambled(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x85ebca6bu;
+    x ^= x >> 13;
+    x *= 0xc2b2ae35u;
+    return x ^ (x >> 16);
+}
+
+/// Adds one to element i.
+struct CountVisit {
+    std::uint32_t* visits = nullptr;
+    MIR_HD void operator()(std::uint32_t i) const { ++visits[i]; }
+};
+
+/// Element i of `to` becomes a function of element n - 1 - i of `from`.
+struct MoveAcross {
+    const std::uint32_t* from = nullptr;
+    std::uint32_t* to = nullptr;
+    std::uint32_t n = 0;
+    MIR_HD void operator()(std::uint32_t i) const { to[i] = scrambled(from[n - 1 - i] + i); }
+};
+
+/// Writes element i after a while: `steps` scrambles of it.
+struct SlowScramble {
+    std::uint32_t* out = nullptr;
+    std::uint32_t steps = 0;
+    MIR_HD void operator()(std::uint32_t i) const {
+        std::uint32_t x = i;
+        for (std::uint32_t k = 0; k < steps; ++k) x = scrambled(x + k);
+        out[i] = x;
+    }
+};
+
+/// Bits without pattern, some found soon and some late, so that the rows of a word part ways.
+struct ScrambledBits {
+    [[nodiscard]] MIR_HD std::uint32_t row(std::uint32_t i) const { return scrambled(i); }
+    [[nodiscard]] MIR_HD bool operator()(std::uint32_t row, std::uint32_t column) const {
+        std::uint32_t x = scrambled(row ^ column);
+        for (std::uint32_t k = x % 17; k > 0; --k) x = scrambled(x + column);
+        return (x & 1u) != 0;
+    }
+};
+
+/// The experiments, each on new queues and buffers.
+template <mir::Backend B>
+class BackendExperiments {
+ public:
+    explicit BackendExperiments(const B& backend) : backend_(backend) {}
+
+    /// Axiom 3, from and to pinned and plain memory. What lies behind a copy stays as it was.
+    [[nodiscard]] std::size_t wrong_after_round_trip(std::uint32_t n) const {
+        const std::uint32_t behind = 7;
+        auto there = backend_.template buffer<std::uint32_t>(n + behind);
+        auto pinned = backend_.template host_buffer<std::uint32_t>(n + behind);
+        const Words all(n + behind, 5u);
+        const Words front = numbers(n);
+        Words home(n + behind);
+        auto queue = backend_.queue();
+        queue.upload(std::span<const std::uint32_t>(all), there);
+        queue.upload(std::span<const std::uint32_t>(front), there);
+        queue.download(there, pinned.span());
+        queue.download(there, std::span<std::uint32_t>(home));
+        queue.record().sync();
+        Words wanted = front;
+        wanted.resize(n + behind, 5u);
+        return differences(home, wanted) + differences(copy_of(pinned), wanted);
+    }
+
+    /// Axiom 4, for_each: two visits of each index below n, none behind.
+    [[nodiscard]] std::size_t wrong_visits(std::uint32_t n) const {
+        const std::uint32_t behind = 300;
+        Words visits(n + behind, 0u);
+        auto there = backend_.template buffer<std::uint32_t>(n + behind);
+        auto queue = backend_.queue();
+        queue.upload(std::span<const std::uint32_t>(visits), there);
+        queue.for_each(n, CountVisit{there.data()});
+        queue.for_each(n, CountVisit{there.data()});
+        queue.download(there, std::span<std::uint32_t>(visits));
+        queue.record().sync();
+        Words wanted(n, 2u);
+        wanted.resize(n + behind, 0u);
+        return differences(visits, wanted);
+    }
+
+    /// Axiom 4, fill_bits: every word as stated, none behind.
+    [[nodiscard]] std::size_t wrong_words(std::uint32_t rows, std::uint32_t columns) const {
+        const std::size_t count = std::size_t{rows / 32} * columns;
+        Words words(count + 64, 0xABCDu);
+        auto there = backend_.template buffer<std::uint32_t>(words.size());
+        auto queue = backend_.queue();
+        queue.upload(std::span<const std::uint32_t>(words), there);
+        queue.fill_bits(rows, columns, ScrambledBits{}, there.data());
+        queue.download(there, std::span<std::uint32_t>(words));
+        queue.record().sync();
+        return differences(words, expected_words(rows, columns, words.size()));
+    }
+
+    /// Axiom 1: a chain of kernels and copies, each of which needs the one before.
+    [[nodiscard]] std::size_t wrong_after_chain(std::uint32_t n, std::uint32_t length) const {
+        std::array<typename B::template Buffer<std::uint32_t>, 2> there{
+            backend_.template buffer<std::uint32_t>(n), backend_.template buffer<std::uint32_t>(n)};
+        auto pinned = backend_.template host_buffer<std::uint32_t>(n);
+        Words state = numbers(n);
+        {
+            auto queue = backend_.queue();
+            queue.upload(std::span<const std::uint32_t>(state), there[0]);
+            for (std::uint32_t k = 0; k < length; ++k) {
+                queue.for_each(n, MoveAcross{there[0].data(), there[1].data(), n});
+                queue.download(there[1], pinned.span());
+                queue.upload(std::span<const std::uint32_t>(pinned.span()), there[0]);
+            }
+            queue.record().sync();
+        }
+        for (std::uint32_t k = 0; k < length; ++k) state = moved_across(state);
+        return differences(copy_of(pinned), state);
+    }
+
+    /// Axiom 2: a second queue reads what a first one writes slowly, behind an event.
+    [[nodiscard]] std::size_t wrong_after_wait(std::uint32_t n, std::uint32_t steps) const {
+        auto slow = backend_.template buffer<std::uint32_t>(n);
+        auto moved = backend_.template buffer<std::uint32_t>(n);
+        auto pinned = backend_.template host_buffer<std::uint32_t>(n);
+        auto writes = backend_.queue();
+        auto reads = backend_.queue();
+        writes.for_each(n, SlowScramble{slow.data(), 0});
+        writes.record().sync();
+        writes.for_each(n, SlowScramble{slow.data(), steps});
+        reads.wait(writes.record());
+        reads.for_each(n, MoveAcross{slow.data(), moved.data(), n});
+        reads.download(moved, pinned.span());
+        reads.record().sync();
+        return differences(copy_of(pinned), moved_across(slowly_scrambled(n, steps)));
+    }
+
+    /// Axiom 2 for the caller: after sync() the host reads what came home.
+    [[nodiscard]] std::size_t wrong_after_sync(std::uint32_t n, std::uint32_t steps) const {
+        auto slow = backend_.template buffer<std::uint32_t>(n);
+        auto pinned = backend_.template host_buffer<std::uint32_t>(n);
+        std::fill(pinned.span().begin(), pinned.span().end(), 0u);
+        auto queue = backend_.queue();
+        queue.for_each(n, SlowScramble{slow.data(), steps});
+        queue.download(slow, pinned.span());
+        const auto done = queue.record();
+        done.sync();
+        return differences(copy_of(pinned), slowly_scrambled(n, steps));
+    }
+
+    /// Axiom 5: the end of a queue waits.
+    [[nodiscard]] std::size_t wrong_after_end(std::uint32_t n, std::uint32_t steps) const {
+        auto slow = backend_.template buffer<std::uint32_t>(n);
+        auto pinned = backend_.template host_buffer<std::uint32_t>(n);
+        std::fill(pinned.span().begin(), pinned.span().end(), 0u);
+        {
+            auto queue = backend_.queue();
+            queue.for_each(n, SlowScramble{slow.data(), steps});
+            queue.download(slow, pinned.span());
+        }
+        return differences(copy_of(pinned), slowly_scrambled(n, steps));
+    }
+
+ private:
+    using Words = std::vector<std::uint32_t>;
+
+    static std::size_t differences(const Words& a, const Words& b) {
+        std::size_t count = a.size() == b.size() ? 0 : 1;
+        for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) count += a[i] != b[i];
+        return count;
+    }
+    static Words numbers(std::uint32_t n) {
+        Words words(n);
+        for (std::uint32_t i = 0; i < n; ++i) words[i] = scrambled(i + 1);
+        return words;
+    }
+    static Words copy_of(typename B::template HostBuffer<std::uint32_t>& buffer) {
+        return Words(buffer.span().begin(), buffer.span().end());
+    }
+    static Words moved_across(const Words& from) {
+        Words to(from.size());
+        const MoveAcross kernel{from.data(), to.data(), static_cast<std::uint32_t>(from.size())};
+        for (std::uint32_t i = 0; i < kernel.n; ++i) kernel(i);
+        return to;
+    }
+    static Words slowly_scrambled(std::uint32_t n, std::uint32_t steps) {
+        Words out(n);
+        for (std::uint32_t i = 0; i < n; ++i) SlowScramble{out.data(), steps}(i);
+        return out;
+    }
+    static Words expected_words(std::uint32_t rows, std::uint32_t columns, std::size_t size) {
+        Words words(std::size_t{rows / 32} * columns, 0u);
+        const ScrambledBits kernel;
+        for (std::uint32_t i = 0; i < rows; ++i)
+            for (std::uint32_t j = 0; j < columns; ++j)
+                words[std::size_t{i / 32} * columns + j] |=
+                    static_cast<std::uint32_t>(kernel(kernel.row(i), j)) << (i % 32);
+        words.resize(size, 0xABCDu);
+        return words;
+    }
+
+    B backend_;
+};
+
+/// Everything that the axioms say, tried on a backend.
+template <mir::Backend B>
+std::vector<Finding> examine_backend(const B& backend) {
+    const BackendExperiments<B> experiments(backend);
+    std::vector<Finding> findings;
+    const auto named = [&](const std::string& what, std::uint32_t n, std::size_t wrong) {
+        findings.push_back({what + ", size " + std::to_string(n), wrong});
+    };
+    for (std::uint32_t n : {0u, 1u, 31u, 1000u, 1u << 20}) {
+        named("upload, then download", n, experiments.wrong_after_round_trip(n));
+        named("visits of for_each", n, experiments.wrong_visits(n));
+    }
+    for (std::uint32_t rows : {0u, 32u, 256u, 1056u})
+        for (std::uint32_t columns : {0u, 1u, 31u, 32u, 33u, 100u})
+            named("words of fill_bits in " + std::to_string(columns) + " columns", rows,
+                  experiments.wrong_words(rows, columns));
+    named("order in one queue", 3000, experiments.wrong_after_chain(3000, 20));
+    constexpr std::uint32_t slow = 1u << 14;
+    named("queue behind an event", 300, experiments.wrong_after_wait(300, slow));
+    named("caller behind an event", 300, experiments.wrong_after_sync(300, slow));
+    named("caller behind the end of a queue", 300, experiments.wrong_after_end(300, slow));
+    return findings;
+}
+
+}  // namespace mirtest

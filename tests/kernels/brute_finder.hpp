@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/reach.hpp"
+#include "mir/concepts/ray_caster.hpp"
+#include "mir/concepts/ray_finder.hpp"
+#include "mir/scene/world_geometry.hpp"
+
+#include <vector>
+
+namespace mirtest {
+
+/// The rows of all triangles of a scene.
+inline std::vector<mir::TriangleRows> rows_of(const mir::WorldGeometry& g) {
+    std::vector<mir::TriangleRows> rows;
+    for (std::uint32_t t = 0; t < g.triangles().size(); ++t)
+        rows.push_back(mir::make_triangle_rows(g.corner(t, 0), g.corner(t, 1), g.corner(t, 2)));
+    return rows;
+}
+
+/// Model of RayFinder that asks every triangle. What it reads must outlive it.
+struct BruteFinder {
+    static constexpr mir::Space space = mir::Space::host;
+
+    const mir::TriangleRows* rows = nullptr;
+    std::uint32_t count = 0;
+    float reach = 0.0f;
+
+    [[nodiscard]] mir::TriangleHit closest(const mir::Ray& ray) const {
+        mir::TriangleHit best;
+        const mir::CutSegment cut = cut_to_reach(ray, reach);
+        for (std::uint32_t t = 0; t < count && !cut.empty; ++t)
+            keep_closer(rows[t], cut.from, cut.to, t, best);
+        return best;
+    }
+};
+static_assert(mir::RayFinder<BruteFinder>);
+
+/// The same finder as host code asks it.
+struct BruteFinderCaster {
+    const mir::WorldGeometry* geometry = nullptr;
+    BruteFinder finder;
+
+    [[nodiscard]] std::optional<mir::SurfacePoint> closest_hit(mir::Ray ray) const {
+        const mir::TriangleHit hit = finder.closest(ray);
+        if (hit.triangle == mir::TriangleHit::none) return std::nullopt;
+        return geometry->surface_point(hit.triangle, hit.barycentrics, ray.direction);
+    }
+};
+static_assert(mir::RayCaster<BruteFinderCaster>);
+
+}  // namespace mirtest
