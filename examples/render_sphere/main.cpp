@@ -18,7 +18,7 @@ namespace {
 void render_sphere(const std::string& scheduler, const std::filesystem::path& picture) {
     mir::Registry registry;
     mir::cpu::add_to(registry);
-    const auto renderer = registry.make(scheduler);
+    const auto renderer = registry.make(mir::BackendKind::automatic, scheduler);
 
     const mir::Scene scene = mir::builtin::make("sphere");
     mir::RenderSettings settings;
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        render_sphere(argc > 1 ? argv[1] : "cpu-blocks", argc > 2 ? argv[2] : "sphere.exr");
+        render_sphere(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : "sphere.exr");
     } catch (const std::exception& e) {
         std::cerr << "render_sphere: " << e.what() << '\n';
         return 1;

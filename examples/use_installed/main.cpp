@@ -19,7 +19,8 @@ mir::RenderResult render_furnace() {
     mir::RenderSettings settings;
     settings.image = {64, 48};
     settings.vpls = 4096;
-    return registry.make("cpu-blocks")->render(mir::builtin::make("furnace"), settings, nullptr);
+    const auto renderer = registry.make(mir::BackendKind::cpu, "cpu-blocks");
+    return renderer->render(mir::builtin::make("furnace"), settings, nullptr);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/scheduler_suite.hpp"
+#include "mir/cpu/any_scheduler.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/sched/cpu_blocks.hpp"
@@ -20,6 +21,15 @@ TEMPLATE_TEST_CASE("The host schedulers keep their axioms with Embree, on one th
     mirtest::scheduler_suite(mir::sched::Cpu{threads}, stage);
     mirtest::scheduler_suite(mir::sched::CpuBlocks{threads}, stage);
     mirtest::scheduler_suite(mir::sched::CpuBlocks{one}, stage);
+}
+
+TEST_CASE("A host scheduler that is chosen by name keeps the axioms of Scheduler") {
+    const EmbreeStage<mir::Lambert> stage({100, 70}, {48, 32}, 37);
+    mir::InlineExecutor executor;
+    for (const auto& [name, kind] : mir::cpu::host_schedulers) {
+        CAPTURE(name);
+        mirtest::scheduler_suite(mir::cpu::AnyScheduler{kind, executor}, stage);
+    }
 }
 
 TEST_CASE("Tile sizes and instruction sets do not change a bit of an Embree image") {

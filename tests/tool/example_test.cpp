@@ -11,7 +11,7 @@ TEST_CASE("the example made of headers draws what the program draws, in every bi
     const Words same{"render",           "builtin:sphere",
                      "--width",          "320",
                      "--height",         "240",
-                     "--sampler",        "ir",
+                     "--sampler",        "mir",
                      "--direct",         "vpl",
                      "--bound",          "1",
                      "--filter",         "box",

@@ -55,7 +55,7 @@ TEST_CASE("info tells people the same") {
     CHECK(outcome.exit_code == 0);
     CHECK(outcome.err.empty());
     CHECK(lines_of(outcome.out).at(0) == "builtin:cornell-box");
-    CHECK(has(outcome.out, "emitting triangles   2"));
+    CHECK(has(outcome.out, "emitting triangles       2"));
     CHECK(has(outcome.out, " m\n"));
     CHECK(has(outcome.out, "camera '"));
 }

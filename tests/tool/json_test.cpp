@@ -57,6 +57,29 @@ TEST_CASE("normalised VPLs give the image the luminance that the sampler found")
           Approx(all.at("path_luminance").get<double>() * kept).epsilon(1e-5));
 }
 
+TEST_CASE("chains say in the JSON how they did") {
+    const TemporaryFolder folder("render_json_chains");
+    const Outcome outcome =
+        run_mir(small_render(folder / "a.exr") + Words{"--json", "--chains", "4"});
+    REQUIRE(outcome.exit_code == 0);
+    const json chains = json::parse(outcome.out).at("chains");
+    for (const char* key : {"large", "small", "bidirectional", "suffix"}) {
+        const json& moves = chains.at(key);
+        CHECK(moves.at("accepted").get<int>() <= moves.at("proposed").get<int>());
+        CHECK(moves.at("rate").get<double>() <= 1.0);
+    }
+    CHECK(chains.at("recorded_states") == 16);
+    CHECK(chains.at("distinct_vpls").get<int>() >= 1);
+    CHECK(chains.at("effective_samples").get<double>() <= 16.0);
+    CHECK(chains.at("split_r_hat").get<double>() > 0.0);
+    CHECK(chains.at("capped") == false);
+    const json& luminance = chains.at("path_luminance");
+    CHECK(luminance.at("low").get<double>() < luminance.at("mean").get<double>());
+    CHECK(luminance.at("high").get<double>() > luminance.at("mean").get<double>());
+    CHECK(luminance.at("contributing").get<int>() <= luminance.at("paths").get<int>());
+    CHECK(chains.at("large_step_luminance").at("mean").get<double>() > 0.0);
+}
+
 TEST_CASE("the mean radiance of the JSON is that of the file") {
     const TemporaryFolder folder("render_json_mean");
     const Outcome outcome = run_mir(small_render(folder / "a.exr") + Words{"--json"});

@@ -25,15 +25,17 @@ inline Outcome run_mir(const Words& arguments, const std::filesystem::path& fold
     return RunningProgram(mir_command(arguments), folder).wait();
 }
 
-/// Arguments of a render without remarks that takes some milliseconds.
+/// Arguments of a render without remarks that takes some milliseconds, on the processor whatever
+/// else the machine has.
 inline Words small_render(const std::filesystem::path& output,
                           const std::string& scene = "builtin:cornell-box", int width = 24,
                           int height = 18) {
-    return {"render",   scene,
-            "-o",       output.string(),
-            "--width",  std::to_string(width),
-            "--height", std::to_string(height),
-            "--vpls",   "16",
+    return {"render",    scene,
+            "-o",        output.string(),
+            "--width",   std::to_string(width),
+            "--height",  std::to_string(height),
+            "--vpls",    "16",
+            "--backend", "cpu",
             "--quiet"};
 }
 

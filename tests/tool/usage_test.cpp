@@ -22,7 +22,8 @@ TEST_CASE("the help of render names every option") {
           "--record-seconds", "--json",    "--quiet",          "--width",    "--height",
           "--luxels",         "--camera",  "--filter",         "--sampler",  "--sequence",
           "--vpls",           "--direct",  "--direct-samples", "--bounces",  "--bound",
-          "--seed",           "--threads", "--scheduler",      "--tile",     "--allow-no-light"})
+          "--seed",           "--threads", "--scheduler",      "--tile",     "--allow-no-light",
+          "--backend",        "--accel"})
         CHECK(has(help, option));
 }
 
@@ -76,6 +77,17 @@ TEST_CASE("values out of range are refused before any work") {
           Words{"--bound", "large"}}) {
         INFO(wrong[0] << " " << wrong[1]);
         check_failing_render(Words{"builtin:sphere"} + wrong, 2, wrong[0]);
+    }
+}
+
+TEST_CASE("the path tracer, which has no bound, refuses one") {
+    const Words path{"builtin:sphere", "--integrator", "path"};
+    check_failing_render(path + Words{"--bound", "2"}, 2, "--bound");
+    for (const char* none : {"auto", "none"}) {
+        const TemporaryFolder folder("tool_path_bound");
+        const Words small = small_render(folder / "a.exr") +
+                            Words{"--integrator", "path", "--samples", "1", "--bound", none};
+        CHECK(run_mir(small).exit_code == 0);
     }
 }
 

@@ -26,6 +26,7 @@ inline int exit_code_of(mir::ErrorCode code) {
             return exit_no_device;
         case mir::ErrorCode::cancelled:
             return exit_interrupted;
+        case mir::ErrorCode::out_of_memory:
         default:
             return exit_failure;
     }

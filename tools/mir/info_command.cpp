@@ -2,6 +2,8 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "load_scene.hpp"
+#include "mir/accel/kd_build.hpp"
+#include "mir/cpu/tbb_executor.hpp"
 #include "mir/scene/scene_hash.hpp"
 
 #include <nlohmann/json.hpp>
@@ -41,7 +43,28 @@ Json cameras_of(const mir::SceneReport& r) {
 
 Json vector_of(mir::Vec3 v) { return {v.x, v.y, v.z}; }
 
-void print_json(const std::string& name, const SceneAndReport& loaded) {
+/// What the kd-tree of the scene looks like; takes as long as building it.
+Json kd_tree_of(const mir::Scene& scene) {
+    const mir::WorldGeometry geometry(scene);
+    mir::cpu::TbbExecutor executor;
+    const mir::KdTree tree(geometry, {}, executor);
+    const mir::KdTreeStatistics& s = tree.statistics();
+    return {{"triangles", s.triangles},
+            {"nodes", s.nodes},
+            {"leaves", s.leaves},
+            {"empty_leaves", s.empty_leaves},
+            {"references", s.references},
+            {"depth", s.depth},
+            {"largest_leaf", s.largest_leaf},
+            {"triangles_per_leaf", s.triangles_per_leaf()},
+            {"references_per_triangle", s.references_per_triangle()},
+            {"bytes", s.bytes},
+            {"bytes_per_triangle", s.bytes_per_triangle()},
+            {"sah_cost", s.sah_cost},
+            {"build_seconds", s.seconds()}};
+}
+
+void print_json(const std::string& name, const SceneAndReport& loaded, bool accel) {
     const mir::SceneReport& r = loaded.report;
     Json out{{"scene", name}, {"scene_hash", mir::SceneHash(loaded.scene).hex()}};
     out["counts"] = counts_of(r);
@@ -50,21 +73,29 @@ void print_json(const std::string& name, const SceneAndReport& loaded) {
     out["cameras"] = cameras_of(r);
     out["ignored"] = r.ignored;
     out["notes"] = r.notes;
+    if (accel) out["kd_tree"] = kd_tree_of(loaded.scene);
     // Names in files need not be UTF-8; JSON must be.
     std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
-void print_text(const std::string& name, const SceneAndReport& loaded) {
-    const mir::SceneReport& r = loaded.report;
-    std::printf("%s\n", name.c_str());
-    const Json counts = counts_of(r);
-    for (const auto& [key, value] : counts.items()) {
+/// One line per number.
+void print_numbers(const Json& numbers) {
+    for (const auto& [key, value] : numbers.items()) {
         std::string label = key;
         std::replace(label.begin(), label.end(), '_', ' ');
-        std::printf("  %-20s %llu\n", label.c_str(), value.get<unsigned long long>());
+        const std::string number = value.is_number_float()
+                                       ? std::to_string(value.get<double>())
+                                       : std::to_string(value.get<std::uint64_t>());
+        std::printf("  %-24s %s\n", label.c_str(), number.c_str());
     }
+}
+
+void print_text(const std::string& name, const SceneAndReport& loaded, bool accel) {
+    const mir::SceneReport& r = loaded.report;
+    std::printf("%s\n", name.c_str());
+    print_numbers(counts_of(r));
     if (!r.bounds.empty())
-        std::printf("  %-20s (%g, %g, %g) to (%g, %g, %g) m\n", "bounds", r.bounds.low.x,
+        std::printf("  %-24s (%g, %g, %g) to (%g, %g, %g) m\n", "bounds", r.bounds.low.x,
                     r.bounds.low.y, r.bounds.low.z, r.bounds.high.x, r.bounds.high.y,
                     r.bounds.high.z);
     for (const mir::CameraReport& c : r.cameras) {
@@ -75,6 +106,9 @@ void print_text(const std::string& name, const SceneAndReport& loaded) {
     for (const auto& [what, times] : r.ignored)
         std::printf("  ignored: %s (%llu)\n", what.c_str(), static_cast<unsigned long long>(times));
     for (const std::string& note : r.notes) std::printf("  note: %s\n", note.c_str());
+    if (!accel) return;
+    std::printf("kd-tree\n");
+    print_numbers(kd_tree_of(loaded.scene));
 }
 
 }  // namespace
@@ -82,9 +116,9 @@ void print_text(const std::string& name, const SceneAndReport& loaded) {
 int run(const InfoOptions& options) {
     const SceneAndReport loaded = load_scene(options.scene);
     if (options.json)
-        print_json(options.scene, loaded);
+        print_json(options.scene, loaded, options.accel);
     else
-        print_text(options.scene, loaded);
+        print_text(options.scene, loaded, options.accel);
     return exit_done;
 }
 

@@ -34,6 +34,7 @@ struct RenderOptions {
 /// `mir info`.
 struct InfoOptions {
     std::string scene;
+    bool accel = false;  ///< build the kd-tree and tell about it
     bool json = false;
 };
 

@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "load_scene.hpp"
-#include "mir/cpu/register.hpp"
+#include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/scene/framing.hpp"
 #include "progress.hpp"
@@ -102,8 +102,8 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
 
 mir::RenderResult render(const RenderOptions& o, const mir::Scene& scene, mir::Monitor& monitor) {
     mir::Registry registry;
-    mir::cpu::add_to(registry);
-    const auto renderer = registry.make(o.settings.scheduler);
+    mir::add_all_to(registry);
+    const auto renderer = registry.make(o.settings.backend, o.settings.scheduler);
     std::optional<Progress> progress;
     if (!o.quiet) progress.emplace(monitor);
     return renderer->render(scene, o.settings, &monitor);

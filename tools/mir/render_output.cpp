@@ -222,6 +222,9 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["height"] = r.beauty.height();
     out["seed"] = o.settings.seed;
     out["sampler"] = sampler_name(o.settings);
+    out["backend"] = s.backend;
+    if (!s.device.empty()) out["device"] = s.device;
+    out["acceleration"] = s.acceleration;
     out["scheduler"] = s.scheduler;
     out["triangles"] = s.triangles;
     out["dropped_triangles"] = s.dropped_triangles;

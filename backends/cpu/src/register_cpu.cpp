@@ -1,63 +1,35 @@
 // SPDX-License-Identifier: MIT
+#include "mir/accel/kd_tree_scene.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/register.hpp"
-#include "mir/cpu/tbb_executor.hpp"
-#include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
-#include "mir/runtime/path_render.hpp"
-#include "mir/runtime/tiled_render.hpp"
-#include "mir/sched/cpu.hpp"
-#include "mir/sched/cpu_blocks.hpp"
-#include "mir/shading/lambert.hpp"
+#include "render_on_host.hpp"
 
 namespace mir::cpu {
+
+extern template RenderResult render_any(const HostRender&, const EmbreeScene&);
+extern template RenderResult render_any(const HostRender&, const KdTreeScene&);
+
 namespace {
-
-/// How a renderer arranges contributions in time.
-enum class Arrangement { plain, blocks };
-
-template <Bsdf B, class MakeScheduler>
-RenderResult render_with(const Scene& scene, const RenderSettings& settings,
-                         const WorldGeometry& geometry, const EmbreeScene& engine,
-                         TbbExecutor& executor, Monitor* monitor, MakeScheduler make) {
-    CancellableExecutor cancellable(executor, monitor);
-    if (settings.integrator == Integrator::path)
-        return PathRender<B, EmbreeScene, decltype(cancellable)>(scene, settings, geometry, engine,
-                                                                 cancellable, monitor)
-            .run();
-    return TiledRender<B, EmbreeScene, decltype(cancellable), MakeScheduler>(
-               scene, settings, geometry, engine, cancellable, monitor, make)
-        .run();
-}
-
-/// Lambertian scenes get the model with three parameters a luxel instead of eight.
-template <class MakeScheduler>
-RenderResult render_any(const Scene& scene, const RenderSettings& settings,
-                        const WorldGeometry& geometry, const EmbreeScene& engine,
-                        TbbExecutor& executor, Monitor* monitor, MakeScheduler make) {
-    if (is_lambertian(scene))
-        return render_with<Lambert>(scene, settings, geometry, engine, executor, monitor, make);
-    return render_with<CookTorrance>(scene, settings, geometry, engine, executor, monitor, make);
-}
 
 class CpuRenderer : public Renderer {
  public:
-    explicit CpuRenderer(Arrangement arrangement) : arrangement_(arrangement) {}
+    CpuRenderer(std::string_view name, HostScheduler scheduler)
+        : name_(name), scheduler_(scheduler) {}
 
     RenderResult render(const Scene& scene, const RenderSettings& settings,
                         Monitor* monitor) const override {
         settings.validate();
         std::vector<std::string> warnings = check_scene(scene, settings);
         double total = 0.0;
-        double build = 0.0;
         RenderResult result = [&] {
             const Stopwatch watch(total);
-            return timed_render(scene, settings, monitor, build);
+            return build_and_render(scene, settings, monitor);
         }();
         RenderStatistics& s = result.statistics;
-        s.seconds.build = build;
         s.seconds.total = total;
-        s.scheduler = arrangement_ == Arrangement::plain ? "cpu" : "cpu-blocks";
+        s.backend = "cpu";
+        s.scheduler = name_;
         s.scene_hash = SceneHash(scene).hex();
         add_result_warnings(result, warnings);
         result.warnings = std::move(warnings);
@@ -65,45 +37,57 @@ class CpuRenderer : public Renderer {
     }
 
  private:
-    RenderResult timed_render(const Scene& scene, const RenderSettings& settings, Monitor* monitor,
-                              double& build) const {
+    [[nodiscard]] RenderResult build_and_render(const Scene& scene, const RenderSettings& settings,
+                                                Monitor* monitor) const {
         TbbExecutor executor(settings.threads);
+        double build = 0.0;
         std::optional<WorldGeometry> geometry;
-        std::optional<EmbreeScene> engine;
         {
             const Stopwatch watch(build);
             geometry.emplace(scene, settings.limits);
-            engine.emplace(*geometry);
         }
-        if (monitor != nullptr) monitor->check();
-        RenderResult result = dispatch(scene, settings, *geometry, *engine, executor, monitor);
+        const HostRender render{scene, settings, *geometry, executor, monitor, scheduler_};
+        const bool uses_tree = settings.acceleration == Acceleration::kd_tree;
+        RenderResult result = uses_tree ? trace_tree(render, build) : trace_embree(render, build);
+        result.statistics.acceleration = uses_tree ? "kdtree" : "bvh";
         result.statistics.triangles = geometry->triangles().size();
         result.statistics.dropped_triangles = geometry->dropped_triangles();
+        result.statistics.seconds.build = build;
         return result;
     }
 
-    RenderResult dispatch(const Scene& scene, const RenderSettings& settings,
-                          const WorldGeometry& geometry, const EmbreeScene& engine,
-                          TbbExecutor& executor, Monitor* monitor) const {
-        if (arrangement_ == Arrangement::plain)
-            return render_any(scene, settings, geometry, engine, executor, monitor,
-                              [](auto& e, Monitor* m) {
-                                  return sched::Cpu{e, m};
-                              });
-        return render_any(scene, settings, geometry, engine, executor, monitor,
-                          [](auto& e, Monitor* m) {
-                              return sched::CpuBlocks{e, m};
-                          });
+    static RenderResult trace_tree(const HostRender& render, double& build) {
+        std::optional<KdTreeScene> engine;
+        {
+            const Stopwatch watch(build);
+            engine.emplace(render.geometry, render.executor);
+        }
+        if (render.monitor != nullptr) render.monitor->check();
+        return render_any(render, *engine);
     }
 
-    Arrangement arrangement_;
+    static RenderResult trace_embree(const HostRender& render, double& build) {
+        std::optional<EmbreeScene> engine;
+        {
+            const Stopwatch watch(build);
+            engine.emplace(render.geometry);
+        }
+        if (render.monitor != nullptr) render.monitor->check();
+        return render_any(render, *engine);
+    }
+
+    std::string name_;
+    HostScheduler scheduler_;
 };
 
 }  // namespace
 
 void add_to(Registry& registry) {
-    registry.add("cpu", [] { return std::make_unique<CpuRenderer>(Arrangement::plain); });
-    registry.add("cpu-blocks", [] { return std::make_unique<CpuRenderer>(Arrangement::blocks); });
+    Registry::Backend backend{BackendKind::cpu, "cpu", [] {}, "cpu-blocks", {}};
+    for (const auto& [name, kind] : host_schedulers)
+        backend.schedulers.emplace(
+            name, [name, kind] { return std::make_unique<CpuRenderer>(name, kind); });
+    registry.add(std::move(backend));
 }
 
 std::string description() {

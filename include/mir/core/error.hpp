@@ -27,6 +27,7 @@ enum class ErrorCode {
     unsupported,       ///< understood, but outside what this build or library does
     no_device,         ///< the requested device does not exist
     device,            ///< a device or its driver failed
+    out_of_memory,     ///< a device has not enough memory; smaller tiles may help
     io,                ///< a file cannot be created or written
     cancelled,         ///< the caller asked to stop
     internal           ///< an invariant of the library broke: please report

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/fill_visibility.hpp"
+#include "mir/runtime/band_engine.hpp"
 #include "mir/runtime/render_context.hpp"
 #include "mir/runtime/stopwatch.hpp"
 
@@ -9,12 +10,18 @@
 
 namespace mir {
 
-/// Some rows of luxels, and who of them sees which VPL where that was asked.
-template <Bsdf B>
+/// Some rows of luxels, and who of them sees which VPL where that was asked. `Kept` is what an
+/// engine keeps of them in memory of its own.
+template <Bsdf B, class Kept = NothingKept>
 struct ImageBand {
     std::uint32_t first_row = 0;
     BlockedGBuffer<typename B::Params> gbuffer;
     std::optional<VisibilityMatrix> visibility;
+    Kept kept{};
+
+    [[nodiscard]] bool knows_visibility() const {
+        return visibility.has_value() || kept.knows_visibility();
+    }
 };
 
 /// Cuts the luxels of an image into bands of rows, so that memory does not grow with the image, and
@@ -23,11 +30,14 @@ template <Bsdf B, class Engine, Executor E>
 class ImageBands {
  public:
     using Context = RenderContext<B, Engine, E>;
+    using Band = ImageBand<B, KeptBy<Engine>>;
 
     /// `vpls` of which the visibility will be stored, 0 for none: bands become lower until the
     /// matrix of one fits into Limits::visibility_bytes.
     ImageBands(const Context& context, std::uint32_t vpls)
-        : context_(context), tile_(whole_blocks(context.settings.tile)), rows_(choose_rows(vpls)) {}
+        : context_(context),
+          tile_(whole_blocks(context.settings.tile.value_or(default_tile))),
+          rows_(choose_rows(vpls)) {}
 
     [[nodiscard]] std::uint32_t count() const { return (luxels().height + rows_ - 1) / rows_; }
 
@@ -35,16 +45,19 @@ class ImageBands {
     [[nodiscard]] Extent luxels() const { return context_.rays.grid.luxels(); }
 
     /// Traces the camera rays of band `i`.
-    [[nodiscard]] ImageBand<B> make(std::uint32_t i) const;
+    [[nodiscard]] Band make(std::uint32_t i) const;
 
     /// Traces the shadow rays of a band.
     /// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
-    void find_visible(ImageBand<B>& band, VplSpan<Space::host> vpls) const;
+    void find_visible(Band& band, VplSpan<Space::host> vpls) const;
 
     /// True when all bands with their visibility of `vpls` VPLs fit into Limits::visibility_bytes.
     [[nodiscard]] bool fit_together(std::uint32_t vpls) const;
 
  private:
+    /// Luxels scheduled together unless the settings say.
+    static constexpr Extent default_tile{256, 256};
+
     [[nodiscard]] std::uint32_t choose_rows(std::uint32_t vpls) const;
 
     Context context_;
@@ -71,22 +84,29 @@ std::uint32_t ImageBands<B, Engine, E>::choose_rows(std::uint32_t vpls) const {
 }
 
 template <Bsdf B, class Engine, Executor E>
-ImageBand<B> ImageBands<B, Engine, E>::make(std::uint32_t i) const {
+auto ImageBands<B, Engine, E>::make(std::uint32_t i) const -> Band {
     const Stopwatch watch(context_.seconds.gbuffer);
     const std::uint32_t first_row = i * rows_;
     const Extent extent{luxels().width, std::min(rows_, luxels().height - first_row)};
-    ImageBand<B> band{first_row, BlockedGBuffer<typename B::Params>(extent, tile_), {}};
-    fill_gbuffer<B>(band.gbuffer, first_row, context_.rays, context_.engine.ray_caster(),
-                    context_.surfaces, context_.geometry.ray_offset(), context_.executor);
+    Band band{first_row, BlockedGBuffer<typename B::Params>(extent, tile_), {}};
+    if constexpr (BandEngine<Engine>)
+        band.kept = context_.engine.trace(band.gbuffer, first_row, context_.rays);
+    else
+        fill_gbuffer<B>(band.gbuffer, first_row, context_.rays, context_.engine.ray_caster(),
+                        context_.surfaces, context_.geometry.ray_offset(), context_.executor);
     return band;
 }
 
 template <Bsdf B, class Engine, Executor E>
-void ImageBands<B, Engine, E>::find_visible(ImageBand<B>& band, VplSpan<Space::host> vpls) const {
+void ImageBands<B, Engine, E>::find_visible(Band& band, VplSpan<Space::host> vpls) const {
     const Stopwatch watch(context_.seconds.visibility);
-    band.visibility.emplace(band.gbuffer.tiles(), vpls.size(), context_.settings.limits);
-    fill_visibility(*band.visibility, band.gbuffer, vpls, context_.engine.visibility(),
-                    context_.executor);
+    if constexpr (BandEngine<Engine>) {
+        context_.engine.find_visible(band.kept, vpls, context_.settings.limits);
+    } else {
+        band.visibility.emplace(band.gbuffer.tiles(), vpls.size(), context_.settings.limits);
+        fill_visibility(*band.visibility, band.gbuffer, vpls, context_.engine.visibility(),
+                        context_.executor);
+    }
     if (context_.monitor != nullptr)
         context_.monitor->contributions += band.gbuffer.extent().area() * vpls.size();
 }

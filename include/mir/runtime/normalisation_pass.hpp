@@ -14,6 +14,7 @@ template <Bsdf B, class Engine, Executor E, Shading F>
 class NormalisationPass {
  public:
     using Context = RenderContext<B, Engine, E>;
+    using Band = typename ImageBands<B, Engine, E>::Band;
 
     /// `shading` is the one that the sampler's P_c was measured with and that the image will use.
     NormalisationPass(const Context& context, const ImageBands<B, Engine, E>& bands,
@@ -30,33 +31,43 @@ class NormalisationPass {
 
     /// All bands with their visibility, if they fit into memory together and were needed; else
     /// none. Leaves the pass without them.
-    [[nodiscard]] std::vector<ImageBand<B>> take_bands() { return std::move(kept_); }
+    [[nodiscard]] std::vector<Band> take_bands() { return std::move(kept_); }
 
  private:
     [[nodiscard]] std::vector<ImageResponse> over_image(VplSpan<Space::host> vpls);
     [[nodiscard]] std::vector<ImageResponse> probed(VplSpan<Space::host> vpls);
-    [[nodiscard]] ImageBand<B> probe_luxels() const;
+    [[nodiscard]] Band probe_luxels() const;
 
-    void add(const ImageBand<B>& band, VplSpan<Space::host> vpls, ResponseSum& sum) const {
+    /// An empty sum over an image of `luxels`.
+    [[nodiscard]] auto no_response(Extent luxels, std::uint32_t vpls) const {
+        if constexpr (BandEngine<Engine>)
+            return context_.engine.response(luxels, vpls);
+        else
+            return ResponseSum(luxels, vpls);
+    }
+    void add(const Band& band, VplSpan<Space::host> vpls, auto& sum) const {
         const Stopwatch watch(context_.seconds.response);
-        sum.add_band(band.gbuffer, vpls, band.visibility->view(), shading_, context_.executor);
+        if constexpr (BandEngine<Engine>)
+            sum.add(band.kept, vpls, shading_);
+        else
+            sum.add_band(band.gbuffer, vpls, band.visibility->view(), shading_, context_.executor);
     }
 
     Context context_;
     const ImageBands<B, Engine, E>& bands_;
     F shading_;
-    std::vector<ImageBand<B>> kept_;
+    std::vector<Band> kept_;
 };
 
 /// Responses over every luxel.
 template <Bsdf B, class Engine, Executor E, Shading F>
 std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::over_image(
     VplSpan<Space::host> vpls) {
-    ResponseSum sum(bands_.luxels(), vpls.size());
+    auto sum = no_response(bands_.luxels(), vpls.size());
     const bool keep = context_.settings.normalisation == NormalisationPolicy::full &&
                       bands_.fit_together(vpls.size());
     for (std::uint32_t i = 0; i < bands_.count(); ++i) {
-        ImageBand<B> band = bands_.make(i);
+        Band band = bands_.make(i);
         bands_.find_visible(band, vpls);
         add(band, vpls, sum);
         if (keep) kept_.push_back(std::move(band));
@@ -67,9 +78,9 @@ std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::over_image(
 /// Responses over a few luxels; over all for VPLs that few of those see.
 template <Bsdf B, class Engine, Executor E, Shading F>
 std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::probed(VplSpan<Space::host> vpls) {
-    ImageBand<B> probes = probe_luxels();
+    Band probes = probe_luxels();
     bands_.find_visible(probes, vpls);
-    ResponseSum sum(probes.gbuffer.extent(), vpls.size());
+    auto sum = no_response(probes.gbuffer.extent(), vpls.size());
     add(probes, vpls, sum);
     std::vector<ImageResponse> responses = sum.mean();
     const std::vector<VplIndex> poor = poorly_probed(responses);
@@ -82,14 +93,15 @@ std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::probed(VplSpan<Sp
 }
 
 template <Bsdf B, class Engine, Executor E, Shading F>
-ImageBand<B> NormalisationPass<B, Engine, E, F>::probe_luxels() const {
+auto NormalisationPass<B, Engine, E, F>::probe_luxels() const -> Band {
     const Stopwatch watch(context_.seconds.gbuffer);
     const RenderSettings& s = context_.settings;
     const ProbeRays rays{context_.rays.camera, context_.aspect(), s.prepass_luxels, s.seed};
     const Extent cells = rays.cells();
-    ImageBand<B> band{0, BlockedGBuffer<typename B::Params>(cells, whole_blocks(cells)), {}};
+    Band band{0, BlockedGBuffer<typename B::Params>(cells, whole_blocks(cells)), {}};
     fill_gbuffer<B>(band.gbuffer, 0, rays, context_.engine.ray_caster(), context_.surfaces,
                     context_.geometry.ray_offset(), context_.executor);
+    if constexpr (BandEngine<Engine>) band.kept = context_.engine.upload(band.gbuffer);
     return band;
 }
 

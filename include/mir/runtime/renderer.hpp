@@ -9,7 +9,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string_view>
+#include <vector>
 
 namespace mir {
 
@@ -24,30 +26,81 @@ class Renderer {
                                 Monitor* monitor) const = 0;
 };
 
-/// Renderers by name. Filled explicitly: self-registering objects vanish from static libraries.
+/// Renderers by backend and name of the scheduler. Filled explicitly: self-registering objects
+/// vanish from static libraries. Const use from any thread.
 class Registry {
  public:
     using Factory = std::function<std::unique_ptr<Renderer>()>;
 
-    void add(std::string name, Factory make) { factories_[std::move(name)] = std::move(make); }
+    /// A machine with its renderers.
+    struct Backend {
+        BackendKind kind = BackendKind::cpu;
+        std::string name;               ///< as users write it
+        std::function<void()> require;  ///< throws Error(no_device) where there is no such machine
+        std::string default_scheduler;
+        std::map<std::string, Factory, std::less<>> schedulers;
+    };
 
-    /// @throws Error(unsupported) that lists the names when there is none called `name`.
-    [[nodiscard]] std::unique_ptr<Renderer> make(std::string_view name) const {
-        const auto found = factories_.find(name);
-        if (found != factories_.end()) return found->second();
-        throw Error(ErrorCode::unsupported, "there is no scheduler '" + std::string(name) +
-                                                "' in this build; choose one of " + names());
+    /// Backends that are added first are preferred by BackendKind::automatic.
+    void add(Backend backend) { backends_.push_back(std::move(backend)); }
+
+    /// The renderer of a backend with a scheduler, or with its default when `scheduler` is empty.
+    /// @throws Error(unsupported) that lists the names when there is none;
+    ///         Error(no_device) when the backend's machine is missing.
+    [[nodiscard]] std::unique_ptr<Renderer> make(BackendKind kind,
+                                                 std::string_view scheduler) const {
+        const Backend& backend = choose(kind, scheduler);
+        const std::string_view name = scheduler.empty() ? backend.default_scheduler : scheduler;
+        return backend.schedulers.find(name)->second();
     }
 
-    /// The names, separated by commas.
-    [[nodiscard]] std::string names() const {
+    /// The names of the schedulers of a backend, or of all, each once, separated by commas.
+    [[nodiscard]] std::string names(BackendKind kind = BackendKind::automatic) const {
+        std::set<std::string> names;
+        for (const Backend& b : backends_)
+            if (kind == BackendKind::automatic || kind == b.kind)
+                for (const auto& [name, factory] : b.schedulers) names.insert(name);
         std::string all;
-        for (const auto& [name, factory] : factories_) all += (all.empty() ? "" : ", ") + name;
+        for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
         return all;
     }
 
  private:
-    std::map<std::string, Factory, std::less<>> factories_;
+    [[nodiscard]] static bool offers(const Backend& backend, std::string_view scheduler) {
+        return scheduler.empty() || backend.schedulers.contains(scheduler);
+    }
+    [[nodiscard]] static bool is_there(const Backend& backend) {
+        try {
+            backend.require();
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
+    }
+
+    [[nodiscard]] const Backend& choose(BackendKind kind, std::string_view scheduler) const {
+        bool built = false;
+        for (const Backend& b : backends_) {
+            if (kind != BackendKind::automatic && kind != b.kind) continue;
+            built = true;
+            if (!offers(b, scheduler)) continue;
+            if (kind != BackendKind::automatic)
+                b.require();
+            else if (!is_there(b))
+                continue;
+            return b;
+        }
+        if (!built)
+            throw Error(ErrorCode::no_device,
+                        "this build has no such backend (it was configured without it); build it "
+                        "in, or use --backend cpu");
+        const char* where =
+            kind == BackendKind::automatic ? "' in this build" : "' for this backend";
+        throw Error(ErrorCode::unsupported, "there is no scheduler '" + std::string(scheduler) +
+                                                where + "; choose one of " + names(kind));
+    }
+
+    std::vector<Backend> backends_;
 };
 
 }  // namespace mir

@@ -46,6 +46,9 @@ struct RenderStatistics {
     float bound = 0.0f;                 ///< largest geometry term, m^-2; 0: none
     double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' light
     double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed
+    std::string backend;                ///< "cpu" or "cuda"
+    std::string device;                 ///< name of the GPU; empty on the processor
+    std::string acceleration;           ///< "bvh" or "kdtree"
     std::string scheduler;
     std::string scene_hash;
     StageSeconds seconds;

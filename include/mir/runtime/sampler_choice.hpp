@@ -10,16 +10,22 @@
 
 namespace mir {
 
+/// Options of a sampler with what every sampler is told of the settings.
+template <class Options>
+Options with_common(Options options, const RenderSettings& settings) {
+    options.emitter_vpls = settings.direct == DirectLight::vpl;
+    options.max_bounce = settings.max_bounce;
+    options.seed = settings.seed;
+    return options;
+}
+
 /// Light paths of instant radiosity, as the settings want them.
 inline InstantRadiosityOptions light_path_options(const RenderSettings& settings) {
     InstantRadiosityOptions options;
     options.vpls = settings.vpls;
     options.termination = settings.termination;
     options.sequence = settings.sequence;
-    options.emitter_vpls = settings.direct == DirectLight::vpl;
-    options.max_bounce = settings.max_bounce;
-    options.seed = settings.seed;
-    return options;
+    return with_common(options, settings);
 }
 
 /// A few luxels that tell what VPLs give to the image of a render.
@@ -44,20 +50,14 @@ auto path_world(const RenderContext<B, Engine, E>& c, const LightTable& lights, 
 inline MetropolisOptions metropolis_options(const RenderSettings& settings) {
     MetropolisOptions options{settings.metropolis};
     options.states = settings.vpls;
-    options.emitter_vpls = settings.direct == DirectLight::vpl;
-    options.max_bounce = settings.max_bounce;
-    options.seed = settings.seed;
-    return options;
+    return with_common(options, settings);
 }
 
 /// How resampled light paths are to be drawn.
 inline BidirectionalOptions bidirectional_options(const RenderSettings& settings) {
     BidirectionalOptions options;
     options.vpls = settings.vpls;
-    options.emitter_vpls = settings.direct == DirectLight::vpl;
-    options.max_bounce = settings.max_bounce;
-    options.seed = settings.seed;
-    return options;
+    return with_common(options, settings);
 }
 
 /// Whether the sampler of the settings must know beforehand what VPLs give to the image.

@@ -16,6 +16,20 @@
 
 namespace mir {
 
+/// Which machine renders.
+enum class BackendKind {
+    automatic,  ///< a GPU where the build and the machine have one, else the processor
+    cpu,
+    cuda
+};
+
+/// What finds out where rays end.
+enum class Acceleration {
+    automatic,  ///< the backend's own choice: bvh on the processor, kd_tree on a GPU
+    kd_tree,    ///< the kd-tree of this library, the same bits on every backend
+    bvh         ///< a bounding volume hierarchy: Embree's on the processor
+};
+
 /// What makes the picture.
 enum class Integrator {
     vpl,  ///< virtual point lights
@@ -70,11 +84,13 @@ struct RenderSettings {
     BoundPolicy bound;
     Filter filter = default_filter(FilterKind::lanczos);
     std::uint64_t seed = 0;
-    unsigned threads = 0;                  ///< 0: every core
-    std::string scheduler = "cpu-blocks";  ///< name in the Registry
-    Extent tile{256, 256};                 ///< luxels
-    bool bounce_layers = false;            ///< one image per bounce besides the sum
-    bool allow_no_light = false;           ///< a scene without light gives black, not an error
+    unsigned threads = 0;  ///< 0: every core
+    BackendKind backend = BackendKind::automatic;
+    Acceleration acceleration = Acceleration::automatic;
+    std::string scheduler;        ///< name in the Registry; empty: the backend's default
+    std::optional<Extent> tile;   ///< luxels scheduled together; none: the backend's choice
+    bool bounce_layers = false;   ///< one image per bounce besides the sum
+    bool allow_no_light = false;  ///< a scene without light gives black, not an error
     Limits limits;
 
     /// @throws Error(invalid_argument or limit_exceeded) that names the first bad value.
@@ -111,12 +127,15 @@ inline void RenderSettings::validate() const {
             "Metropolis sampling yields VPLs without intensities (they follow from what the image "
             "gets); normalise them: full, prepass or proposal");
     expects(max_bounce >= 1 && max_bounce < 255, "the largest bounce must be 1 to 254");
-    expects(tile.width > 0 && tile.height > 0,
+    expects(!tile || (tile->width > 0 && tile->height > 0),
             "a tile of zero luxels was asked for (a tile must hold at least one); use 256x256");
     expects(bound.kind != BoundPolicy::Kind::fixed ||
                 (bound.value > 0.0f && std::isfinite(bound.value)),
             "the bound of the geometry term must be positive and finite (per square metre); use "
             "auto or none");
+    expects(integrator != Integrator::path || bound.kind != BoundPolicy::Kind::fixed,
+            "the reference path tracer bounds no geometry term (the picture would not be the one "
+            "asked for); leave --bound out or use --integrator vpl");
 }
 
 }  // namespace mir

@@ -12,6 +12,8 @@ namespace mir {
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 class VplLight {
  public:
+    using Band = typename ImageBands<B, Engine, E>::Band;
+
     VplLight(const RenderContext<B, Engine, E>& context, MakeScheduler make_scheduler,
              const VplShading<B>& shading, const VplList& vpls)
         : context_(context), make_scheduler_(make_scheduler), shading_(shading), vpls_(vpls) {
@@ -23,7 +25,7 @@ class VplLight {
     [[nodiscard]] std::size_t bounces() const { return bounces_.size(); }
 
     /// Appends the light of all VPLs, W m^-2 sr^-1, and that of each bounce behind it.
-    void append_layers(const ImageBand<B>& band, std::vector<Image<Rgb>>& layers) const {
+    void append_layers(const Band& band, std::vector<Image<Rgb>>& layers) const {
         const Stopwatch watch(context_.seconds.reconstruction);
         if (bounces_.empty())
             return layers.push_back(light(band, vpls_.span(), shading_, context_.monitor));
@@ -37,18 +39,23 @@ class VplLight {
     }
 
     /// The light that the bound keeps from the image.
-    [[nodiscard]] Image<Rgb> removed(const ImageBand<B>& band) const {
+    [[nodiscard]] Image<Rgb> removed(const Band& band) const {
         return light(band, vpls_.span(), RemovedByBound<B>{shading_.bound}, nullptr);
     }
 
  private:
     template <Shading F>
-    [[nodiscard]] Image<Rgb> light(const ImageBand<B>& band, VplSpan<Space::host> vpls,
-                                   const F& shading, Monitor* monitor) const {
-        const auto scheduler = make_scheduler_(context_.executor, monitor);
-        if (band.visibility)
-            return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
-        return reconstruct(scheduler, band.gbuffer, vpls, context_.engine.visibility(), shading);
+    [[nodiscard]] Image<Rgb> light(const Band& band, VplSpan<Space::host> vpls, const F& shading,
+                                   Monitor* monitor) const {
+        if constexpr (BandEngine<Engine>) {
+            return context_.engine.light(band.kept, band.gbuffer, vpls, shading, monitor);
+        } else {
+            const auto scheduler = make_scheduler_(context_.executor, monitor);
+            if (band.visibility)
+                return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
+            return reconstruct(scheduler, band.gbuffer, vpls, context_.engine.visibility(),
+                               shading);
+        }
     }
 
     RenderContext<B, Engine, E> context_;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/space.hpp"
+#include "mir/cuda/queue.hpp"
+#include "mir/data/blocked_layout.hpp"
+
+#include <cuda_runtime.h>
+
+namespace mir::cuda {
+
+namespace detail {
+
+/// Threads of a block: a 16x16 block of luxels, because the blocked index of a luxel is the global
+/// index of its thread.
+inline constexpr std::uint32_t threads_per_block = BlockedLayout::block_size;
+
+/// Blocks that hold `n` threads.
+constexpr std::uint32_t blocks_for(std::uint32_t n) {
+    return n / threads_per_block + (n % threads_per_block != 0 ? 1 : 0);
+}
+
+/// What a kernel may be, in words.
+template <class Kernel>
+constexpr void check_kernel() {
+    static_assert(DeviceCopyable<Kernel>,
+                  "mir: a kernel for the GPU must be trivially copyable (its bytes are all that "
+                  "reaches the device)");
+    static_assert(sizeof(Kernel) <= 4000,
+                  "mir: a kernel for the GPU must not be larger than 4000 bytes, the room for "
+                  "arguments; put data into a buffer");
+}
+
+template <class Kernel>
+__global__ void __launch_bounds__(threads_per_block)
+    for_each_index(std::uint32_t n, const __grid_constant__ Kernel kernel) {
+    const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
+    if (i < n) kernel(i);
+}
+
+/// A thread per row; the warp votes once for each column. Lane k keeps the word of the k-th of 32
+/// columns, so that 32 neighbouring words leave in one transaction.
+template <class Kernel>
+__global__ void __launch_bounds__(threads_per_block)
+    fill_bit_words(std::uint32_t rows, std::uint32_t columns, const __grid_constant__ Kernel kernel,
+                   std::uint32_t* __restrict__ words) {
+    constexpr std::uint32_t width = 32;
+    constexpr std::uint32_t all_lanes = 0xFFFFFFFFu;
+    const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
+    if (i >= rows) return;  // whole warps: rows come in multiples of 32
+    const std::uint32_t lane = threadIdx.x % width;
+    std::uint32_t* out = words + std::size_t{i / width} * columns;
+    const auto row = kernel.row(i);
+    for (std::uint32_t first = 0; first < columns; first += width) {
+        const std::uint32_t count = columns - first < width ? columns - first : width;
+        std::uint32_t kept = 0;
+#pragma unroll 1
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const std::uint32_t word = __ballot_sync(all_lanes, kernel(row, first + k));
+            kept = lane == k ? word : kept;
+        }
+        if (lane < count) out[first + lane] = kept;
+    }
+}
+
+/// Starts a kernel with a thread for each of `n` indices. The status is the launch's own: an error
+/// that the caller's CUDA code left behind is not taken for ours.
+template <class... Expected, class... Given>
+void launch(std::uint32_t n, cudaStream_t stream, void (*kernel)(Expected...),
+            const Given&... arguments) {
+    cudaLaunchConfig_t config{};
+    config.gridDim = dim3(blocks_for(n));
+    config.blockDim = dim3(threads_per_block);
+    config.stream = stream;
+    check(cudaLaunchKernelEx(&config, kernel, arguments...), "starting a kernel");
+}
+
+}  // namespace detail
+
+template <class Kernel>
+void Queue::for_each(std::uint32_t n, const Kernel& kernel) {
+    detail::check_kernel<Kernel>();
+    if (n == 0) return;
+    const ActiveDevice active(device_);
+    detail::launch(n, stream_, detail::for_each_index<Kernel>, n, kernel);
+}
+
+template <class Kernel>
+void Queue::fill_bits(std::uint32_t rows, std::uint32_t columns, const Kernel& kernel,
+                      std::uint32_t* words) {
+    detail::check_kernel<Kernel>();
+    expects(rows % 32 == 0, "bits are made 32 rows at a time; pad the rows");
+    if (rows == 0 || columns == 0) return;
+    const ActiveDevice active(device_);
+    detail::launch(rows, stream_, detail::fill_bit_words<Kernel>, rows, columns, kernel, words);
+}
+
+}  // namespace mir::cuda

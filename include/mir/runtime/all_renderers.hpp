@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/renderer.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mir {
+
+/// Adds every renderer that this build of mir::runtime holds, those of GPUs first. No device has to
+/// be there.
+void add_all_to(Registry& registry);
+
+/// A machine that this build could render on.
+struct DeviceReport {
+    std::string name;           ///< "cpu", "cuda:0", "cuda:1"
+    std::string description;    ///< make, versions of libraries and drivers
+    std::uint64_t memory = 0;   ///< bytes of its own memory; 0: that of the machine
+    std::uint32_t threads = 0;  ///< of the processor; multiprocessors of a GPU
+};
+
+/// What is there, and a sentence for each backend that was built in but cannot be used.
+struct DeviceList {
+    std::vector<DeviceReport> devices;     ///< the processor first
+    std::vector<std::string> unavailable;  ///< "cuda: there is no driver ..."
+};
+
+/// Looks for devices. Never throws for those that are missing.
+DeviceList list_devices();
+
+}  // namespace mir

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/image_bands.hpp"
+#include "mir/scene/light_table.hpp"
+
+namespace mir {
+
+/// One render under way, whatever makes its picture: the scene in the form that the stages want,
+/// and the result as it grows. What was passed in must outlive it. `Engine` offers ray_caster() and
+/// visibility().
+template <Bsdf B, class Engine, Executor E>
+struct RenderJob {
+    using Context = RenderContext<B, Engine, E>;
+
+    /// `monitor` may be null.
+    RenderJob(const Scene& scene, const RenderSettings& render_settings,
+              const WorldGeometry& world_geometry, const Engine& ray_engine, E& loops,
+              Monitor* progress)
+        : settings(render_settings),
+          geometry(world_geometry),
+          engine(ray_engine),
+          executor(loops),
+          monitor(progress),
+          lights(scene, geometry),
+          surfaces(scene),
+          rays{scene.cameras[settings.camera],
+               luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits),
+               settings.seed},
+          result{{}, {}, {}, {}, {}, Guides(settings.image), {}, {}, {}} {}
+
+    /// For the stages; a view.
+    [[nodiscard]] Context context() {
+        return {settings, geometry, surfaces, rays,
+                engine,   executor, monitor,  result.statistics.seconds};
+    }
+
+    /// Adds what a denoiser wants to know of the luxels of a band to the result.
+    void add_guides_of(const ImageBand<B, KeptBy<Engine>>& band) {
+        add_guides(
+            result.guides, band.gbuffer, band.first_row, rays.grid, rays.camera,
+            [](const auto& s) { return B::albedo(s.bsdf, s.normal, s.wo); }, executor);
+    }
+
+    const RenderSettings& settings;
+    const WorldGeometry& geometry;
+    const Engine& engine;
+    E& executor;
+    Monitor* monitor;
+    LightTable lights;
+    SurfaceTable<B> surfaces;
+    CameraRays rays;
+    RenderResult result;
+};
+
+}  // namespace mir

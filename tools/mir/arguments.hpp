@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace mirtool {
+
+/// Declares the arguments of `mir render` but for the scene; what is given goes to `options`.
+void add_render(CLI::App& app, RenderOptions& options);
+
+/// Declares the arguments of `mir compare`.
+void add_compare(CLI::App& app, CompareOptions& options);
+
+}  // namespace mirtool

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace mirtool {
+
+/// A number within [low, high], which `text` says in words; CLI11's own check prints bounds with
+/// hundreds of digits.
+CLI::Validator between(double low, double high, const std::string& text);
+
+/// Any number of 64 bits; CLI11 2.1 lets others wrap around.
+CLI::Validator seed_number();
+
+/// Reads all of `text` as a number without sign.
+template <class T>
+bool read_whole(const std::string& text, T& number) {
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number);
+    return read.ec == std::errc() && read.ptr == end;
+}
+
+/// One of some words, each of which stands for a value.
+template <class T>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target,
+                        const std::map<std::string, T>& choices, const std::string& help) {
+    std::string names;
+    for (const auto& [key, value] : choices) names += (names.empty() ? "" : "|") + key;
+    return app
+        .add_option_function<std::string>(
+            name,
+            [&target, choices, name, names](const std::string& text) {
+                const auto found = choices.find(text);
+                if (found == choices.end())
+                    throw CLI::ValidationError(name,
+                                               "'" + text + "' is unknown; choose one of " + names);
+                target = found->second;
+            },
+            help)
+        ->type_name(names);
+}
+
+/// A whole number option of a smaller type than int.
+template <class T>
+CLI::Option* add_count(CLI::App& app, const std::string& name, T& target, int low, int high,
+                       const std::string& help) {
+    return app
+        .add_option_function<int>(
+            name, [&target](int n) { target = static_cast<T>(n); }, help)
+        ->check(between(low, high, std::to_string(low) + " to " + std::to_string(high)))
+        ->type_name("N");
+}
+
+}  // namespace mirtool

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+#include "option_types.hpp"
+
+#include <cmath>
+
+namespace mirtool {
+namespace {
+
+const std::vector<std::string> layer_names{"albedo",   "normal",   "position", "depth", "direct",
+                                           "indirect", "emission", "bounces",  "none"};
+
+/// Reads "WIDTHxHEIGHT" or "SIDE".
+mir::Extent read_tile(const std::string& text) {
+    const std::size_t x = text.find('x');
+    mir::Extent tile;
+    bool good = read_whole(text.substr(0, x), tile.width);
+    tile.height = tile.width;
+    if (x != std::string::npos) good = good && read_whole(text.substr(x + 1), tile.height);
+    const auto fits = [](std::uint32_t side) { return side >= 1 && side <= 65536; };
+    if (good && fits(tile.width) && fits(tile.height)) return tile;
+    throw CLI::ValidationError(
+        "--tile", "'" + text + "' is no tile; give WIDTHxHEIGHT in luxels, such as 256x256");
+}
+
+/// What --sampler names.
+struct NamedSampler {
+    mir::SamplerKind kind = mir::SamplerKind::metropolis;
+    mir::Termination termination = mir::Termination::roulette;
+    bool vpl_roulette = false;
+};
+
+void add_sampler(CLI::App& app, mir::RenderSettings& s) {
+    using Kind = mir::SamplerKind;
+    using End = mir::Termination;
+    static const std::map<std::string, NamedSampler> samplers{
+        {"mir", {Kind::metropolis}},
+        {"bir", {Kind::bidirectional}},
+        {"ir", {Kind::instant_radiosity}},
+        {"roulette", {Kind::instant_radiosity, End::roulette, true}},
+        {"keller", {Kind::instant_radiosity, End::levels}}};
+    app.add_option_function<std::string>(
+           "--sampler",
+           [&s](const std::string& name) {
+               const auto found = samplers.find(name);
+               if (found == samplers.end())
+                   throw CLI::ValidationError("--sampler", "'" + name +
+                                                               "' is unknown; choose one of "
+                                                               "mir|bir|ir|roulette|keller");
+               s.sampler = found->second.kind;
+               s.termination = found->second.termination;
+               s.vpl_roulette = found->second.vpl_roulette;
+           },
+           "How VPLs are placed: mir, Metropolis sampling (default); bir, bidirectional with "
+           "resampling; ir, instant radiosity; roulette, the same with roulette on what a VPL "
+           "gives to the image; keller, a fixed share survives each bounce")
+        ->type_name("mir|bir|ir|roulette|keller");
+}
+
+void add_chains(CLI::App& app, mir::RenderSettings& s) {
+    mir::MetropolisTuning& m = s.metropolis;
+    add_choice<mir::NormalisationPolicy>(
+        app, "--normalise", s.normalisation,
+        {{"full", mir::NormalisationPolicy::full},
+         {"prepass", mir::NormalisationPolicy::prepass},
+         {"proposal", mir::NormalisationPolicy::proposal}},
+        "Where a VPL's response is measured: on all luxels (default), on a few, or while sampling");
+    add_count(app, "--prepass-luxels", s.prepass_luxels, 1, 1 << 24,
+              "Luxels of --normalise prepass (default 4096)");
+    add_count(app, "--chains", m.chains, 1, 65536, "Markov chains (default 128)");
+    add_count(app, "--stride", m.stride, 1, 1 << 20,
+              "Mutations from one recorded state to the next (default 64)");
+    add_count(app, "--tries", m.chain.tries, 1, 254, "Candidates of a large step (default 8)");
+    app.add_option("--large-steps", m.chain.large_step_probability,
+                   "Share of large steps among mutations (default 0.5)")
+        ->check(between(1e-6, 1, "above 0 to 1"));
+    add_choice<mir::Mutation>(
+        app, "--mutation", m.chain.mutation,
+        {{"primary", mir::Mutation::primary}, {"bidirectional", mir::Mutation::bidirectional}},
+        "Other mutations: of the random numbers (default) or of the path itself");
+    add_choice<mir::PathTechniques>(app, "--paths", m.techniques,
+                                    {{"camera", mir::PathTechniques::camera},
+                                     {"bidirectional", mir::PathTechniques::bidirectional}},
+                                    "How whole paths are built: from the camera alone, or from "
+                                    "both ends (default)");
+    add_count(app, "--suffix-refresh", m.suffix_refresh, 0, 255,
+              "Further light paths behind each recorded VPL (default 8)");
+    app.add_option("--bootstrap-error", m.bootstrap.relative_error,
+                   "Relative standard error wanted of P_c (default 0.03)")
+        ->check(between(1e-6, 1, "above 0 to 1"));
+    add_choice<mir::ChainStop>(
+        app, "--stop", m.stop, {{"fixed", mir::ChainStop::fixed}, {"paper", mir::ChainStop::paper}},
+        "End of the chains: a fixed number of states (default) or of new VPLs, as the paper "
+        "prints it, biased");
+}
+
+void add_reference(CLI::App& app, mir::RenderSettings& s) {
+    add_choice<mir::Integrator>(app, "--integrator", s.integrator,
+                                {{"vpl", mir::Integrator::vpl}, {"path", mir::Integrator::path}},
+                                "VPLs (default) or the reference path tracer");
+    add_count(app, "--samples", s.path.samples, 1, 1 << 24,
+              "Camera paths per luxel of --integrator path (default 256)");
+    add_choice<mir::LightSearch>(app, "--light-search", s.path.light,
+                                 {{"mis", mir::LightSearch::mis},
+                                  {"lamps", mir::LightSearch::lamps},
+                                  {"directions", mir::LightSearch::directions}},
+                                 "How its paths find lamps: light samples and directions weighed "
+                                 "(default), or one of them alone");
+    add_count(app, "--directions", s.path.directions, 1, 65536,
+              "Directions that go on from its first hit (default 1)");
+}
+
+void add_sampling(CLI::App& app, RenderOptions& o) {
+    mir::RenderSettings& s = o.settings;
+    add_sampler(app, s);
+    add_choice<mir::Sequence>(
+        app, "--sequence", s.sequence,
+        {{"random", mir::Sequence::random}, {"halton", mir::Sequence::halton}},
+        "Numbers behind the light paths (default random)");
+    app.add_option("--vpls", s.vpls, "Geometric VPLs wanted (default 256)")
+        ->check(between(1, 4e6, "1 to 4000000"));
+    add_choice<mir::DirectLight>(
+        app, "--direct", s.direct,
+        {{"separate", mir::DirectLight::separate}, {"vpl", mir::DirectLight::vpl}},
+        "Direct light by samples of the lamps (default) or by VPLs on them");
+    app.add_option("--direct-samples", s.direct_samples, "Lamp samples per pixel (default 16)")
+        ->check(between(1, 65536, "1 to 65536"));
+    add_count(app, "--bounces", s.max_bounce, 1, 254,
+              "Largest number of reflections on the way to the camera (default 32)");
+    app.add_option_function<std::string>(
+           "--bound",
+           [&s](const std::string& text) {
+               using Kind = mir::BoundPolicy::Kind;
+               s.bound = {text == "auto" ? Kind::automatic : Kind::none, 0.0f};
+               if (text == "auto" || text == "none") return;
+               s.bound.kind = Kind::fixed;
+               if (!CLI::detail::lexical_cast(text, s.bound.value) || !(s.bound.value > 0.0f) ||
+                   std::isinf(s.bound.value))
+                   throw CLI::ValidationError(
+                       "--bound", "'" + text + "' is neither auto, none nor a positive number");
+           },
+           "Largest geometry term of a VPL and a luxel, per square metre: auto (default), none, or "
+           "a number")
+        ->type_name("auto|none|B");
+    app.add_option("--seed", s.seed, "Seed of all random numbers (default 0)")
+        ->check(seed_number());
+}
+
+void add_image(CLI::App& app, RenderOptions& o) {
+    mir::RenderSettings& s = o.settings;
+    const auto side = between(1, 65536, "1 to 65536");
+    app.add_option("--width", o.width, "Pixels across (default: the scene's, else 480 high)")
+        ->check(side);
+    app.add_option("--height", o.height, "Pixels down")->check(side);
+    app.add_option("--luxels", s.luxels_per_pixel, "Luxels per pixel (default 1)")
+        ->check(between(1, 64, "1 to 64"));
+    app.add_option("--camera", o.camera, "Camera of the scene, by name or index (default 0)");
+    std::map<std::string, mir::Filter> filters;
+    for (const mir::FilterName& f : mir::filter_names)
+        filters.emplace(f.name, mir::default_filter(f.kind));
+    add_choice<mir::Filter>(app, "--filter", s.filter, filters,
+                            "Pixel filter (default lanczos, the paper's windowed sinc)");
+}
+
+void add_output(CLI::App& app, RenderOptions& o) {
+    app.add_option("-o,--output", o.output, "Picture to write (default SCENE.exr)");
+    app.add_option("--png", o.preview, "Preview to write (default: beside the EXR)");
+    app.add_flag("--no-png", o.no_preview, "Write no preview");
+    app.add_option("--exposure", o.exposure, "Exposure of the preview, EV (default: automatic)")
+        ->check(between(-100, 100, "-100 to 100"));
+    app.add_option("--aov", o.layers,
+                   "Layers of the EXR: albedo, normal, position, depth, direct, indirect, "
+                   "emission, bounces, or none (default: all but bounces)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(layer_names))
+        ->each([&o](const std::string& name) { o.no_layers |= name == "none"; });
+    app.add_flag("--record-seconds", o.record_seconds,
+                 "Store the render time in the EXR (its bytes then differ every time)");
+    app.add_flag("--json", o.json, "Print statistics as JSON on stdout");
+    app.add_flag("-q,--quiet", o.quiet, "No progress, no summary");
+}
+
+void add_execution(CLI::App& app, RenderOptions& o) {
+    mir::RenderSettings& s = o.settings;
+    app.add_option("--threads", s.threads, "Threads (default 0: every core)")
+        ->check(between(0, 1024, "0 to 1024"));
+    add_choice<mir::BackendKind>(app, "--backend", s.backend,
+                                 {{"auto", mir::BackendKind::automatic},
+                                  {"cpu", mir::BackendKind::cpu},
+                                  {"cuda", mir::BackendKind::cuda}},
+                                 "Machine: a GPU where there is one (default), or one of them");
+    add_choice<mir::Acceleration>(
+        app, "--accel", s.acceleration,
+        {{"kdtree", mir::Acceleration::kd_tree}, {"bvh", mir::Acceleration::bvh}},
+        "What rays are traced through: the kd-tree (default on a GPU) or Embree's hierarchy "
+        "(default on the processor)");
+    app.add_option("--scheduler", s.scheduler,
+                   "cpu-blocks, tuned (default of the processor); cpu, the plain loop; os, rc or "
+                   "rcvp (default of GPUs), the paper's; the picture is the same")
+        ->check(CLI::IsMember({"cpu", "cpu-blocks", "os", "rc", "rcvp"}));
+    app.add_option_function<std::string>(
+           "--tile", [&s](const std::string& text) { s.tile = read_tile(text); },
+           "Luxels scheduled together (default 256x256); the picture does not depend on it")
+        ->type_name("WxH");
+    app.add_flag("--allow-no-light", s.allow_no_light, "Render a scene without light, black");
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, RenderOptions& options) {
+    add_output(app, options);
+    add_image(app, options);
+    add_sampling(app, options);
+    add_chains(app, options.settings);
+    add_reference(app, options.settings);
+    add_execution(app, options);
+}
+
+}  // namespace mirtool
