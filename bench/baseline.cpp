@@ -6,7 +6,7 @@
 #include "mir/runtime/stopwatch.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/contribution.hpp"
-#include "support/bench_scene.hpp"
+#include "support/bench_runs.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -77,16 +77,7 @@ void tuned_over_occluded1(benchmark::State& state, const std::string& name) {
 }
 
 const int registered = [] {
-    for (const std::string& name : scenes_of_run())
-        for (int threads : {1, 0})
-            benchmark::RegisterBenchmark(
-                ("tuned_over_occluded1/" + name).c_str(),
-                [name](benchmark::State& s) { tuned_over_occluded1(s, name); })
-                ->ArgName("threads")
-                ->Arg(threads)
-                ->UseManualTime()
-                ->Iterations(3)
-                ->Unit(benchmark::kMillisecond);
+    register_by_threads("tuned_over_occluded1", tuned_over_occluded1);
     return 0;
 }();
 

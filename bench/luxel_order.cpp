@@ -3,8 +3,7 @@
 // What the order of luxels in memory is worth: 4x4 squares inside 16x16 blocks (the library's own),
 // runs of 16 along a row, whole rows, and no order at all. A packet is 16 consecutive luxels.
 #include "mir/core/random.hpp"
-#include "mir/sched/cpu_blocks.hpp"
-#include "support/bench_scene.hpp"
+#include "support/bench_runs.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -58,17 +57,7 @@ GBuffer reordered(const GBuffer& from, Order order) {
 
 void luxel_order(benchmark::State& state, const std::string& name, Order order) {
     const BenchScene& s = bench_scene(name);
-    const GBuffer gbuffer = reordered(s.gbuffer(image, image), order);
-    const mir::VplList vpls = s.vpls(256);
-    mir::cpu::TbbExecutor executor;
-    for (auto _ : state)
-        benchmark::DoNotOptimize(mir::reconstruct(mir::sched::CpuBlocks{executor}, gbuffer,
-                                                  vpls.span(), s.engine.visibility(),
-                                                  s.shading(vpls.size())));
-    const double pairs = static_cast<double>(image.area()) * vpls.size();
-    state.counters["contributions/s"] =
-        benchmark::Counter(pairs, benchmark::Counter::kIsIterationInvariantRate);
-    state.SetLabel(s.hash);
+    time_reconstructions(state, s, reordered(s.gbuffer(image, image), order));
 }
 
 const int registered = [] {

@@ -10,7 +10,7 @@
 #include "mir/reshade.hpp"
 #include "mir/runtime/stopwatch.hpp"
 #include "mir/sched/cpu_blocks.hpp"
-#include "support/bench_scene.hpp"
+#include "support/bench_runs.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -77,15 +77,7 @@ void sampling(benchmark::State& state, const std::string& name) {
 }
 
 const int registered = [] {
-    for (const std::string& name : scenes_of_run())
-        for (int threads : {1, 0})
-            benchmark::RegisterBenchmark(("sampling/" + name).c_str(),
-                                         [name](benchmark::State& s) { sampling(s, name); })
-                ->ArgName("threads")
-                ->Arg(threads)
-                ->UseManualTime()
-                ->Iterations(3)
-                ->Unit(benchmark::kMillisecond);
+    register_by_threads("sampling", sampling);
     return 0;
 }();
 

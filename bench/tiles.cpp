@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Contributions per second against the tile size (the paper's figure 11), on all threads.
-#include "mir/sched/cpu_blocks.hpp"
-#include "support/bench_scene.hpp"
+#include "support/bench_runs.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -14,18 +13,7 @@ void tiles(benchmark::State& state, const std::string& name) {
     const BenchScene& s = bench_scene(name);
     const mir::Extent tile{static_cast<std::uint32_t>(state.range(0)),
                            static_cast<std::uint32_t>(state.range(1))};
-    const mir::Extent image{800, 600};
-    const GBuffer gbuffer = s.gbuffer(image, tile);
-    const mir::VplList vpls = s.vpls(256);
-    mir::cpu::TbbExecutor executor;
-    for (auto _ : state)
-        benchmark::DoNotOptimize(mir::reconstruct(mir::sched::CpuBlocks{executor}, gbuffer,
-                                                  vpls.span(), s.engine.visibility(),
-                                                  s.shading(vpls.size())));
-    const double pairs = static_cast<double>(image.area()) * vpls.size();
-    state.counters["contributions/s"] =
-        benchmark::Counter(pairs, benchmark::Counter::kIsIterationInvariantRate);
-    state.SetLabel(s.hash);
+    time_reconstructions(state, s, s.gbuffer({800, 600}, tile));
 }
 
 const int registered = [] {

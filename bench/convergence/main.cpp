@@ -96,7 +96,7 @@ class SceneStudy {
         mir::cpu::add_to(registry);
         const mir::RenderSettings settings = settings_of(run, options_);
         const mir::RenderResult result =
-            registry.make(settings.scheduler)->render(scene_, settings, nullptr);
+            registry.make(settings.backend, settings.scheduler)->render(scene_, settings, nullptr);
         const ImageError error = image_error(result.indirect, reference_);
         warn_of_noise(run, error);
         print_row(run, error, result.statistics.vpls);

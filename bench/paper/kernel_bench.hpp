@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "luxel_order.hpp"
+#include "machine.hpp"
+#include "mir/data/visibility_words.hpp"
+#include "mir/kernels/fused.hpp"
+#include "mir/kernels/shading_pass.hpp"
+#include "mir/kernels/visibility_pass.hpp"
+#include "tracing_backend.hpp"
+
+#include <algorithm>
+
+namespace mirpaper {
+
+/// The same answers by rays that start at the other end.
+template <mir::Visibility V>
+struct FromLuxel {
+    static constexpr mir::Space space = V::space;
+
+    V visibility;
+
+    [[nodiscard]] MIR_HD bool visible(mir::Vec3 a, mir::Vec3 b) const {
+        return visibility.visible(b, a);
+    }
+};
+
+/// One luxel, one VPL, rays and shading; adds to what is there, but for the first VPL.
+template <mir::GBuffer G, mir::VplSet P, mir::Visibility V, mir::Shading F>
+struct AddOneVpl {
+    G luxels;
+    P vpls;
+    mir::VplIndex vpl = 0;
+    V visibility;
+    F shade;
+    mir::SoaView<mir::Rgb> radiance;
+
+    MIR_HD void operator()(mir::LuxelIndex i) const {
+        const mir::Hit hit = luxels.hit(i);
+        mir::Rgb sum = vpl == 0 ? mir::Rgb{} : radiance.load(i);
+        if (!mir::is_empty(hit))
+            sum += mir::contribution(hit, luxels.surface(i), vpls[vpl], visibility, shade);
+        radiance.store(i, sum);
+    }
+};
+template <class G, class P, class V, class F>
+AddOneVpl(G, P, mir::VplIndex, V, F, mir::SoaView<mir::Rgb>) -> AddOneVpl<G, P, V, F>;
+
+/// Kernels on all luxels of a scene, which are in the backend's memory from the beginning.
+template <mir::Backend B, mir::Visibility V>
+class KernelBench {
+ public:
+    /// `luxels` and `vpls` are copied.
+    KernelBench(const B& backend, const LuxelWords& luxels, std::span<const mir::Vpl> vpls,
+                const V& visibility, const Shading& shading, bool needs_bits)
+        : queue_(backend.queue()),
+          count_(luxels.count),
+          hits_(backend.template buffer<std::uint32_t>(luxels.hits.size())),
+          surfaces_(backend.template buffer<std::uint32_t>(luxels.surfaces.size())),
+          radiance_(backend.template buffer<std::uint32_t>(radiance_words())),
+          vpls_(backend.template buffer<mir::Vpl>(vpls.size())),
+          bits_(backend.template buffer<std::uint32_t>(
+              needs_bits ? Bits::count(count_, static_cast<std::uint32_t>(vpls.size())) : 0)),
+          visibility_(visibility),
+          shading_(shading) {
+        queue_.upload(std::span<const std::uint32_t>(luxels.hits), hits_);
+        queue_.upload(std::span<const std::uint32_t>(luxels.surfaces), surfaces_);
+        queue_.upload(vpls, vpls_);
+        queue_.record().sync();
+    }
+
+    KernelRun run(KernelForm form) {
+        if (form == KernelForm::split) return run_split();
+        const auto begin = Marks<B>::mark(queue_);
+        if (form == KernelForm::fused)
+            queue_.for_each(count_,
+                            mir::FusedKernel{view(), vpls(), visibility_, shading_, sums()});
+        else
+            for (mir::VplIndex j = 0; j < vpls().size(); ++j)
+                queue_.for_each(count_,
+                                AddOneVpl{view(), vpls(), j, visibility_, shading_, sums()});
+        const auto end = Marks<B>::mark(queue_);
+        queue_.record().sync();
+        KernelRun run;
+        run.seconds = Marks<B>::seconds(begin, end);
+        return run;
+    }
+
+    /// Summed luminance of what the last run left.
+    [[nodiscard]] double total_luminance() {
+        std::vector<std::uint32_t> words(radiance_words());
+        queue_.download(radiance_, std::span<std::uint32_t>(words));
+        queue_.record().sync();
+        const mir::SoaView<const mir::Rgb> radiance{words.data(), count_};
+        double total = 0.0;
+        for (std::uint32_t i = 0; i < count_; ++i)
+            total += static_cast<double>(mir::luminance(radiance.load(i)));
+        return total;
+    }
+
+ private:
+    using View = mir::GBufferView<B::space, Bsdf::Params>;
+    using Bits = mir::VisibilityWords<B::space>;
+
+    KernelRun run_split() {
+        const auto begin = Marks<B>::mark(queue_);
+        queue_.fill_bits(count_, vpls().size(), mir::VisibilityPass{view(), vpls(), visibility_},
+                         bits_.data());
+        const auto middle = Marks<B>::mark(queue_);
+        queue_.for_each(count_, mir::ShadingPass{view(), vpls(), Bits{bits_.data(), vpls().size()},
+                                                 shading_, sums()});
+        const auto end = Marks<B>::mark(queue_);
+        queue_.record().sync();
+        KernelRun run;
+        run.visibility = Marks<B>::seconds(begin, middle);
+        run.shading = Marks<B>::seconds(middle, end);
+        run.seconds = Marks<B>::seconds(begin, end);
+        return run;
+    }
+
+    [[nodiscard]] std::size_t radiance_words() const {
+        return std::size_t{mir::SoaView<mir::Rgb>::words} * count_;
+    }
+    [[nodiscard]] View view() const { return {{hits_.data(), count_}, {surfaces_.data(), count_}}; }
+    [[nodiscard]] mir::VplSpan<B::space> vpls() const {
+        return {vpls_.data(), static_cast<std::uint32_t>(vpls_.size())};
+    }
+    [[nodiscard]] mir::SoaView<mir::Rgb> sums() { return {radiance_.data(), count_}; }
+
+    typename B::Queue queue_;
+    std::uint32_t count_;
+    typename B::template Buffer<std::uint32_t> hits_;
+    typename B::template Buffer<std::uint32_t> surfaces_;
+    typename B::template Buffer<std::uint32_t> radiance_;
+    typename B::template Buffer<mir::Vpl> vpls_;
+    typename B::template Buffer<std::uint32_t> bits_;
+    V visibility_;
+    Shading shading_;
+};
+
+}  // namespace mirpaper

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace mirpaper {
+
+/// How rays and shading are cut into kernels.
+enum class KernelForm {
+    fused,   ///< RC: a thread per luxel, a loop over VPLs, rays and shading together
+    split,   ///< RCVP: rays to bits first, then a thread per luxel that shades by the bits
+    per_vpl  ///< a launch per VPL, a thread per luxel: neighbours of a thread never leave its VPL
+};
+
+/// Order of the luxels in memory, 32 of which make a warp.
+enum class LuxelOrder {
+    squares,  ///< the library's: 8 x 4 inside blocks of 16 x 16
+    rows,     ///< as the image is scanned
+    clusters  ///< halves by position and normal, again and again: compact runs of 32
+};
+
+/// Order of the VPLs.
+enum class VplOrder {
+    morton,   ///< neighbours in space are neighbours in the list
+    shuffled  ///< none at all
+};
+
+/// The end at which a shadow ray starts.
+enum class RayStart { vpl, luxel };
+
+/// How a ray walks through the kd-tree.
+enum class Traversal {
+    stack,  ///< one entry per level; the library's
+    ropes   ///< from leaf to leaf without a stack
+};
+
+inline constexpr std::array form_names{"fused", "split", "per-vpl"};
+inline constexpr std::array luxel_order_names{"squares", "rows", "clusters"};
+inline constexpr std::array vpl_order_names{"morton", "shuffled"};
+inline constexpr std::array ray_start_names{"vpl", "luxel"};
+inline constexpr std::array traversal_names{"stack", "ropes"};
+
+struct KernelChoice {
+    KernelForm form = KernelForm::fused;
+    LuxelOrder luxels = LuxelOrder::squares;
+    VplOrder vpl_order = VplOrder::morton;
+    RayStart start = RayStart::vpl;
+    Traversal traversal = Traversal::stack;
+    std::uint32_t vpls = 256;
+};
+
+/// Kernels of one image, by events.
+struct KernelRun {
+    double visibility = 0.0;  ///< seconds; of KernelForm::split only
+    double shading = 0.0;     ///< seconds; of KernelForm::split only
+    double seconds = 0.0;     ///< all kernels
+    double mean_luminance = 0.0;
+};
+
+}  // namespace mirpaper
