@@ -42,7 +42,8 @@ mir::RenderResult render(const mir::Scene& scene, mir::Monitor& monitor) {
     settings.image = {64, 48};
     settings.vpls = 128;
     settings.seed = 1;
-    return registry.make(settings.scheduler)->render(scene, settings, &monitor);
+    const auto renderer = registry.make(settings.backend, settings.scheduler);
+    return renderer->render(scene, settings, &monitor);
 }
 // endregion: render
 
