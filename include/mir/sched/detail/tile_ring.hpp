@@ -78,7 +78,8 @@ class TileRing {
     void upload_known(Slot& slot, typename B::Queue& queue,
                       const VisibilityBits<Space::host>& bits) {
         const TileMasks<Space::host> masks = bits.tile(slot.tile);
-        queue.upload(std::span(masks.masks, masks.count(slot.luxels, vpls_)), slot.masks);
+        queue.upload(std::span(masks.masks, TileMasks<Space::host>::count(slot.luxels, vpls_)),
+                     slot.masks);
     }
 
     /// The luxels of the slot's tile where the backend can read them.
