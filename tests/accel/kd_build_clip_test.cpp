@@ -32,6 +32,15 @@ bool contains(const kd::KdFragment& f, Vec3 p) {
     return inside;
 }
 
+/// Sorting keys use the last bits, so they have to be free.
+bool is_even(const kd::KdFragment& f) {
+    const auto is_free = [](kd::Float4 v) {
+        const kd::Int4 odd = kd::bits_of(kd::axes_only(v)) & 1;
+        return (odd[0] | odd[1] | odd[2]) == 0;
+    };
+    return is_free(f.low_lanes()) && is_free(f.high_lanes());
+}
+
 kd::KdCell cell_of(const kd::KdFragment& f) {
     return {kd::axes_only(f.low_lanes()), kd::axes_only(f.high_lanes())};
 }
@@ -78,6 +87,7 @@ TEST_CASE("Clipping loses no point where a triangle may be accepted") {
             if (!there) break;
             fragment = half(parts, below);
             CHECK(fragment.triangle == 7);
+            CHECK(is_even(fragment));
             (below ? cell.high : cell.low)[axis] = at;
         }
     }

@@ -68,7 +68,7 @@ KdTree::KdTree(const WorldGeometry& geometry, const KdTreeOptions& options, E& e
     });
     std::vector<detail::KdGrown> grown;
     detail::timed(statistics_.subtrees_seconds,
-                  [&] { grown = detail::grow_subtrees(top.open, pool, executor); });
+                  [&] { grown = detail::grow_subtrees(top.open, pool, options, executor); });
     detail::timed(statistics_.assemble_seconds,
                   [&] { detail::assemble(top, grown, options, nodes_, references_, executor); });
     for (int axis = 0; axis < 3; ++axis) {

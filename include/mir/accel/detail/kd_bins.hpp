@@ -34,11 +34,11 @@ struct KdGrid {
 
     KdGrid() = default;
     KdGrid(const KdContent& content, std::size_t fragments)
-        : bins(bins_for(fragments)), low(axes_only(content.low)) {
-        const Float4 extent = axes_only(content.high) - low;
-        width = larger_lanes(extent, all_lanes(1e-30f)) / all_lanes(static_cast<float>(bins));
-        scale = all_lanes(1.0f) / width;
-    }
+        : bins(bins_for(fragments)),
+          low(axes_only(content.low)),
+          width(larger_lanes(axes_only(content.high) - low, all_lanes(1e-30f)) /
+                all_lanes(static_cast<float>(bins))),
+          scale(all_lanes(1.0f) / width) {}
 
     /// Few enough that counting, not sweeping bins, takes the time; enough that the exact search
     /// looks at a small part.

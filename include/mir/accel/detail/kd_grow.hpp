@@ -21,7 +21,8 @@ struct KdGrown {
 /// Grows the subtrees of all open nodes, the largest first, so that no thread is left with a large
 /// one at the end. In the order of `open`, whose fragments are given up.
 template <Executor E>
-std::vector<KdGrown> grow_subtrees(std::vector<KdOpenNode>& open, KdGrowerPool& pool, E& executor) {
+std::vector<KdGrown> grow_subtrees(std::vector<KdOpenNode>& open, KdGrowerPool& pool,
+                                   const KdTreeOptions& options, E& executor) {
     std::vector<std::size_t> order(open.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -29,6 +30,7 @@ std::vector<KdGrown> grow_subtrees(std::vector<KdOpenNode>& open, KdGrowerPool& 
     });
     std::vector<KdGrown> grown(open.size());
     std::atomic<std::size_t> next{0};
+    std::atomic<std::uint64_t> references{0};
     const InstructionSet set = best_instruction_set();
     // Executors may deal indices in any order: they are ignored.
     executor.for_each(open.size(), [&](std::size_t) {
@@ -39,6 +41,7 @@ std::vector<KdGrown> grow_subtrees(std::vector<KdOpenNode>& open, KdGrowerPool& 
             grown[i] = {grower.grow(node.fragments.span(), node.cell, node.depth), &grower};
         });
         node.fragments = {};
+        check_kd_size(0, references += grown[i].subtree.references, options);
         pool.give_back(grower);
     });
     return grown;

@@ -32,7 +32,7 @@ inline KdSides deal_fragments(std::span<const KdFragment> from, int axis, float 
         both[to_both].set_lanes(low, high);
         to_below += reaches_above ? 0 : 1;
         to_above += reaches_below ? 0 : 1;
-        to_both += reaches_above & reaches_below ? 1 : 0;
+        to_both += (reaches_above & reaches_below) ? 1 : 0;
     }
     return {to_below, to_above, to_both};
 }

@@ -30,7 +30,10 @@ struct KdSplit {
 /// computed relative to the cell's widest extent, so nothing overflows at any scale.
 struct KdCost {
     KdCost(const KdCell& c, std::size_t triangles, const KdTreeOptions& options)
-        : cell(c), count(static_cast<float>(triangles)), bonus(1.0f - options.empty_bonus) {
+        : cell(c),
+          count(static_cast<float>(triangles)),
+          bonus(1.0f - options.empty_bonus),
+          limit(count - options.visit_cost()) {
         const Float4 extent = c.high - c.low;
         const float widest = std::max(extent[0], std::max(extent[1], extent[2]));
         const Float4 w = extent * all_lanes(1.0f / widest);
@@ -39,7 +42,6 @@ struct KdCost {
         const float inverse = 1.0f / area;
         base = next_axes(sides) * all_lanes(inverse);
         slope = (next_axes(w) + last_axes(w)) * all_lanes(inverse / widest);
-        limit = count - options.visit_cost();
         usable = widest > 0.0f && std::isfinite(inverse / widest);
     }
 

@@ -21,12 +21,15 @@ class RawArray {
  public:
     RawArray() = default;
     explicit RawArray(std::size_t size) { resize(size); }
+    RawArray(const RawArray&) = delete;
+    RawArray& operator=(const RawArray&) = delete;
     RawArray(RawArray&& other) noexcept { swap(other); }
-    RawArray& operator=(RawArray other) noexcept {
-        swap(other);
+    RawArray& operator=(RawArray&& other) noexcept {
+        RawArray taken(std::move(other));
+        swap(taken);
         return *this;
     }
-    ~RawArray() { std::free(data_); }
+    ~RawArray() { std::free(data_); }  // NOLINT(cppcoreguidelines-no-malloc)
 
     [[nodiscard]] T* data() { return data_; }
     [[nodiscard]] const T* data() const { return data_; }
@@ -59,6 +62,7 @@ class RawArray {
     // realloc() moves the pages of large blocks instead of copying what is in them.
     void grow(std::size_t at_least) {
         const std::size_t capacity = std::max(at_least, capacity_ + capacity_ / 2 + 16);
+        // NOLINTNEXTLINE(cppcoreguidelines-no-malloc)
         void* const larger = std::realloc(static_cast<void*>(data_), capacity * sizeof(T));
         if (larger == nullptr) throw std::bad_alloc();
         data_ = static_cast<T*>(larger);
