@@ -30,7 +30,7 @@ class Clusters {
         const auto count = static_cast<std::uint32_t>(last - first);
         if (count <= warp) return;
         const int axis = longest_axis(first, last);
-        mir::LuxelIndex* const middle = first + (count / 2 + warp - 1) / warp * warp;
+        mir::LuxelIndex* const middle = first + std::size_t{(count / 2 + warp - 1) / warp} * warp;
         if (middle == last) return;
         std::nth_element(first, middle, last, [&](mir::LuxelIndex a, mir::LuxelIndex b) {
             const float at_a = coordinate(a, axis);

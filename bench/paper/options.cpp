@@ -36,10 +36,12 @@ std::string joined(const Names& names) {
 }
 
 Names choose(const std::string& option, const std::string& text, const Names& known) {
-    const Names words = words_of(text);
-    for (const std::string& word : words)
-        if (std::find(known.begin(), known.end(), word) == known.end())
-            throw BadValue{option + ": '" + word + "' is unknown; choose of " + joined(known)};
+    Names words = words_of(text);
+    const auto stranger = std::find_if(words.begin(), words.end(), [&](const std::string& word) {
+        return std::find(known.begin(), known.end(), word) == known.end();
+    });
+    if (stranger != words.end())
+        throw BadValue{option + ": '" + *stranger + "' is unknown; choose of " + joined(known)};
     if (words.empty()) throw BadValue{option + " names nothing; choose of " + joined(known)};
     return words;
 }

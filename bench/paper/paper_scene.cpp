@@ -80,7 +80,7 @@ const mir::VplList& PaperScene::pool(std::uint32_t at_least) {
     const std::uint64_t wanted = std::max<std::uint64_t>(smallest_pool, 2ull * at_least);
     for (std::uint64_t states = wanted; states <= largest_pool; states *= 2) {
         const auto key = static_cast<std::uint32_t>(states);
-        if (pools_.count(key) == 0) pools_.emplace(key, sample(key));
+        if (!pools_.contains(key)) pools_.emplace(key, sample(key));
         if (pools_.at(key).size() >= at_least) return pools_.at(key);
     }
     throw mir::Error(mir::ErrorCode::unsupported,

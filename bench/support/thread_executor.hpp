@@ -31,7 +31,9 @@ class ThreadExecutor {
         Loop loop;
         loop.count = n;
         loop.grain = std::max<std::size_t>(1, n / (chunks_per_thread * concurrency()));
-        loop.body = const_cast<void*>(static_cast<const void*>(&body));
+        // The loop gives back the type it was handed, constness included.
+        loop.body = const_cast<void*>(  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+            static_cast<const void*>(&body));
         loop.run_chunk = [](void* b, std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) (*static_cast<Callable*>(b))(i);
         };
@@ -57,6 +59,7 @@ class ThreadExecutor {
     void run(Loop& loop);
     void work();
 
+    // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
     static inline thread_local bool is_in_loop = false;
 
     std::mutex one_loop_;

@@ -26,7 +26,7 @@ std::uint32_t lanes_where(Test test) {
     std::int32_t bits[packet_lanes];
     for (std::uint32_t k = 0; k < packet_lanes; ++k) bits[k] = test(k) ? 1 << k : 0;
     std::int32_t all = 0;
-    for (std::uint32_t k = 0; k < packet_lanes; ++k) all |= bits[k];
+    for (const std::int32_t bit : bits) all |= bit;
     return static_cast<std::uint32_t>(all);
 }
 
@@ -60,7 +60,7 @@ class PacketWalk {
  private:
     std::uint32_t enter_children(KdNode node, LaneIntervals& part);
     void test_leaf(KdNode leaf);
-    std::uint32_t hit_lanes(const TriangleRows& rows) const;
+    [[nodiscard]] std::uint32_t hit_lanes(const TriangleRows& rows) const;
 
     const KdTreeView<Space::host>& tree_;
     Vec3 origin_;

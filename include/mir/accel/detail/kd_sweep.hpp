@@ -119,7 +119,7 @@ inline constexpr Int4 last_key = Int4{} + 0x7FFFFFFF;
 
 /// Sorts keys[0, n) in every lane; the array has room for 2 kd_sweep_limit keys.
 inline void sort_lanes(Int4* keys, std::size_t n) {
-    constexpr std::size_t most = SortingNetworks::step * SortingNetworks::sizes;
+    constexpr std::size_t most = std::size_t{SortingNetworks::step} * SortingNetworks::sizes;
     constexpr std::size_t step = SortingNetworks::step;
     const std::size_t all = n;
     if (n > most) n = (n + 1) / 2;

@@ -49,7 +49,10 @@ inline std::vector<std::vector<std::uint32_t>> border(const SurfaceGrid& g) {
 inline void add_rim(Mesh& m, std::span<const std::uint32_t> line, std::uint32_t back) {
     const auto first = static_cast<std::uint32_t>(m.positions.size());
     for (const std::uint32_t side : {0u, back})
-        for (const std::uint32_t v : line) m.positions.push_back(Vec3(m.positions[v + side]));
+        for (const std::uint32_t v : line) {
+            const Vec3 p = m.positions[v + side];
+            m.positions.push_back(p);
+        }
     connect(m, first, static_cast<std::uint32_t>(line.size()), 2, Wrap::columns);
 }
 

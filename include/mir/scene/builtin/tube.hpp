@@ -39,7 +39,8 @@ inline void add_tube(Mesh& m, std::span<const Vec3> line, float radius, std::uin
         const Vec3 out =
             glm::normalize(end ? line[rings - 1] - line[rings - 2] : line[0] - line[1]);
         for (std::uint32_t k = 0; k < sides; ++k) {
-            m.positions.push_back(Vec3(m.positions[ring + k]));
+            const Vec3 p = m.positions[ring + k];
+            m.positions.push_back(p);
             m.normals.push_back(out);
         }
         for (std::uint32_t k = 2; k < sides; ++k)
