@@ -184,7 +184,7 @@ TEST_CASE("a bias that more luxels do not lessen is noticed", "[statistical]") {
     }
     SECTION("always the same 64 luxels") {
         mir::Random random(1, mir::Stream::test, 1);
-        const Responses same = Drawn(e.box(), 64, random).responses([&](LuxelIndex i, VplIndex j) {
+        Responses same = Drawn(e.box(), 64, random).responses([&](LuxelIndex i, VplIndex j) {
             return e.box().matrix.view().sees(0, i, j);
         });
         CHECK(slope(e, 500, [&](const Drawn&, const Responses&) { return same; }) > -0.5);

@@ -86,7 +86,7 @@ void add_to(Registry& registry) {
     Registry::Backend backend{BackendKind::cpu, "cpu", [] {}, "cpu-blocks", {}};
     for (const auto& [name, kind] : host_schedulers)
         backend.schedulers.emplace(
-            name, [name, kind] { return std::make_unique<CpuRenderer>(name, kind); });
+            name, [name = name, kind = kind] { return std::make_unique<CpuRenderer>(name, kind); });
     registry.add(std::move(backend));
 }
 

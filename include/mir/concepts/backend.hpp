@@ -19,8 +19,10 @@ struct NoOpKernel {
 
 /// The poorest bit kernel: what Backend::Queue::fill_bits() must accept.
 struct NoBitKernel {
-    MIR_HD std::uint32_t row(LuxelIndex i) const { return i; }
-    MIR_HD bool operator()(std::uint32_t /*row*/, std::uint32_t /*column*/) const { return false; }
+    [[nodiscard]] MIR_HD std::uint32_t row(LuxelIndex i) const { return i; }
+    [[nodiscard]] MIR_HD bool operator()(std::uint32_t /*row*/, std::uint32_t /*column*/) const {
+        return false;
+    }
 };
 
 /// What reads and writes memory and runs kernels in order. `upload` copies all of `from` to the

@@ -162,10 +162,15 @@ inline void collect_events(std::span<const KdFragment> fragments, const KdGrid& 
     keys.resize(n);
 }
 
+// Outside of loops that are compiled for several instruction sets: it gains nothing from them.
+[[gnu::noinline]] inline void sort_events(RawArray<std::int32_t>& keys) {
+    std::sort(keys.data(), keys.data() + keys.size());
+}
+
 /// Sorts the events of a border and tries a plane through each.
 inline KdSplit search_border(RawArray<std::int32_t>& keys, const KdBorder& border,
                              const KdCost& cost) {
-    std::sort(keys.data(), keys.data() + keys.size());
+    sort_events(keys);
     KdSplit best{KdCutKind::none, 0, 0.0f, cost.limit};
     std::uint32_t below = border.below;
     std::uint32_t ended = border.ended;

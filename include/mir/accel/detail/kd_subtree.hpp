@@ -37,19 +37,23 @@ struct KdTally {
     }
 };
 
+// Loops that are compiled for several instruction sets take all they call into themselves. What is
+// rare stays outside, for the sake of compile times.
+[[noreturn, gnu::noinline]] inline void fail_kd_size(std::uint64_t count, const char* what,
+                                                     std::uint64_t most) {
+    throw Error(ErrorCode::limit_exceeded,
+                "the kd-tree needs " + std::to_string(count) + " or more " + what +
+                    ", but may have " + std::to_string(most) +
+                    " (memory is bounded before it is taken); raise max_references or "
+                    "traversal_cost in KdTreeOptions, or simplify the scene");
+}
+
 /// @throws Error(limit_exceeded) when a tree has more nodes or references than may be.
 inline void check_kd_size(std::uint64_t nodes, std::uint64_t references,
                           const KdTreeOptions& options) {
-    const auto fail = [](std::uint64_t count, const char* what, std::uint64_t most) {
-        throw Error(ErrorCode::limit_exceeded,
-                    "the kd-tree needs " + std::to_string(count) + " or more " + what +
-                        ", but may have " + std::to_string(most) +
-                        " (memory is bounded before it is taken); raise max_references or "
-                        "traversal_cost in KdTreeOptions, or simplify the scene");
-    };
     if (references > options.max_references)
-        fail(references, "references to triangles", options.max_references);
-    if (nodes > KdNode::max_count) fail(nodes, "nodes", KdNode::max_count);
+        fail_kd_size(references, "references to triangles", options.max_references);
+    if (nodes > KdNode::max_count) fail_kd_size(nodes, "nodes", KdNode::max_count);
 }
 
 /// Half the surface of a cell, with lengths multiplied by `scale` so that nothing overflows.

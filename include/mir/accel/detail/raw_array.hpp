@@ -60,7 +60,7 @@ class RawArray {
 
  private:
     // realloc() moves the pages of large blocks instead of copying what is in them.
-    void grow(std::size_t at_least) {
+    [[gnu::noinline]] void grow(std::size_t at_least) {
         const std::size_t capacity = std::max(at_least, capacity_ + capacity_ / 2 + 16);
         // NOLINTNEXTLINE(cppcoreguidelines-no-malloc)
         void* const larger = std::realloc(static_cast<void*>(data_), capacity * sizeof(T));
