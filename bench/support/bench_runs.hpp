@@ -27,8 +27,10 @@ inline void time_reconstructions(benchmark::State& state, const BenchScene& s,
 /// and on all of them: state.range(0) is 1 or 0.
 template <class Run>
 void register_by_threads(const std::string& title, const Run& run) {
-    for (const std::string& scene : scenes_of_run())
-        benchmark::RegisterBenchmark((title + "/" + scene).c_str(),
+    for (const std::string& scene : scenes_of_run()) {
+        std::string name = title;
+        name.append("/").append(scene);
+        benchmark::RegisterBenchmark(name.c_str(),
                                      [run, scene](benchmark::State& s) { run(s, scene); })
             ->ArgName("threads")
             ->Arg(1)
@@ -36,6 +38,7 @@ void register_by_threads(const std::string& title, const Run& run) {
             ->UseManualTime()
             ->Iterations(3)
             ->Unit(benchmark::kMillisecond);
+    }
 }
 
 }  // namespace mirbench
