@@ -51,7 +51,8 @@ Vec3 accepted_point(const kd::AcceptTriangle& t, double sigma, mir::Random& rand
     const auto u = static_cast<double>(uv.x);
     const auto v = static_cast<double>(uv.y);
     const kd::Double3 on = (1.0 - u - v) * t.a + u * t.b + v * t.c;
-    return Vec3(on + sigma * kd::Double3(point_in_cube(random)));
+    const Vec3 moved(on + sigma * kd::Double3(point_in_cube(random)));
+    return moved;
 }
 
 kd::KdFragment half(const kd::KdParts& parts, bool below) {

@@ -8,7 +8,7 @@
 #include "mir/accel/kd_packet.hpp"
 #include "support/catch.hpp"
 
-#include <cstring>
+#include <bit>
 
 namespace {
 
@@ -52,8 +52,11 @@ void check_equal_bits(const World& world, std::uint64_t index, std::size_t count
 }
 
 bool same_bits(const mir::TriangleHit& a, const mir::TriangleHit& b) {
-    return a.triangle == b.triangle && std::memcmp(&a.t, &b.t, sizeof a.t) == 0 &&
-           std::memcmp(&a.barycentrics, &b.barycentrics, sizeof a.barycentrics) == 0;
+    const auto same = [](float x, float y) {
+        return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+    };
+    return a.triangle == b.triangle && same(a.t, b.t) && same(a.barycentrics.x, b.barycentrics.x) &&
+           same(a.barycentrics.y, b.barycentrics.y);
 }
 
 /// Number of rays whose first triangle is not the one found by asking all, to the last bit.
