@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+// The object that carries the precompiled headers of all test programs.
