@@ -18,6 +18,14 @@ struct KdGrown {
     }
 };
 
+// Not a template, so that the loops are compiled once for any number of executors.
+inline KdSubtree grow_subtree(const KdOpenNode& node, KdGrower& grower) {
+    KdSubtree subtree;
+    run_with(best_instruction_set(),
+             [&] { subtree = grower.grow(node.fragments.span(), node.cell, node.depth); });
+    return subtree;
+}
+
 /// Grows the subtrees of all open nodes, the largest first, so that no thread is left with a large
 /// one at the end. In the order of `open`, whose fragments are given up.
 template <Executor E>
@@ -31,15 +39,12 @@ std::vector<KdGrown> grow_subtrees(std::vector<KdOpenNode>& open, KdGrowerPool& 
     std::vector<KdGrown> grown(open.size());
     std::atomic<std::size_t> next{0};
     std::atomic<std::uint64_t> references{0};
-    const InstructionSet set = best_instruction_set();
     // Executors may deal indices in any order: they are ignored.
     executor.for_each(open.size(), [&](std::size_t) {
         const std::size_t i = order[next.fetch_add(1)];
         KdOpenNode& node = open[i];
         KdGrower& grower = pool.take();
-        run_with(set, [&] {
-            grown[i] = {grower.grow(node.fragments.span(), node.cell, node.depth), &grower};
-        });
+        grown[i] = {grow_subtree(node, grower), &grower};
         node.fragments = {};
         check_kd_size(0, references += grown[i].subtree.references, options);
         pool.give_back(grower);

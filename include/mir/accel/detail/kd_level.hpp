@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/detail/kd_subtree.hpp"
+#include "mir/core/instruction_set.hpp"
 
 #include <vector>
 
@@ -52,7 +53,9 @@ struct KdChunk {
     void count_bins(const KdGrid& grid) {
         bins.resize(1);
         bins[0].clear(grid.bins);
-        for (const KdRun run : runs) bins[0].count(run, grid);
+        run_with(best_instruction_set(), [&] {
+            for (const KdRun run : runs) bins[0].count(run, grid);
+        });
     }
 
     void find_events(const KdGrid& grid, const KdBorder& border) {
@@ -64,6 +67,12 @@ struct KdChunk {
     /// chunk's room and those above to its end.
     void deal(const KdWideNode& cut, const ClipTriangle* triangles, KdFragment* results,
               KdScratch& scratch) {
+        run_with(best_instruction_set(), [&] { deal_runs(cut, triangles, results, scratch); });
+    }
+
+ private:
+    void deal_runs(const KdWideNode& cut, const ClipTriangle* triangles, KdFragment* results,
+                   KdScratch& scratch) {
         scratch.arena.replace(count);
         scratch.both.replace(count);
         KdFragment* const below = results + room;
@@ -82,7 +91,6 @@ struct KdChunk {
         content_above.add({above, sides.above});
     }
 
- private:
     void clip(KdRun both, const KdWideNode& cut, const ClipTriangle* triangles) {
         parts_below.resize(both.size());
         parts_above.resize(both.size());

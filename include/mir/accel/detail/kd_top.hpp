@@ -4,7 +4,6 @@
 #include "mir/accel/detail/kd_level.hpp"
 #include "mir/accel/detail/kd_pool.hpp"
 #include "mir/concepts/executor.hpp"
-#include "mir/core/instruction_set.hpp"
 
 namespace mir::detail {
 
@@ -52,11 +51,8 @@ class KdTopGrower {
  private:
     template <class Body>
     void for_each_chunk(std::vector<KdChunk>& chunks, const Body& body) {
-        const InstructionSet set = best_instruction_set();
-        executor_.for_each(chunks.size(), [&](std::size_t i) {
-            KdChunk& chunk = chunks[i];
-            run_with(set, [&] { body(chunk, level_[chunk.node]); });
-        });
+        executor_.for_each(chunks.size(),
+                           [&](std::size_t i) { body(chunks[i], level_[chunks[i].node]); });
     }
 
     void cut_level() {
