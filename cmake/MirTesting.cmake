@@ -13,25 +13,29 @@ function(mir_set_test_options name)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
 endfunction()
 
-add_custom_target(threaded_tests)
+if(NOT TARGET threaded_tests)
+    add_custom_target(threaded_tests)
+    add_custom_target(memory_tests)
 
-# Headers of others that nearly every test reads, parsed once for all test programs. Ours are not
-# among them: a change to one would compile every test anew. The preset `tidy` goes without, and so
-# notices an include that is missing.
-add_library(mir_test_headers OBJECT ${PROJECT_SOURCE_DIR}/tests/support/precompiled.cpp)
-target_include_directories(mir_test_headers PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(mir_test_headers PRIVATE mir::mir Catch2::Catch2)
-target_precompile_headers(mir_test_headers PRIVATE
-    "support/catch.hpp" <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <fstream>
-    <functional> <limits> <map> <numeric> <optional> <set> <span> <sstream> <string> <thread>
-    <vector> <glm/glm.hpp>)
-mir_set_test_options(mir_test_headers)
+    # Headers of others that nearly every test reads, parsed once for all test programs. Ours are not
+    # among them: a change to one would compile every test anew. The preset `tidy` goes without, and
+    # so notices an include that is missing.
+    add_library(mir_test_headers OBJECT ${PROJECT_SOURCE_DIR}/tests/support/precompiled.cpp)
+    target_include_directories(mir_test_headers PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_link_libraries(mir_test_headers PRIVATE mir::mir Catch2::Catch2)
+    target_precompile_headers(mir_test_headers PRIVATE
+        "support/catch.hpp" <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <fstream>
+        <functional> <limits> <map> <numeric> <optional> <set> <span> <sstream> <string> <thread>
+        <vector> <glm/glm.hpp>)
+    mir_set_test_options(mir_test_headers)
+endif()
 
 # mir_add_test(NAME source... [LIBRARIES target...] [LABELS label...])
 #
 # One test program. Each TEST_CASE becomes a test "NAME: <its sentence>"; those tagged [statistical]
-# get that label besides LABELS. Programs with the label `threads` are what the thread sanitizer is
-# for; the target threaded_tests builds them alone.
+# get that label besides LABELS. Two labels say which sanitizers are not worth their time: all
+# programs but those labelled `slow` are built by the target memory_tests, those labelled `threads`
+# by threaded_tests.
 function(mir_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;LABELS")
     add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
@@ -41,6 +45,9 @@ function(mir_add_test name)
     mir_set_test_options(${name})
     if("threads" IN_LIST arg_LABELS)
         add_dependencies(threaded_tests ${name})
+    endif()
+    if(NOT "slow" IN_LIST arg_LABELS)
+        add_dependencies(memory_tests ${name})
     endif()
 
     set(has_statistical)

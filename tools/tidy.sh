@@ -20,21 +20,19 @@ cmake --preset tidy >"$log" 2>&1 || {
     exit 1
 }
 
-# Of what the build compiles, only files of the repository: generated sources are not ours, and
-# compile-fail tests are wrong on purpose.
-files() {
-    if [ $# -gt 0 ]; then
-        printf '%s\n' "$@"
-    else
-        sed -n 's/^ *"file": "\(.*\)",*$/\1/p' build/tidy/compile_commands.json |
-            grep '\.cpp$' | grep -v -e "^$PWD/build/" -e /compile_fail/ | sort -u
-    fi
-}
+# All: in units that are quicker to read, see lint_units.py.
+if [ $# -gt 0 ]; then
+    commands=build/tidy
+    list=$(printf '%s\n' "$@")
+else
+    commands=build/tidy/units
+    list=$(python3 tools/lint_units.py build/tidy/compile_commands.json "$commands")
+fi
 
-count=$(files "$@" | wc -l)
+count=$(printf '%s\n' "$list" | wc -l)
 report=build/tidy.txt
-if files "$@" | xargs -P "$(mir_jobs)" -n 1 \
-    "$tidy" -p build/tidy --quiet --extra-arg=-Wno-unknown-warning-option >"$report" 2>"$log"; then
+if printf '%s\n' "$list" | xargs -P "$(mir_jobs)" -n 1 \
+    "$tidy" -p "$commands" --quiet --extra-arg=-Wno-unknown-warning-option >"$report" 2>"$log"; then
     echo "clang-tidy: $count files, no findings"
 else
     # A header's finding is repeated by every file that includes it.
