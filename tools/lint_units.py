@@ -2,65 +2,87 @@
 # SPDX-License-Identifier: MIT
 """lint_units.py COMPILE_COMMANDS OUT
 
-Prepares linting in few large units: what a linter reads of one test is nearly all headers, the same
-for its neighbours. Writes OUT/compile_commands.json with the sources of the repository, where the
-tests of a folder are replaced by one unit OUT/FOLDER.cpp that includes their headers first and then
-each of them inside a namespace of its own, so that their names do not meet.
+Prepares linting in few large units: nearly all that a linter reads of a source is headers, the same
+for its neighbours. Writes one unit per folder that includes its sources, the compile commands of
+the units and of what stays alone, and prints the names of both. Sources that nothing else links to
+(tests, benchmarks, snippets) come into a namespace of their own, so that their names do not meet;
+the headers stand before them.
 """
 
 import json
 import pathlib
 import re
+import shutil
 import sys
 
+root = pathlib.Path(__file__).resolve().parent.parent
 
-def is_linted(path: pathlib.Path, root: pathlib.Path) -> bool:
+
+def is_linted(path: pathlib.Path) -> bool:
     """Only C++ of the repository; compile-fail tests are wrong on purpose."""
     inside = path.is_relative_to(root) and not path.is_relative_to(root / "build")
     return inside and path.suffix == ".cpp" and "compile_fail" not in path.parts
 
 
-def unit_body(i: int, member: pathlib.Path) -> str:
-    allowed = "// NOLINT(bugprone-suspicious-include)"
-    return f'namespace unit_{i} {{\n#include "{member}"  {allowed}\n}}'
+def is_independent(path: pathlib.Path) -> bool:
+    return path.name.endswith("_test.cpp") or path.parent in (root / "bench", root / "docs/snippets")
 
 
-def unit_of(members: list[pathlib.Path]) -> str:
+def stays_alone(path: pathlib.Path) -> bool:
+    """Programs of one file, and variants of which a build takes one."""
+    return path.name == "main.cpp" or path.is_relative_to(root / "examples") or "with" in path.name
+
+
+def includes_of(source: pathlib.Path) -> list[str]:
     includes = []
-    for member in members:
-        for line in member.read_text().splitlines():
-            # A header beside the test is found from the unit by its full name.
-            beside = re.match(r'#include "([^"/]+)"', line)
-            if beside and (member.parent / beside[1]).exists():
-                line = f'#include "{member.parent / beside[1]}"'
-            if line.startswith("#include") and line not in includes:
-                includes.append(line)
-    bodies = [unit_body(i, m) for i, m in enumerate(members)]
-    return "\n".join(includes + bodies) + "\n"
+    for line in source.read_text().splitlines():
+        # What lies beside the source is found from the unit by its full name.
+        beside = re.match(r'#include "([^"/]+)"', line)
+        if beside and (source.parent / beside[1]).exists():
+            line = f'#include "{source.parent / beside[1]}"'
+        if line.startswith("#include"):
+            includes.append(line)
+    return includes
+
+
+def unit_of(sources: list[pathlib.Path]) -> str:
+    lines = []
+    for source in filter(is_independent, sources):
+        lines += includes_of(source)
+    for i, source in enumerate(sources):
+        body = f'#include "{source}"  // NOLINT(bugprone-suspicious-include)'
+        lines.append(f"namespace unit_{i} {{\n{body}\n}}" if is_independent(source) else body)
+    return "\n".join(lines) + "\n"
+
+
+def copy_rules(folder: pathlib.Path, out: pathlib.Path) -> None:
+    """The rules of a folder hold for its unit."""
+    while folder != root:
+        rules = folder / ".clang-tidy"
+        if rules.exists():
+            to = out / folder.relative_to(root)
+            to.mkdir(parents=True, exist_ok=True)
+            shutil.copy(rules, to)
+        folder = folder.parent
 
 
 def main() -> None:
     commands, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-    root = pathlib.Path(__file__).resolve().parent.parent
-    out.mkdir(parents=True, exist_ok=True)
-    kept, groups = [], {}
-    for entry in json.loads(commands.read_text()):
-        source = pathlib.Path(entry["file"])
-        if not is_linted(source, root):
-            continue
-        if source.name.endswith("_test.cpp"):
-            groups.setdefault(source.parent, []).append(entry)
-        else:
-            kept.append(entry)
-    for folder, entries in sorted(groups.items()):
-        unit = out / ("_".join(folder.relative_to(root).parts) + ".cpp")
-        members = sorted({pathlib.Path(e["file"]) for e in entries})
-        unit.write_text(unit_of(members))
-        command = entries[0]["command"].replace(entries[0]["file"], str(unit))
-        kept.append({**entries[0], "file": str(unit), "command": command})
-    unique = {e["file"]: e for e in kept}
-    (out / "compile_commands.json").write_text(json.dumps(list(unique.values()), indent=1))
-    print("\n".join(unique))
+    entries = {pathlib.Path(e["file"]): e for e in json.loads(commands.read_text())}
+    entries = {path: e for path, e in entries.items() if is_linted(path)}
+    listed = [e for path, e in entries.items() if stays_alone(path)]
+    folders = sorted({path.parent for path in entries if not stays_alone(path)})
+    for folder in folders:
+        sources = sorted(p for p in entries if p.parent == folder and not stays_alone(p))
+        unit = out / folder.relative_to(root) / "unit.cpp"
+        unit.parent.mkdir(parents=True, exist_ok=True)
+        unit.write_text(unit_of(sources))
+        copy_rules(folder, out)
+        first = entries[sources[0]]
+        command = first["command"].replace(first["file"], str(unit))
+        listed.append({**first, "file": str(unit), "command": command})
+    (out / "compile_commands.json").write_text(json.dumps(listed, indent=1))
+    print("\n".join(e["file"] for e in listed))
 
 
 if __name__ == "__main__":

@@ -188,7 +188,7 @@ std::vector<KernelChoice> kernel_choices(std::uint32_t vpls) {
     return choices;
 }
 
-std::string text_of(const KernelChoice& c) {
+std::string name_of(const KernelChoice& c) {
     const auto index = [](auto e) { return static_cast<std::size_t>(e); };
     return std::string("luxels in ") + luxel_order_names[index(c.luxels)] + ", VPLs " +
            vpl_order_names[index(c.vpl_order)] + ", rays from the " +
@@ -201,7 +201,7 @@ void kernel_figure(Lab& lab, PaperScene& scene, const Figure& figure) {
             for (const KernelChoice& choice : kernel_choices(vpls)) {
                 Row row = kernels_alone(lab, *machine, scene, figure, choice);
                 row.algorithm = form_names[static_cast<std::size_t>(choice.form)];
-                row.variant = text_of(choice);
+                row.variant = name_of(choice);
                 lab.add(row);
             }
 }

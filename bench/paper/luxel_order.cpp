@@ -8,7 +8,7 @@ namespace mirpaper {
 namespace {
 
 using Places = std::vector<mir::LuxelIndex>;  ///< blocked index of the luxel at each place
-constexpr std::uint32_t warp = 32;
+constexpr std::uint32_t run = 32;
 /// What a right angle between normals is worth against metres: turned luxels see other VPLs.
 constexpr float normal_weight = 0.35f;
 constexpr int axes = 6;
@@ -21,16 +21,16 @@ Places by_rows(const GBuffer& whole) {
     return places;
 }
 
-/// Cuts runs of places in halves along the longest of six axes, until a warp is left.
+/// Cuts runs of places in halves along the longest of six axes, until a run of 32 is left.
 class Clusters {
  public:
     explicit Clusters(mir::SoaView<const mir::Hit> hits) : hits_(hits) {}
 
     void cut(mir::LuxelIndex* first, mir::LuxelIndex* last) const {
         const auto count = static_cast<std::uint32_t>(last - first);
-        if (count <= warp) return;
+        if (count <= run) return;
         const int axis = longest_axis(first, last);
-        mir::LuxelIndex* const middle = first + std::size_t{(count / 2 + warp - 1) / warp} * warp;
+        mir::LuxelIndex* const middle = first + std::size_t{(count / 2 + run - 1) / run} * run;
         if (middle == last) return;
         std::nth_element(first, middle, last, [&](mir::LuxelIndex a, mir::LuxelIndex b) {
             const float at_a = coordinate(a, axis);

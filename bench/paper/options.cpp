@@ -13,7 +13,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names all_figures{"8", "9", "10", "11", "rates", "stages", "luxels", "kernels", "counters"};
+const Names figure_names{"8", "9", "10", "11", "rates", "stages", "luxels", "kernels", "counters"};
 const Names quick_figures{"8", "stages", "luxels", "kernels", "counters"};
 constexpr std::uint32_t most_vpls = 65536;
 
@@ -66,11 +66,11 @@ mir::Extent size(const std::string& option, const std::string& text) {
 }
 
 Names figures(const std::string& option, const std::string& text) {
-    Names known = all_figures;
+    Names known = figure_names;
     known.insert(known.end(), {"all", "quick"});
     Names wanted;
     for (const std::string& name : choose(option, text, known)) {
-        const Names more = name == "all"     ? all_figures
+        const Names more = name == "all"     ? figure_names
                            : name == "quick" ? quick_figures
                                              : Names{name};
         wanted.insert(wanted.end(), more.begin(), more.end());
@@ -123,7 +123,7 @@ bool Options::wants(const std::string& figure) const {
 
 ParsedOptions parse(int argc, const char* const* argv) {
     ParsedOptions parsed;
-    parsed.options.figures = all_figures;
+    parsed.options.figures = figure_names;
     try {
         for (int i = 1; i < argc; i += 2) {
             const std::string option = argv[i];
@@ -144,7 +144,7 @@ ParsedOptions parse(int argc, const char* const* argv) {
 std::string usage() {
     return "bench_paper: the measurements of the 2009 paper, section 6, on this machine\n\n"
            "  --figure LIST       of " +
-           joined(all_figures) +
+           joined(figure_names) +
            "; all (default),\n"
            "                      or quick: one scene, few things\n"
            "  --backend LIST      cpu, cuda (default: all that exist)\n"

@@ -11,7 +11,7 @@
 namespace mirpaper {
 namespace {
 
-std::string text_of(double x) {
+std::string digits_of(double x) {
     char digits[32];
     std::snprintf(digits, sizeof digits, "%.9g", x);
     return digits;
@@ -22,7 +22,7 @@ class Fields {
  public:
     void add(const char* name, const std::string& text) { fields_.push_back({name, text, true}); }
     void add(const char* name, double x, bool known = true) {
-        fields_.push_back({name, known ? text_of(x) : "", false});
+        fields_.push_back({name, known ? digits_of(x) : "", false});
     }
 
     [[nodiscard]] std::string json() const {

@@ -261,8 +261,8 @@ TEST_CASE("lamps behind a door ajar send 1 to 3 % of their power into the camera
             const auto material = stage.geometry.material_of(r.origin.triangle);
             const mir::Rgb rho = stage.scene.materials[material].base_color;
             const mir::Rgb j = r.vpl.intensity;
-            power += mirtest::pi *
-                     static_cast<double>(mir::luminance({j.r / rho.r, j.g / rho.g, j.b / rho.b}));
+            power += mirtest::pi * static_cast<double>(
+                                       luminance(mir::Rgb{j.r / rho.r, j.g / rho.g, j.b / rho.b}));
         }
         share.add(power / static_cast<double>(records.emitted_power));
     }
