@@ -50,6 +50,7 @@
 #include "mir/core/rgb.hpp"
 #include "mir/core/space.hpp"
 #include "mir/core/strict_float.hpp"
+#include "mir/core/unit_circle.hpp"
 #include "mir/core/warp.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/gbuffer.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/math.hpp"
+#include "mir/core/unit_circle.hpp"
 
 namespace mir {
 
@@ -15,8 +15,8 @@ MIR_HD inline Vec2 square_to_disc(Vec2 u) {
     if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
     const bool wide = fabsf(a) > fabsf(b);
     const float r = wide ? a : b;
-    const float phi = wide ? (pi / 4.0f) * (b / a) : (pi / 2.0f) - (pi / 4.0f) * (a / b);
-    return {r * cosf(phi), r * sinf(phi)};
+    const float turns = wide ? 0.125f * (b / a) : 0.25f - 0.125f * (a / b);
+    return r * unit_circle(turns);
 }
 
 /// Upper hemisphere with density cos(theta)/pi (Malley's method).
@@ -32,8 +32,7 @@ MIR_HD inline float cosine_hemisphere_pdf(float cos_theta) {
 MIR_HD inline Vec3 square_to_sphere(Vec2 u) {
     const float z = 1.0f - 2.0f * u.x;
     const float r = sqrtf(larger(0.0f, 1.0f - z * z));
-    const float phi = 2.0f * pi * u.y;
-    return {r * cosf(phi), r * sinf(phi), z};
+    return {r * unit_circle(u.y), z};
 }
 MIR_HD inline float sphere_pdf() { return 0.25f * inv_pi; }
 
@@ -41,8 +40,7 @@ MIR_HD inline float sphere_pdf() { return 0.25f * inv_pi; }
 MIR_HD inline Vec3 square_to_cone(Vec2 u, float cos_max) {
     const float z = 1.0f - u.x * (1.0f - cos_max);
     const float r = sqrtf(larger(0.0f, 1.0f - z * z));
-    const float phi = 2.0f * pi * u.y;
-    return {r * cosf(phi), r * sinf(phi), z};
+    return {r * unit_circle(u.y), z};
 }
 MIR_HD inline float cone_pdf(float cos_max) { return 1.0f / (2.0f * pi * (1.0f - cos_max)); }
 

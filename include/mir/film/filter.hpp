@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/core/error.hpp"
-#include "mir/core/math.hpp"
+#include "mir/core/unit_circle.hpp"
 
 #include <array>
 #include <cmath>
@@ -20,21 +20,9 @@ enum class FilterKind {
     lanczos    ///< sinc windowed by a wider sinc: the kernel of the paper, made finite
 };
 
-/// sin(pi x), absolute error below 2e-7 for |x| < 2^20, exactly zero at every integer. libm's sine
-/// of a rounded pi is not, and its last bit depends on the machine.
-constexpr float sin_pi(float x) {
-    const int nearest = static_cast<int>(x + (x < 0.0f ? -0.5f : 0.5f));
-    const float r = x - static_cast<float>(nearest);
-    const float r2 = r * r;
-    float s = 4.6630281e-4f;  // Taylor series of sin(pi r); the next term is below 4e-10
-    s = s * r2 - 7.3704309e-3f;
-    s = s * r2 + 8.2145887e-2f;
-    s = s * r2 - 5.9926453e-1f;
-    s = s * r2 + 2.5501640f;
-    s = s * r2 - 5.1677128f;
-    s = s * r2 + 3.1415927f;
-    return nearest % 2 == 0 ? s * r : -s * r;
-}
+/// sin(pi x), absolute error below 2e-7 for |x| < 2^20, exactly zero at every integer: libm's sine
+/// of a rounded pi is not.
+constexpr float sin_pi(float x) { return unit_circle(0.5f * x).y; }
 
 /// sin(pi x) / (pi x), 1 at 0.
 constexpr float sinc(float x) {

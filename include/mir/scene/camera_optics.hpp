@@ -6,9 +6,9 @@
 
 namespace mir {
 
-/// What kernels need of a Camera to make its rays; Camera::optics() makes it. A pinhole's rays have
-/// the same bits on host and device, since the one transcendental number in them was computed
-/// before. Those of a lens may differ in their last bits: sines and cosines of the two do.
+/// What kernels need of a Camera to make its rays; Camera::optics() makes it. Rays have the same
+/// bits on host and device: the tangent in them was computed before, and the lens is sampled by
+/// unit_circle().
 struct CameraOptics {
     Vec3 position{0};
     Vec3 right{1, 0, 0};          ///< unit

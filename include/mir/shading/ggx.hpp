@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/math.hpp"
+#include "mir/core/unit_circle.hpp"
 
 namespace mir {
 
@@ -43,10 +43,9 @@ MIR_HD inline float ggx_reflection_pdf(float cos_o, float cos_h, float alpha) {
 /// Source: Dupuy and Benyoub, "Sampling visible GGX normals with spherical caps", HPG 2023.
 MIR_HD inline Vec3 ggx_sample_reflection(Vec3 wo, float alpha, Vec2 u) {
     const Vec3 stretched = glm::normalize(Vec3(alpha * wo.x, alpha * wo.y, wo.z));
-    const float phi = 2.0f * pi * u.x;
     const float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
     const float s = sqrtf(smaller(larger(1.0f - z * z, 0.0f), 1.0f));
-    const Vec3 half = Vec3(s * cosf(phi), s * sinf(phi), z) + stretched;
+    const Vec3 half = Vec3(s * unit_circle(u.x), z) + stretched;
     const Vec3 h = glm::normalize(Vec3(alpha * half.x, alpha * half.y, larger(half.z, 0.0f)));
     return 2.0f * glm::dot(wo, h) * h - wo;
 }
