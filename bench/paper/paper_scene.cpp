@@ -63,7 +63,8 @@ void PaperScene::fill_luxels(Executor& executor) {
 }
 
 mir::VplList PaperScene::sample(std::uint32_t states) const {
-    using World = mir::PathWorld<Bsdf, mir::KdRayCaster, mir::KdTreeVisibility<mir::Space::host>>;
+    using World = mir::PathWorld<Bsdf, mir::KdRayCaster<mir::Space::host>,
+                                 mir::KdTreeVisibility<mir::Space::host>>;
     const World world{geometry_,    lights_,
                       surfaces_,    caster(),
                       visibility(), scene_.cameras.front(),

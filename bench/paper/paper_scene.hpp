@@ -57,7 +57,9 @@ class PaperScene {
     [[nodiscard]] Shading shading(std::uint32_t vpls) const;
 
  private:
-    [[nodiscard]] mir::KdRayCaster caster() const { return {geometry_, tree_.view()}; }
+    [[nodiscard]] mir::KdRayCaster<mir::Space::host> caster() const {
+        return {geometry_, tree_.view()};
+    }
     [[nodiscard]] float aspect() const;
     void fill_luxels(Executor& executor);
     [[nodiscard]] mir::VplList sample(std::uint32_t states) const;

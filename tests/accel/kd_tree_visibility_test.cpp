@@ -18,7 +18,9 @@ class Engine {
     [[nodiscard]] mir::KdTreeVisibility<mir::Space::host> visibility() const {
         return {tree_.view()};
     }
-    [[nodiscard]] mir::KdRayCaster ray_caster() const { return {*geometry_, tree_.view()}; }
+    [[nodiscard]] mir::KdRayCaster<mir::Space::host> ray_caster() const {
+        return {*geometry_, tree_.view()};
+    }
 
  private:
     const mir::WorldGeometry* geometry_;

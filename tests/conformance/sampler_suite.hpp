@@ -3,9 +3,8 @@
 
 #include "mir/concepts/sampler.hpp"
 #include "support/catch.hpp"
+#include "support/same_records.hpp"
 
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -14,21 +13,6 @@
 // mean converges to the light of the scene, needs a scene of known light and stands where one is.
 
 namespace mirtest {
-
-inline auto bits_of(const mir::Vpl& v) { return std::bit_cast<std::array<std::uint32_t, 9>>(v); }
-
-inline bool same_records(const mir::VplRecords& a, const mir::VplRecords& b) {
-    if (a.records.size() != b.records.size() || a.paths != b.paths) return false;
-    for (std::size_t i = 0; i < a.records.size(); ++i) {
-        const mir::VplRecord& x = a.records[i];
-        const mir::VplRecord& y = b.records[i];
-        if (bits_of(x.vpl) != bits_of(y.vpl)) return false;
-        if (!same_place(x.origin, y.origin) || x.lambertian != y.lambertian) return false;
-        if (x.bounce != y.bounce || x.light_group != y.light_group || x.weight != y.weight)
-            return false;
-    }
-    return true;
-}
 
 /// Records are places on surfaces that send out finite light.
 inline void records_are_sound(const mir::VplRecords& from) {

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 // Chains are correlated with themselves, so every test looks at the last state of each of many
 // short chains: those are independent draws.
@@ -53,12 +54,22 @@ struct Furnace {
         const auto b = mir::bootstrap(generator, {0.01, paths, paths}, seed, executor);
         starts = mir::systematic_resampling(b.weights, chains, 0.5);
     }
+    /// Valid until the next one is asked for.
     template <class Rules = ChainRules>
     [[nodiscard]] PathChain<World, Rules> chain(std::uint32_t c, Mutation mutation) const {
-        // Large steps would hide what the others do wrong.
-        const ChainOptions options{mutation, 0.1, 4};
-        return {generator, options, seed, c, {Stream::bootstrap, std::uint64_t{starts[c]}}};
+        const LargeStep start{Stream::bootstrap, std::uint64_t{starts[c]}};
+        return {generator, options_for(mutation), seed, c, start, *state};
     }
+
+ private:
+    /// Large steps would hide what the others do wrong.
+    static const ChainOptions& options_for(Mutation mutation) {
+        static const ChainOptions primary{Mutation::primary, 0.1, 4};
+        static const ChainOptions bidirectional{Mutation::bidirectional, 0.1, 4};
+        return mutation == Mutation::primary ? primary : bidirectional;
+    }
+
+    std::unique_ptr<mir::ChainState> state = std::make_unique<mir::ChainState>();
 };
 
 /// Chi-square of the lengths against P(k) ~ rho^k on the chain's range.

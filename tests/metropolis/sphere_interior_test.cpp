@@ -47,8 +47,9 @@ struct Sphere {
         s.point_lights.push_back({"bulb", {0, 0, 0}, {3, 3, 3}});
         return s;
     }
+    mir::Camera camera = mir::Camera::look_at({0.3f, 0.2f, 0.1f}, {0, 0, -1}, {0, 1, 0}, 1.2f);
+
     [[nodiscard]] World world() const {
-        const auto camera = mir::Camera::look_at({0.3f, 0.2f, 0.1f}, {0, 0, -1}, {0, 1, 0}, 1.2f);
         return {geometry, lights, surfaces, {radius, 0, 0}, {}, camera};
     }
     /// P_c of paths of k edges: rho^(k - 1) I / (pi R^2), on the sphere of the lifted points.
@@ -60,20 +61,21 @@ struct Sphere {
 
 using GBuffer = mir::BlockedGBuffer<Lambert::Params>;
 
-GBuffer luxels_of(const World& world) {
+GBuffer luxels_of(const Sphere& sphere) {
     GBuffer gbuffer({24, 20}, {16, 16});
     mir::InlineExecutor one;
-    const mir::CameraRays rays{world.camera, {{24, 20}}};
-    mir::fill_gbuffer<Lambert>(gbuffer, 0, rays, world.caster, world.surfaces,
-                               world.geometry.ray_offset(), one);
+    const mir::CameraRays rays{sphere.camera, {{24, 20}}};
+    mir::fill_gbuffer<Lambert>(gbuffer, 0, rays, sphere.world().caster, sphere.surfaces,
+                               sphere.geometry.ray_offset(), one);
     return gbuffer;
 }
 
 /// Least and largest radiance of the light of VPLs that chains placed, after normalisation.
 template <mir::Shading F>
-std::pair<double, double> range_of_image(const World& world, std::uint8_t max_bounce,
+std::pair<double, double> range_of_image(const Sphere& sphere, std::uint8_t max_bounce,
                                          const F& shading) {
-    const GBuffer gbuffer = luxels_of(world);
+    const GBuffer gbuffer = luxels_of(sphere);
+    const World world = sphere.world();
     mir::MetropolisOptions options;
     options.states = 64;
     // Between points as close as 2 cm the rounding of positions shows at this tolerance; of this
@@ -145,15 +147,15 @@ TEST_CASE("inside a sphere the density of light that forgets a cosine is noticed
 
 TEST_CASE("inside a sphere chains and normalisation give D_2 to every luxel, to rounding") {
     const Sphere sphere;
-    const auto [low, high] = range_of_image(sphere.world(), 2, mir::VplShading<Lambert>{});
+    const auto [low, high] = range_of_image(sphere, 2, mir::VplShading<Lambert>{});
     CHECK(low == Approx(sphere.luminance_of(3)).epsilon(1e-5));
     CHECK(high == Approx(sphere.luminance_of(3)).epsilon(1e-5));
 }
 
 TEST_CASE("inside a sphere all luxels get the same light of any bounces, but for a wrong kernel") {
     const Sphere sphere;
-    const auto right = range_of_image(sphere.world(), 6, mir::VplShading<Lambert>{});
+    const auto right = range_of_image(sphere, 6, mir::VplShading<Lambert>{});
     CHECK(right.second == Approx(right.first).epsilon(1e-5));
-    const auto wrong = range_of_image(sphere.world(), 6, SecondCosine{});
+    const auto wrong = range_of_image(sphere, 6, SecondCosine{});
     CHECK(wrong.second > 1.05 * wrong.first);
 }

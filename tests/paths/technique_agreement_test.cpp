@@ -44,7 +44,7 @@ template <class World, class Density = RightDensity>
 double agreement(const World& world, std::uint32_t shortest, std::uint64_t seed,
                  const Density& density = {}) {
     std::vector<double> p;
-    const bool delta_lights = !world.lights.has_emitters();
+    const bool delta_lights = world.lights.triangle_count == 0;
     for (std::uint32_t k = shortest; k <= longest; ++k) {
         const TechniqueTable all(k, k, PathTechniques::bidirectional);
         const TechniqueTable camera(k, k, PathTechniques::camera);

@@ -6,6 +6,8 @@
 #include "mir/metropolis/systematic_resampling.hpp"
 #include "support/statistics.hpp"
 
+#include <memory>
+
 namespace mirtest {
 
 /// Where P_c comes from when a chain is judged.
@@ -22,6 +24,7 @@ void each_chain(const mir::PathGenerator<World>& generator, const mir::ChainOpti
                 std::uint64_t first_seed, const F& f) {
     mir::InlineExecutor executor;
     const mir::BootstrapOptions fixed{1.0, paths, paths};
+    const auto memory = std::make_unique<mir::ChainState>();
     for (std::uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
         const auto b = mir::bootstrap(generator, fixed, seed, executor);
         double p_c = b.luminance.mean;
@@ -35,7 +38,7 @@ void each_chain(const mir::PathGenerator<World>& generator, const mir::ChainOpti
         const double turn = mir::fine_uniform(choice.at(0), choice.at(1));
         const std::uint32_t start = mir::systematic_resampling(b.weights, 1, turn).front();
         mir::PathChain<World, Rules> chain(generator, options, seed, 0,
-                                           {mir::Stream::bootstrap, std::uint64_t{start}});
+                                           {mir::Stream::bootstrap, std::uint64_t{start}}, *memory);
         for (std::uint32_t i = 0; i < steps; ++i) chain.step();
         f(p_c, &chain.current());
     }

@@ -33,10 +33,11 @@ class SamplerLight {
     void add(const PathLab<B>& lab, const mir::VplRecords& records) {
         const auto world = lab.world();
         mir::BlockedGBuffer<typename B::Params> gbuffer({luxels, luxels}, {luxels, luxels});
-        const mir::CameraRays rays{world.camera, mir::luxel_grid({luxels, luxels}, 1), 77};
+        const mir::CameraRays rays{lab.scene.cameras.front(), mir::luxel_grid({luxels, luxels}, 1),
+                                   77};
         mir::InlineExecutor one;
-        mir::fill_gbuffer<B>(gbuffer, 0, rays, world.caster, world.surfaces,
-                             world.geometry.ray_offset(), one);
+        mir::fill_gbuffer<B>(gbuffer, 0, rays, world.caster, lab.surfaces,
+                             lab.geometry.ray_offset(), one);
         std::vector<double> values(moments.size());
         for (std::uint32_t b = 1; b <= bounces; ++b)
             add_picture(picture<B>(gbuffer, world.visibility, records, b), b, values);
@@ -78,15 +79,15 @@ SamplerLight light_of_seeds(const PathLab<B>& lab, std::uint64_t first, const Sa
 /// Light that instant radiosity brings, which knows neither probe nor target. Seeds from 40000 on.
 template <mir::Bsdf B>
 SamplerLight instant_radiosity(const PathLab<B>& lab, std::uint32_t vpls = 512) {
-    const auto w = lab.world();
+    const auto caster = lab.engine.ray_caster();
     mir::InlineExecutor one;
     return light_of_seeds(lab, 40'000, [&](std::uint64_t seed) {
         mir::InstantRadiosityOptions o;
         o.vpls = vpls;
         o.emitter_vpls = true;
         o.seed = seed;
-        return mir::InstantRadiositySampler<B, decltype(w.caster)>(
-                   {w.geometry, w.lights, w.surfaces, w.caster}, o)
+        return mir::InstantRadiositySampler<B, std::remove_const_t<decltype(caster)>>(
+                   {lab.geometry, lab.lights, lab.surfaces, caster}, o)
             .sample(one);
     });
 }
@@ -97,9 +98,12 @@ using ProbeOf = mir::ImageProbe<B, decltype(PathLab<B>::World::visibility)>;
 /// Probe without a bound.
 template <mir::Bsdf B>
 ProbeOf<B> probe_of(const PathLab<B>& lab, std::uint32_t luxels = 64) {
-    const auto w = lab.world();
-    return {{w.camera, 1.0f, luxels, 5}, w.caster,     w.surfaces,
-            w.geometry.ray_offset(),     w.visibility, {}};
+    return {{lab.scene.cameras.front(), 1.0f, luxels, 5},
+            lab.engine.ray_caster(),
+            lab.surfaces,
+            lab.geometry.ray_offset(),
+            lab.engine.visibility(),
+            {}};
 }
 
 /// p-value, after Sidak, of "both samplers bring the same light to every bounce from `first` on and

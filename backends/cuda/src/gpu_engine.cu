@@ -3,7 +3,9 @@
 #include "mir/accel/kd_ray_finder.hpp"
 #include "mir/cuda/backend.cuh"
 #include "mir/kernels/shading_pass.hpp"
+#include "mir/resident/backend_metropolis.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
+#include "mir/resident/uploaded_lights.hpp"
 #include "mir/sched/reconstruct.hpp"
 #include "mir/sched/reconstruct_visibility_parallel.hpp"
 #include "mir/sched/shading_only.hpp"
@@ -110,6 +112,21 @@ Image<Rgb> GpuEngine<F>::light_known(const Luxels& luxels, VplSpan<Space::host> 
             monitor->contributions += std::uint64_t{tile.width} * tile.height * vpls.size();
     }
     return image;
+}
+
+template <Bsdf F>
+VplRecords GpuEngine<F>::sample_metropolis(const LightTable& lights, const PathView& view,
+                                           const MetropolisOptions& options, const Limits& limits,
+                                           Monitor* monitor) const {
+    using Caster = KdRayCaster<Space::device>;
+    using Sight = KdTreeVisibility<Space::device>;
+    const UploadedLights<Backend> there(backend_, queue_, lights);
+    const PathWorld<F, Caster, Sight, Space::device> world(
+        geometry_.view(), there.view(), surfaces_.view(), Caster(geometry_.view(), tree_.view()),
+        device_visibility(), view.camera, view.aspect, view.bound);
+    const std::uint64_t bytes =
+        std::min<std::uint64_t>(free_memory(queue_.device()) / 4, std::uint64_t{1} << 29);
+    return BackendMetropolis(backend_, world, options, limits, bytes).sample(queue_, monitor);
 }
 
 template class GpuEngine<Lambert>;

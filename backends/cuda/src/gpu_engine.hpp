@@ -14,6 +14,7 @@
 #include "mir/resident/uploaded_kd_tree.hpp"
 #include "mir/resident/uploaded_surfaces.hpp"
 #include "mir/runtime/band_engine.hpp"
+#include "mir/runtime/sampling_engine.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/vpl_shading.hpp"
@@ -33,8 +34,8 @@ struct GpuLuxels {
 };
 
 /// A scene on a GPU and on the host: its kd-tree in both memories, with the same answers in every
-/// bit. Model of BandEngine. Members that start kernels are defined in gpu_engine.cu for the models
-/// of Bsdf and Shading that renderers use. One thread at a time.
+/// bit. Model of BandEngine and SamplingEngine. Members that start kernels are defined in
+/// gpu_engine.cu for the models of Bsdf and Shading that renderers use. One thread at a time.
 template <Bsdf F>
 class GpuEngine {
  public:
@@ -73,7 +74,9 @@ class GpuEngine {
     }
 
     [[nodiscard]] KdTreeVisibility<Space::host> visibility() const { return {host_tree_.view()}; }
-    [[nodiscard]] KdRayCaster ray_caster() const { return {host_geometry_, host_tree_.view()}; }
+    [[nodiscard]] KdRayCaster<Space::host> ray_caster() const {
+        return {host_geometry_, host_tree_.view()};
+    }
 
     [[nodiscard]] Luxels trace(BlockedGBuffer<Params>& gbuffer, std::uint32_t first_row,
                                const CameraRays& rays) const;
@@ -86,6 +89,9 @@ class GpuEngine {
     [[nodiscard]] Image<Rgb> light(const Luxels& luxels, const BlockedGBuffer<Params>& gbuffer,
                                    VplSpan<Space::host> vpls, const S& shading,
                                    Monitor* monitor) const;
+    [[nodiscard]] VplRecords sample_metropolis(const LightTable& lights, const PathView& view,
+                                               const MetropolisOptions& options,
+                                               const Limits& limits, Monitor* monitor) const;
 
  private:
     template <Shading S>
@@ -108,6 +114,6 @@ class GpuEngine {
     UploadedSurfaces<Backend, F> surfaces_;
 };
 
-static_assert(BandEngine<GpuEngine<Lambert>>);
+static_assert(BandEngine<GpuEngine<Lambert>> && SamplingEngine<GpuEngine<Lambert>>);
 
 }  // namespace mir::cuda

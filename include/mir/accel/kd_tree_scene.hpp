@@ -24,7 +24,7 @@ class KdTreeScene {
           }()) {}
 
     [[nodiscard]] KdTreeVisibility<Space::host> visibility() const { return {tree_.view()}; }
-    [[nodiscard]] KdRayCaster ray_caster() const { return {*geometry_, tree_.view()}; }
+    [[nodiscard]] KdRayCaster<Space::host> ray_caster() const { return {*geometry_, tree_.view()}; }
     [[nodiscard]] const KdTree& tree() const { return tree_; }
 
  private:

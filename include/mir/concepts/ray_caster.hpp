@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/ray.hpp"
+#include "mir/core/space.hpp"
 
 #include <concepts>
 #include <optional>
@@ -15,6 +16,16 @@ namespace mir {
 template <class R>
 concept RayCaster = std::copy_constructible<R> && requires(const R r, Ray ray) {
     { r.closest_hit(ray) } -> std::same_as<std::optional<SurfacePoint>>;
+};
+
+/// The face of a RayCaster for kernels, which know no std::optional: find_point() writes what the
+/// ray sees first and says whether that is something.
+///
+/// Axioms: those of RayCaster.
+template <class R>
+concept PointFinder = DeviceCopyable<R> && requires(const R r, const Ray& ray, SurfacePoint& p) {
+    { R::space } -> std::convertible_to<Space>;
+    { r.find_point(ray, p) } -> std::same_as<bool>;
 };
 
 }  // namespace mir

@@ -2,14 +2,66 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/core/space.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
 namespace mir {
+
+/// Index of the first of `count` ascending values that is not less than `value`; `count` if all
+/// are.
+template <class T>
+MIR_HD std::uint32_t first_not_below(const T* values, std::uint32_t count, T value) {
+    std::uint32_t first = 0;
+    while (count > 0) {
+        const std::uint32_t half = count / 2;
+        const bool below = values[first + half] < value;
+        first += below ? half + 1 : 0;
+        count = below ? count - half - 1 : half;
+    }
+    return first;
+}
+
+/// The same for the first that is greater than `value`.
+template <class T>
+MIR_HD std::uint32_t first_above(const T* values, std::uint32_t count, T value) {
+    std::uint32_t first = 0;
+    while (count > 0) {
+        const std::uint32_t half = count / 2;
+        const bool above = value < values[first + half];
+        first += above ? 0 : half + 1;
+        count = above ? half : count - half - 1;
+    }
+    return first;
+}
+
+/// What kernels read of a DiscreteDistribution. A view; thread-safe.
+template <Space S>
+struct DiscreteDistributionView {
+    static constexpr Space space = S;
+
+    const double* cumulative = nullptr;  ///< sums of the weights up to each index, it included
+    std::uint32_t size = 0;
+    double total = 0.0;
+
+    [[nodiscard]] MIR_HD bool empty() const { return !(total > 0.0); }
+
+    /// Index for u in [0, 1). Must not be empty.
+    [[nodiscard]] MIR_HD std::uint32_t sample(float u) const {
+        const std::uint32_t found = first_above(cumulative, size, static_cast<double>(u) * total);
+        // u close to 1 may round up to the total: step back to the last index with weight.
+        return found < size ? found : first_not_below(cumulative, size, total);
+    }
+
+    /// Probability with which sample() picks `i`.
+    [[nodiscard]] MIR_HD float probability(std::uint32_t i) const {
+        const double before = i == 0 ? 0.0 : cumulative[i - 1];
+        return static_cast<float>((cumulative[i] - before) / total);
+    }
+};
 
 /// Picks an index with probability proportional to its weight, by binary search in the cumulative
 /// sum. Indices of weight zero are never picked. Immutable; const use from any thread.
@@ -29,25 +81,22 @@ class DiscreteDistribution {
         }
     }
 
-    [[nodiscard]] bool empty() const { return !(total_ > 0.0); }
+    [[nodiscard]] bool empty() const { return view().empty(); }
     [[nodiscard]] double total() const { return total_; }
     [[nodiscard]] std::size_t size() const { return cumulative_.size(); }
 
-    /// Index for u in [0, 1). Must not be empty.
-    [[nodiscard]] std::uint32_t sample(float u) const {
-        const double target = static_cast<double>(u) * total_;
-        auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
-        // u close to 1 may round up to the total: step back to the last index with weight.
-        if (found == cumulative_.end())
-            found = std::lower_bound(cumulative_.begin(), cumulative_.end(), total_);
-        return static_cast<std::uint32_t>(found - cumulative_.begin());
+    /// Sums of the weights up to each index, it included.
+    [[nodiscard]] std::span<const double> cumulative() const { return cumulative_; }
+    /// What kernels on the host read; valid until the distribution is changed or ends.
+    [[nodiscard]] DiscreteDistributionView<Space::host> view() const {
+        return {cumulative_.data(), static_cast<std::uint32_t>(cumulative_.size()), total_};
     }
 
+    /// Index for u in [0, 1). Must not be empty.
+    [[nodiscard]] std::uint32_t sample(float u) const { return view().sample(u); }
+
     /// Probability with which sample() picks `i`.
-    [[nodiscard]] float probability(std::uint32_t i) const {
-        const double before = i == 0 ? 0.0 : cumulative_[i - 1];
-        return static_cast<float>((cumulative_[i] - before) / total_);
-    }
+    [[nodiscard]] float probability(std::uint32_t i) const { return view().probability(i); }
 
  private:
     std::vector<double> cumulative_;

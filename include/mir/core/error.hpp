@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/hd.hpp"
+
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -13,8 +15,8 @@ struct Where {
     const char* file = "";
     std::uint32_t line = 0;
 
-    static constexpr Where here(const char* file = __builtin_FILE(),
-                                std::uint32_t line = __builtin_LINE()) {
+    MIR_HD static constexpr Where here(const char* file = __builtin_FILE(),
+                                       std::uint32_t line = __builtin_LINE()) {
         return {file, line};
     }
 };
@@ -51,6 +53,16 @@ class Error : public std::runtime_error {
 /// @throws Error(invalid_argument) with `sentence` when `ok` is false.
 inline void expects(bool ok, const char* sentence, Where at = Where::here()) {
     if (!ok) throw Error(ErrorCode::invalid_argument, sentence, at);
+}
+
+/// The same for functions that kernels share: checks on the host alone. Whoever starts a kernel has
+/// checked what it is given.
+/// @throws Error(invalid_argument) with `sentence` on the host when `ok` is false.
+MIR_HD inline void expects_on_host([[maybe_unused]] bool ok, [[maybe_unused]] const char* sentence,
+                                   [[maybe_unused]] Where at = Where::here()) {
+#if !defined(__CUDA_ARCH__)
+    expects(ok, sentence, at);
+#endif
 }
 
 }  // namespace mir

@@ -45,6 +45,9 @@ inline constexpr float inv_pi = 0.31830988618379067154f;
 MIR_HD constexpr float larger(float a, float b) { return a > b ? a : b; }
 MIR_HD constexpr float smaller(float a, float b) { return a < b ? a : b; }
 
+/// True when `x` is neither NaN nor infinite.
+MIR_HD constexpr bool is_finite(double x) { return x - x == 0.0; }
+
 /// Largest absolute component. Same unit as `v`.
 MIR_HD inline float max_abs(Vec3 v) { return larger(fabsf(v.x), larger(fabsf(v.y), fabsf(v.z))); }
 

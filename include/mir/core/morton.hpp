@@ -3,7 +3,6 @@
 
 #include "mir/core/math.hpp"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace mir {
@@ -11,13 +10,13 @@ namespace mir {
 /// Place of a point of the unit cube along Morton's curve, below 2^30: points with similar codes
 /// are close to each other, and mostly the other way round. Points outside are clamped.
 /// Source: Morton 1966.
-inline std::uint64_t morton_code(Vec3 p) {
+MIR_HD inline std::uint64_t morton_code(Vec3 p) {
     constexpr int bits = 10;
     constexpr float cells = 1 << bits;
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto cell =
-            static_cast<std::uint64_t>(std::clamp(p[axis] * cells, 0.0f, cells - 1.0f));
+            static_cast<std::uint64_t>(smaller(larger(p[axis] * cells, 0.0f), cells - 1.0f));
         for (int b = 0; b < bits; ++b) code |= (cell >> b & 1u) << (3 * b + axis);
     }
     return code;

@@ -21,7 +21,8 @@ enum class VplKind : std::uint8_t {
     reflective  ///< a point that reflects: indirect light
 };
 
-/// Which point of which surface a geometric VPL is, and how much stands on it. No kernel reads it.
+/// Which point of which surface a geometric VPL is, and how much stands on it.
+/// Kernels that light luxels do not read it.
 struct VplOrigin {
     VplKind kind = VplKind::reflective;
     std::uint32_t triangle = 0;  ///< identity of the point: triangle and barycentrics
@@ -31,7 +32,7 @@ struct VplOrigin {
 
 /// True when two path VPLs may belong to one geometric VPL. Identity is the triangle and the
 /// barycentrics copied from the sampler's state, never a distance.
-inline bool same_place(const VplOrigin& a, const VplOrigin& b) {
+MIR_HD inline bool same_place(const VplOrigin& a, const VplOrigin& b) {
     return a.triangle == b.triangle && a.barycentrics == b.barycentrics && a.kind == b.kind;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/core/math.hpp"
 
 #include <cmath>
 
@@ -9,39 +10,61 @@ namespace mir {
 
 namespace detail {
 
-/// Returns `value`.
-/// @throws Error(internal) with `sentence` unless it is finite and not negative.
-inline double checked_weight(double value, const char* sentence, Where at = Where::here()) {
-    if (!(value >= 0.0 && std::isfinite(value))) throw Error(ErrorCode::internal, sentence, at);
-    return value;
+/// What a number in the acceptance of a mutation was to be.
+enum class ChainNumber { target, current_target, transition };
+
+/// What to tell the user when it is not.
+inline const char* sentence_for(ChainNumber number) {
+    switch (number) {
+        case ChainNumber::target:
+            return "the target function of a Markov chain is negative or not finite (a "
+                   "contribution or its density overflowed); please report the scene";
+        case ChainNumber::current_target:
+            return "a Markov chain stands on a state without contribution (no seed or accepted "
+                   "proposal can be one); please report the scene";
+        default:
+            return "the density of a mutation is not positive and finite one way or negative or "
+                   "not finite the other (a proposal must have been possible); please report the "
+                   "scene";
+    }
 }
 
-/// @throws Error(internal) unless `value` is finite and positive.
-inline double checked_positive(double value, const char* sentence, Where at = Where::here()) {
-    return checked_weight(value > 0.0 ? value : -1.0, sentence, at);
+/// Returns `value`, or NaN on a device unless `ok`: kernels cannot throw, and NaN is no
+/// probability.
+/// @throws Error(internal) on the host unless `ok`.
+MIR_HD inline double checked(bool ok, double value, [[maybe_unused]] ChainNumber number,
+                             [[maybe_unused]] Where at) {
+    if (ok) return value;
+#if defined(__CUDA_ARCH__)
+    return nan("");
+#else
+    throw Error(ErrorCode::internal, sentence_for(number), at);
+#endif
 }
 
-inline constexpr const char* bad_target =
-    "the target function of a Markov chain is negative or not finite (a contribution or its "
-    "density overflowed); please report the scene";
-inline constexpr const char* dark_state =
-    "a Markov chain stands on a state without contribution (no seed or accepted proposal can be "
-    "one); please report the scene";
-inline constexpr const char* bad_transition =
-    "the density of a mutation is not positive and finite one way or negative or not finite the "
-    "other (a proposal must have been possible); please report the scene";
+/// checked() for a number that must be finite and not negative.
+MIR_HD inline double checked_weight(double value, ChainNumber number, Where at = Where::here()) {
+    return checked(value >= 0.0 && is_finite(value), value, number, at);
+}
+
+/// checked() for a number that must be finite and positive.
+MIR_HD inline double checked_positive(double value, ChainNumber number, Where at = Where::here()) {
+    return checked(value > 0.0 && is_finite(value), value, number, at);
+}
 
 }  // namespace detail
+
+// Below, errors are thrown on the host; on a device the result is NaN instead.
 
 /// Probability min(1, f(y) / f(x)) of accepting y as the successor of x when y was proposed with
 /// a density that is symmetric in x and y.
 /// `f_x`, `f_y`: target function, any common scale. 0 when f(y) is 0.
 /// @throws Error(internal) unless f(x) is positive, f(y) not negative, and both finite.
 /// Source: Metropolis et al. 1953.
-inline double acceptance(double f_x, double f_y) {
-    detail::checked_positive(f_x, detail::dark_state);
-    detail::checked_weight(f_y, detail::bad_target);
-    return f_y < f_x ? f_y / f_x : 1.0;
+MIR_HD inline double acceptance(double f_x, double f_y) {
+    const double x = detail::checked_positive(f_x, detail::ChainNumber::current_target);
+    const double y = detail::checked_weight(f_y, detail::ChainNumber::target);
+    return y >= x ? 1.0 : y / x;
 }
 
 /// Probability min(1, [f(y) / K(y|x)] / [f(x) / K(x|y)]) of accepting y as the successor of x.
@@ -51,15 +74,17 @@ inline double acceptance(double f_x, double f_y) {
 /// @throws Error(internal) unless f(x) and K(y|x) are positive, f(y) and K(x|y) not negative, and
 /// all finite.
 /// Source: Hastings 1970; Veach 1997, equation 11.5.
-inline double acceptance(double f_x, double K_xy, double f_y, double K_yx) {
-    detail::checked_positive(f_x, detail::dark_state);
-    detail::checked_weight(f_y, detail::bad_target);
-    detail::checked_positive(K_xy, detail::bad_transition);
-    detail::checked_weight(K_yx, detail::bad_transition);
-    if (f_y == 0.0 || K_yx == 0.0) return 0.0;
-    const double ratio = (f_y / f_x) * (K_yx / K_xy);
-    if (std::isnan(ratio)) throw Error(ErrorCode::internal, detail::bad_transition);
-    return ratio < 1.0 ? ratio : 1.0;
+MIR_HD inline double acceptance(double f_x, double K_xy, double f_y, double K_yx) {
+    using detail::ChainNumber;
+    const double x = detail::checked_positive(f_x, ChainNumber::current_target);
+    const double y = detail::checked_weight(f_y, ChainNumber::target);
+    const double there = detail::checked_positive(K_xy, ChainNumber::transition);
+    const double back = detail::checked_weight(K_yx, ChainNumber::transition);
+    const bool is_impossible = y == 0.0 || back == 0.0;
+    const double ratio = (y / x) * (back / there);
+    if (is_impossible && is_finite(x) && is_finite(there)) return 0.0;
+    if (ratio >= 1.0) return 1.0;
+    return detail::checked(ratio < 1.0, ratio, ChainNumber::transition, Where::here());
 }
 
 }  // namespace mir

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/concepts/executor.hpp"
+#include "mir/kernels/bootstrap_paths.hpp"
 #include "mir/metropolis/bootstrap_options.hpp"
 #include "mir/metropolis/path_luminance.hpp"
 #include "mir/metropolis/systematic_resampling.hpp"
-#include "mir/paths/each_path.hpp"
-#include "mir/paths/path_place.hpp"
-
-#include <numeric>
 
 namespace mir {
 
@@ -35,10 +33,10 @@ inline std::uint64_t next_bootstrap_size(const PathLuminance& p, const Bootstrap
 
 /// Draws paths, more each time, until the relative error asked for is reached and some hundred
 /// paths carry light, or max_paths are drawn. All weights are 0 only when none of a million paths
-/// (or of max_paths) carries any.
-template <class Generator, Executor E>
-Bootstrap bootstrap(const Generator& generator, const BootstrapOptions& options, std::uint64_t seed,
-                    E& executor) {
+/// (or of max_paths) carries any. `draw(first, weights, places)` fills in paths from `first` on, on
+/// whatever machine.
+template <class Draw>
+Bootstrap grow_bootstrap(const BootstrapOptions& options, const Draw& draw) {
     constexpr std::uint64_t enough_contributing = 256;
     constexpr std::uint64_t enough_dark = 1u << 20;
     Bootstrap b;
@@ -47,13 +45,7 @@ Bootstrap bootstrap(const Generator& generator, const BootstrapOptions& options,
         const std::uint64_t first = b.weights.size();
         b.weights.resize(wanted);
         b.places.resize(wanted);
-        each_path(generator, {seed, Stream::bootstrap, first, wanted}, executor,
-                  [&](std::uint64_t i, const WeightedPath& p) {
-                      b.weights[i] = p.weight;
-                      if (p.weight > 0.0)
-                          b.places[i] =
-                              static_cast<std::uint32_t>(place_of_vpl(generator.world(), p.path));
-                  });
+        draw(first, std::span(b.weights).subspan(first), std::span(b.places).subspan(first));
         b.luminance = path_luminance(b.weights);
         if (b.luminance.contributing >= enough_contributing &&
             b.luminance.relative_error() <= options.relative_error)
@@ -62,6 +54,29 @@ Bootstrap bootstrap(const Generator& generator, const BootstrapOptions& options,
         wanted = detail::next_bootstrap_size(b.luminance, options);
     } while (b.weights.size() < wanted);
     return b;
+}
+
+/// The `draw` of grow_bootstrap() on the executor's threads.
+template <class Generator, Executor E>
+void draw_paths(const Generator& generator, std::uint64_t seed, std::uint64_t first,
+                std::span<double> weights, std::span<std::uint32_t> places, E& executor) {
+    constexpr std::size_t batch = 256;
+    const BootstrapPaths<Generator> paths{generator, seed, first, weights.data(), places.data()};
+    executor.for_each((weights.size() + batch - 1) / batch, [&](std::size_t b) {
+        WeightedPath path;
+        for (std::size_t i = b * batch; i < std::min((b + 1) * batch, weights.size()); ++i)
+            paths.draw(static_cast<std::uint32_t>(i), path);
+    });
+}
+
+/// grow_bootstrap() on the executor's threads.
+template <class Generator, Executor E>
+Bootstrap bootstrap(const Generator& generator, const BootstrapOptions& options, std::uint64_t seed,
+                    E& executor) {
+    return grow_bootstrap(options, [&](std::uint64_t first, std::span<double> weights,
+                                       std::span<std::uint32_t> places) {
+        draw_paths(generator, seed, first, weights, places, executor);
+    });
 }
 
 /// Paths of the bootstrap that start `count` chains, each drawn in proportion to its weight. They

@@ -12,60 +12,90 @@ namespace mir {
 /// What the acceptance of a mutation is made of.
 struct ChainRules {
     /// Probability of taking the vertices of a gap out and putting `n` others in.
-    static double choice(const GapChoices& gaps, std::uint32_t k, PathGap out, std::uint32_t n) {
+    MIR_HD static double choice(const GapChoices& gaps, std::uint32_t k, PathGap out,
+                                std::uint32_t n) {
         return gaps.gap_probability(k, out) * gaps.count_probability(k, out, n);
     }
     /// Density of the `n` vertices after x_left of a path of k edges.
-    static double refill(const PathMeasure& m, std::uint32_t k, std::uint32_t left,
-                         std::uint32_t n) {
+    MIR_HD static double refill(const PathMeasure& m, std::uint32_t k, std::uint32_t left,
+                                std::uint32_t n) {
         return refill_density(m, k, left, n);
     }
-    static bool accepts(double number, double probability) { return number < probability; }
+    MIR_HD static bool accepts(double number, double probability) { return number < probability; }
+};
+
+/// Where a Markov chain stands and what it has been through: all that a PathChain remembers, 15 kB.
+struct ChainState {
+    PrimarySample sample;
+    WeightedPath paths[2];              ///< the current one and room for a proposal
+    std::uint32_t current = 0;          ///< which of them is the current one
+    double candidates[max_tries] = {};  ///< weights of a large step's tries
+    WeightMoments large_weights;
+    ChainHealth health;
+    std::uint32_t step = 0;
+    std::uint64_t stay = 0;  ///< mutations rejected since the last that was not
+    bool is_broken = false;  ///< a number of an acceptance was none, on a device
 };
 
 /// A Markov chain of full paths whose stationary density is Y(F): the paths that matter to the
 /// image, each as often as it brings light. Over the paths of another generator it is their target;
-/// without a camera there are no bidirectional mutations. One thread at a time. Source: algorithm 1
-/// of Pajot, Barthe, Paulin 2009; Metropolis light transport (Veach and Guibas 1997).
+/// without a camera there are no bidirectional mutations. One thread at a time. Generator, options
+/// and state must outlive it. Source: algorithm 1 of Pajot, Barthe, Paulin 2009; Metropolis light
+/// transport (Veach and Guibas 1997).
 template <class World, class Rules = ChainRules, class Generator = PathGenerator<World>>
 class PathChain {
+    static_assert(path_dimension::count <= max_coordinates);
+
  public:
     /// Chain number `chain` of a run, started from a path of the bootstrap that carries light.
-    PathChain(const Generator& generator, const ChainOptions& options, std::uint64_t seed,
-              std::uint32_t chain, LargeStep start)
+    /// `state` is written whole.
+    MIR_HD PathChain(const Generator& generator, const ChainOptions& options, std::uint64_t seed,
+                     std::uint32_t chain, LargeStep start, ChainState& state)
         : generator_(generator),
           options_(options),
           gaps_(generator.techniques().min_edges(), generator.techniques().max_edges()),
           seed_(seed),
           chain_(chain),
-          sample_(seed, chain, start),
-          candidates_(options.tries),
-          weights_(options.tries) {
-        generator.generate(sample_.propose_large(start), current_);
+          state_(state) {
+        state.sample.start(seed, chain, start);
+        state.current = state.step = 0;
+        state.large_weights = {};
+        state.health = {};
+        state.stay = 0;
+        state.is_broken = false;
+        generator.generate(state.sample.propose_large(start), state.paths[0]);
     }
 
     /// One mutation: the state moves or stays.
-    void step() {
-        const Random numbers = step_numbers(seed_, chain_, ++step_);
+    MIR_HD void step() {
+        ChainHealth& health = state_.health;
+        const Random numbers = step_numbers(seed_, chain_, ++state_.step);
         const bool large = static_cast<double>(numbers.at(kind)) < options_.large_step_probability;
         bool moved = false;
         if (large)
-            health_.large.add(moved = large_move(numbers));
+            health.large.add(moved = large_move(numbers));
         else if (options_.mutation == Mutation::primary)
-            health_.small.add(moved = small_move(numbers));
+            health.small.add(moved = small_move(numbers));
         else if constexpr (Generator::has_camera)
-            health_.bidirectional.add(moved = bidirectional_move(numbers));
-        stay_ = moved ? 0 : stay_ + 1;
-        health_.longest_stay = std::max(health_.longest_stay, stay_);
-        ++health_.mutations;
+            health.bidirectional.add(moved = bidirectional_move(numbers));
+        state_.stay = moved ? 0 : state_.stay + 1;
+        if (state_.stay > health.longest_stay) health.longest_stay = state_.stay;
+        ++health.mutations;
     }
 
-    [[nodiscard]] const WeightedPath& current() const { return current_; }
-    [[nodiscard]] std::uint32_t steps() const { return step_; }
+    [[nodiscard]] MIR_HD const WeightedPath& current() const {
+        return state_.paths[state_.current];
+    }
+    [[nodiscard]] MIR_HD std::uint32_t steps() const { return state_.step; }
     /// Counts of this chain alone; summaries over chains are left at zero.
-    [[nodiscard]] const ChainHealth& health() const { return health_; }
+    [[nodiscard]] MIR_HD const ChainHealth& health() const { return state_.health; }
     /// Weights of all candidates of large steps, independent draws whose mean is P_c.
-    [[nodiscard]] const WeightMoments& large_step_weights() const { return large_weights_; }
+    [[nodiscard]] MIR_HD const WeightMoments& large_step_weights() const {
+        return state_.large_weights;
+    }
+    /// True when on a device a number of an acceptance was negative or not finite, where the host
+    /// throws.
+    [[nodiscard]] MIR_HD bool is_broken() const { return state_.is_broken; }
 
  private:
     /// Numbers of a step's decisions; those of its directions follow.
@@ -74,56 +104,70 @@ class PathChain {
 
     struct Directions {
         Random numbers;
-        [[nodiscard]] float at(std::uint32_t d) const { return numbers.at(step_decisions + d); }
+        [[nodiscard]] MIR_HD float at(std::uint32_t d) const {
+            return numbers.at(step_decisions + d);
+        }
     };
 
-    bool large_move(const Random& numbers) {
+    [[nodiscard]] MIR_HD WeightedPath& proposal() { return state_.paths[1 - state_.current]; }
+    MIR_HD void move() { state_.current = 1 - state_.current; }
+
+    MIR_HD bool large_move(const Random& numbers) {
         for (std::uint32_t j = 0; j < options_.tries; ++j) {
-            generator_.generate(sample_.propose_large(large_step(chain_, step_, j)),
-                                candidates_[j]);
-            weights_[j] = candidates_[j].weight;
+            propose_large(j);
+            state_.candidates[j] = proposal().weight;
         }
-        for (const double w : weights_) large_weights_.add(w);
-        const MultipleTry t =
-            multiple_try(current_.weight, weights_, static_cast<double>(numbers.at(choice)),
-                         static_cast<double>(numbers.at(acceptance_number)));
+        for (std::uint32_t j = 0; j < options_.tries; ++j)
+            state_.large_weights.add(state_.candidates[j]);
+        const MultipleTry t = multiple_try(current().weight, state_.candidates, options_.tries,
+                                           static_cast<double>(numbers.at(choice)),
+                                           static_cast<double>(numbers.at(acceptance_number)));
+        note(t.acceptance);
         if (!t.accepted) return false;
-        std::swap(current_, candidates_[t.chosen]);
-        sample_.accept_large(large_step(chain_, step_, t.chosen));
+        // Made a second time: keeping all of them would take a path's memory for each.
+        if (t.chosen + 1 != options_.tries) propose_large(t.chosen);
+        move();
+        state_.sample.accept_large(large_step(chain_, state_.step, t.chosen));
         return true;
     }
 
-    bool small_move(const Random& numbers) {
-        WeightedPath& y = candidates_[0];
-        generator_.generate(sample_.propose_small(step_), y);
-        if (!accepts(numbers, acceptance(current_.weight, y.weight))) return false;
-        std::swap(current_, y);
-        sample_.accept_small(step_);
+    MIR_HD void propose_large(std::uint32_t attempt) {
+        generator_.generate(state_.sample.propose_large(large_step(chain_, state_.step, attempt)),
+                            proposal());
+    }
+
+    MIR_HD bool small_move(const Random& numbers) {
+        generator_.generate(state_.sample.propose_small(state_.step), proposal());
+        if (!accepts(numbers, acceptance(current().weight, proposal().weight))) return false;
+        move();
+        state_.sample.accept_small(state_.step);
         return true;
     }
 
-    bool bidirectional_move(const Random& numbers) {
-        WeightedPath& y = candidates_[0];
-        const std::uint32_t k = current_.path.edges();
+    MIR_HD bool bidirectional_move(const Random& numbers) {
+        const WeightedPath& x = current();
+        WeightedPath& y = proposal();
+        const std::uint32_t k = x.path.edges();
         const PathGap out = gaps_.sample_gap(k, static_cast<double>(numbers.at(gap)));
         const std::uint32_t n = gaps_.sample_count(k, out, static_cast<double>(numbers.at(count)));
         const std::uint32_t fewest = GapChoices::min_from_eye(out);
         const auto options = static_cast<float>(n - fewest + 1);
         const auto from_eye = fewest + static_cast<std::uint32_t>(numbers.at(split) * options);
         Directions u{numbers};
-        if (!refill(generator_.world(), u, current_.path, out, n, from_eye, y.path)) return false;
+        if (!refill(generator_.world(), u, x.path, out, n, from_eye, y.path)) return false;
         y.path.spread = spread_at(u);
         weigh(generator_.world(), y, [&](const PathMeasure& m) {
             return mixture_density(m, y.path.edges(), generator_.techniques());
         });
-        if (!(y.weight > 0.0) || !accepts(numbers, bidirectional_acceptance(y, out, n)))
+        if (!(y.weight > 0.0) || !accepts(numbers, bidirectional_acceptance(x, y, out, n)))
             return false;
-        std::swap(current_, y);
+        move();
         return true;
     }
 
-    [[nodiscard]] double bidirectional_acceptance(const WeightedPath& y, PathGap out,
-                                                  std::uint32_t n) const {
+    [[nodiscard]] MIR_HD double bidirectional_acceptance(const WeightedPath& x,
+                                                         const WeightedPath& y, PathGap out,
+                                                         std::uint32_t n) const {
         const PathGap back{out.left, out.left + n + 1};
         const auto way = [&](const WeightedPath& from, PathGap hole, const WeightedPath& to,
                              std::uint32_t added) {
@@ -131,30 +175,26 @@ class PathChain {
             return Rules::choice(gaps_, k, hole, added) *
                    Rules::refill(to.measure, to.path.edges(), hole.left, added);
         };
-        const double there = way(current_, out, y, n);
+        const double there = way(x, out, y, n);
         if (!(there > 0.0)) return 0.0;
-        return acceptance(luminance(current_.measure.contribution), there,
-                          luminance(y.measure.contribution),
-                          way(y, back, current_, out.vertices()));
+        return acceptance(luminance(x.measure.contribution), there,
+                          luminance(y.measure.contribution), way(y, back, x, out.vertices()));
     }
 
-    static bool accepts(const Random& numbers, double probability) {
+    MIR_HD bool accepts(const Random& numbers, double probability) {
+        note(probability);
         return Rules::accepts(static_cast<double>(numbers.at(acceptance_number)), probability);
+    }
+    MIR_HD void note(double probability) {
+        state_.is_broken = state_.is_broken || !is_finite(probability);
     }
 
     const Generator& generator_;
-    ChainOptions options_;
+    const ChainOptions& options_;
     GapChoices gaps_;
     std::uint64_t seed_;
     std::uint32_t chain_;
-    PrimarySample sample_;
-    WeightedPath current_;
-    std::vector<WeightedPath> candidates_;
-    std::vector<double> weights_;
-    WeightMoments large_weights_;
-    ChainHealth health_;
-    std::uint32_t step_ = 0;
-    std::uint64_t stay_ = 0;
+    ChainState& state_;
 };
 
 }  // namespace mir

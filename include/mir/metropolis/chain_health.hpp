@@ -13,7 +13,7 @@ struct MutationCount {
     std::uint64_t proposed = 0;
     std::uint64_t accepted = 0;
 
-    void add(bool taken) {
+    MIR_HD void add(bool taken) {
         ++proposed;
         accepted += taken ? 1 : 0;
     }

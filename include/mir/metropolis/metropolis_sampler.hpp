@@ -7,6 +7,13 @@
 
 namespace mir {
 
+/// Intensity of a record that is to be normalised: the colour of R, at a luminance of 1.
+struct UnitRadiance {
+    MIR_HD Rgb operator()(const WeightedPath& p) const {
+        return with_unit_luminance(p.measure.leaving);
+    }
+};
+
 /// Metropolis instant radiosity: VPLs where they matter to the camera, each bringing the same flux
 /// to the image once normalised. Model of Sampler, and of what the 2009 paper's algorithm 2 does.
 /// Source: Segovia, Iehl, Peroche 2007; Pajot, Barthe, Paulin 2009, section 4. The scene data that
@@ -32,8 +39,7 @@ class MetropolisSampler {
     template <Executor E>
     [[nodiscard]] VplRecords sample(E& executor) const {
         const ChainEnsemble<World, PathGenerator<World>> chains(generator_, suffix_, options_);
-        return chains.run(
-            [](const WeightedPath& p) { return with_unit_luminance(p.measure.leaving); }, executor);
+        return chains.run(UnitRadiance{}, executor);
     }
 
  private:

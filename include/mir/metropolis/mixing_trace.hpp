@@ -8,38 +8,84 @@
 
 namespace mir {
 
-/// Numbers along one chain that judge its mixing: x, y and z of x_v, log Y(R) and k. At most some
-/// thousand states are kept, evenly spaced.
-class MixingTrace {
- public:
-    static constexpr std::size_t scalars = 5;
+/// What a MixingTrace keeps of a state.
+struct TraceSample {
+    Vec3 place{0};            ///< of x_v, metres
+    std::uint32_t edges = 0;  ///< k
+    double radiance = 0.0;    ///< Y(R)
 
-    MixingTrace() = default;
-    /// For a chain of `states` states.
-    explicit MixingTrace(std::uint64_t states) : stride_((states + most - 1) / most) {}
-
-    /// Takes the next state of the chain.
-    void add(const WeightedPath& state) {
-        if (seen_++ % stride_ != 0) return;
-        const Vec3 v = state.path.x(2).position;
-        const double radiance = luminance(state.measure.leaving);
-        const double values[scalars] = {static_cast<double>(v.x), static_cast<double>(v.y),
-                                        static_cast<double>(v.z), std::log(radiance),
-                                        static_cast<double>(state.path.edges())};
-        for (std::size_t i = 0; i < scalars; ++i) values_[i].push_back(values[i]);
+    MIR_HD static TraceSample of(const WeightedPath& state) {
+        return {state.path.x(2).position, state.path.edges(), luminance(state.measure.leaving)};
     }
+};
 
+/// Which states of a chain a trace keeps: some thousand at most, evenly spaced. A value.
+class TraceRhythm {
+ public:
+    TraceRhythm() = default;
+    /// For a chain of `states` states.
+    MIR_HD explicit TraceRhythm(std::uint64_t states) : stride_((states + most - 1) / most) {}
+
+    /// Counts the next state and says whether it is one.
+    MIR_HD bool keeps_next() { return seen_++ % stride_ == 0; }
     /// States between two that are kept.
-    [[nodiscard]] std::uint64_t stride() const { return stride_; }
-    [[nodiscard]] const std::vector<double>& values(std::size_t scalar) const {
-        return values_[scalar];
+    [[nodiscard]] MIR_HD std::uint64_t stride() const { return stride_; }
+    /// Number of states kept of `states`.
+    [[nodiscard]] MIR_HD std::uint64_t kept(std::uint64_t states) const {
+        return (states + stride_ - 1) / stride_;
     }
 
  private:
     static constexpr std::uint64_t most = 4096;
     std::uint64_t stride_ = 1;
     std::uint64_t seen_ = 0;
-    std::array<std::vector<double>, scalars> values_;
+};
+
+/// Numbers along one chain that judge its mixing: x, y and z of x_v, log Y(R) and k.
+class MixingTrace {
+ public:
+    static constexpr std::size_t scalars = 5;
+
+    MixingTrace() = default;
+    /// For a chain of `states` states.
+    explicit MixingTrace(std::uint64_t states) : rhythm_(states) {}
+    /// Of samples that a TraceRhythm has chosen.
+    explicit MixingTrace(std::span<const TraceSample> samples)
+        : samples_(samples.begin(), samples.end()) {}
+
+    /// Takes the next state of the chain.
+    void add(const WeightedPath& state) {
+        if (rhythm_.keeps_next()) samples_.push_back(TraceSample::of(state));
+    }
+
+    /// States between two that are kept.
+    [[nodiscard]] std::uint64_t stride() const { return rhythm_.stride(); }
+    [[nodiscard]] std::vector<double> values(std::size_t scalar) const {
+        std::vector<double> values;
+        values.reserve(samples_.size());
+        for (const TraceSample& s : samples_) values.push_back(value(s, scalar));
+        return values;
+    }
+
+ private:
+    /// The logarithm is taken here, on the host, whose bits a device might not have.
+    static double value(const TraceSample& s, std::size_t scalar) {
+        switch (scalar) {
+            case 0:
+                return static_cast<double>(s.place.x);
+            case 1:
+                return static_cast<double>(s.place.y);
+            case 2:
+                return static_cast<double>(s.place.z);
+            case 3:
+                return std::log(s.radiance);
+            default:
+                return static_cast<double>(s.edges);
+        }
+    }
+
+    TraceRhythm rhythm_;
+    std::vector<TraceSample> samples_;
 };
 
 /// Mixing of several chains, judged by the scalar that mixes worst.

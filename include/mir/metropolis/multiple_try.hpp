@@ -3,7 +3,6 @@
 
 #include "mir/metropolis/acceptance.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -19,10 +18,11 @@ struct MultipleTry {
 namespace detail {
 
 /// Index whose share of the sum contains u in [0, 1). Some weight must be positive.
-inline std::uint32_t choose_by_weight(std::span<const double> weights, double sum, double u) {
+MIR_HD inline std::uint32_t choose_by_weight(const double* weights, std::uint32_t count, double sum,
+                                             double u) {
     double below = 0.0;
     std::uint32_t last = 0;
-    for (std::uint32_t i = 0; i < weights.size(); ++i) {
+    for (std::uint32_t i = 0; i < count; ++i) {
         if (weights[i] == 0.0) continue;
         below += weights[i];
         last = i;
@@ -41,25 +41,33 @@ inline std::uint32_t choose_by_weight(std::span<const double> weights, double su
 /// is Metropolis' rule. Correlated candidates break detailed balance.
 /// `choice`, `decision`: two independent uniform numbers of [0, 1). Without weight nothing is
 /// accepted.
-/// @throws Error(internal) unless w(current) is positive, the others not negative, and all finite.
+/// @throws Error(internal) unless w(current) is positive, the others not negative, and all finite;
+/// on a device the acceptance is NaN instead.
 /// Source: Liu, Liang, Wong, "The multiple-try method and local optimization in Metropolis
 /// sampling", JASA 95 (2000); for independent candidates Martino, "A review of multiple try MCMC
 /// algorithms", Digital Signal Processing 75 (2018).
-inline MultipleTry multiple_try(double current, std::span<const double> candidates, double choice,
-                                double decision) {
-    detail::checked_positive(current, detail::dark_state);
+MIR_HD inline MultipleTry multiple_try(double current, const double* candidates,
+                                       std::uint32_t count, double choice, double decision) {
+    using detail::ChainNumber;
+    current = detail::checked_positive(current, ChainNumber::current_target);
     double sum = 0.0;
-    for (double w : candidates) sum += detail::checked_weight(w, detail::bad_target);
-    detail::checked_weight(sum, detail::bad_target);
+    for (std::uint32_t i = 0; i < count; ++i)
+        sum += detail::checked_weight(candidates[i], ChainNumber::target);
+    sum = detail::checked_weight(sum, ChainNumber::target);
     if (sum == 0.0) return {};
     MultipleTry result;
-    result.chosen = detail::choose_by_weight(candidates, sum, choice);
+    result.chosen = detail::choose_by_weight(candidates, count, sum, choice);
     double way_back = current;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
+    for (std::uint32_t i = 0; i < count; ++i)
         if (i != result.chosen) way_back += candidates[i];
     result.acceptance = acceptance(way_back, sum);
     result.accepted = decision < result.acceptance;
     return result;
+}
+inline MultipleTry multiple_try(double current, std::span<const double> candidates, double choice,
+                                double decision) {
+    return multiple_try(current, candidates.data(), static_cast<std::uint32_t>(candidates.size()),
+                        choice, decision);
 }
 
 }  // namespace mir

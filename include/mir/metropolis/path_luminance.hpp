@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/hd.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -26,7 +28,7 @@ struct PathLuminance {
 class WeightMoments {
  public:
     /// Weights are finite and not negative.
-    void add(double weight) {
+    MIR_HD void add(double weight) {
         contributing_ += weight > 0.0 ? 1 : 0;
         const double delta = weight - mean_;
         mean_ += delta / static_cast<double>(++count_);

@@ -3,6 +3,8 @@
 
 #include "mir/paths/path_generator.hpp"
 
+#include <cmath>
+
 namespace mir {
 
 /// A range of a path that is taken out: x_0 .. x_left and x_right .. x_k stay. left = 0 takes the
@@ -12,18 +14,18 @@ struct PathGap {
     std::uint32_t right = 0;
 
     /// Vertices taken out.
-    [[nodiscard]] std::uint32_t vertices() const { return right - left - 1; }
+    [[nodiscard]] MIR_HD std::uint32_t vertices() const { return right - left - 1; }
 };
 
 /// The choices of Veach's bidirectional mutation and their probabilities. A value; const use from
 /// any thread. Source: Veach 1997, section 11.4.2.
 class GapChoices {
  public:
-    GapChoices(std::uint32_t min_edges, std::uint32_t max_edges)
+    MIR_HD GapChoices(std::uint32_t min_edges, std::uint32_t max_edges)
         : min_(min_edges), max_(max_edges) {}
 
     /// Range to take out of a path of k edges, for one number in [0, 1).
-    [[nodiscard]] PathGap sample_gap(std::uint32_t k, double u) const {
+    [[nodiscard]] MIR_HD PathGap sample_gap(std::uint32_t k, double u) const {
         PathGap last{0, k + 1};
         double rest = u * total_weight(k);
         for_each_gap(k, [&](PathGap g, double weight) {
@@ -33,12 +35,12 @@ class GapChoices {
         return last;
     }
     /// Probability of that choice.
-    [[nodiscard]] double gap_probability(std::uint32_t k, PathGap gap) const {
+    [[nodiscard]] MIR_HD double gap_probability(std::uint32_t k, PathGap gap) const {
         return weight_of(k, gap) / total_weight(k);
     }
 
     /// Number of vertices to put into the gap.
-    [[nodiscard]] std::uint32_t sample_count(std::uint32_t k, PathGap gap, double u) const {
+    [[nodiscard]] MIR_HD std::uint32_t sample_count(std::uint32_t k, PathGap gap, double u) const {
         double rest = u * total_count_weight(k, gap);
         std::uint32_t last = gap.vertices();
         for (std::uint32_t n = 0; n <= max_; ++n) {
@@ -48,16 +50,22 @@ class GapChoices {
         }
         return last;
     }
-    [[nodiscard]] double count_probability(std::uint32_t k, PathGap gap, std::uint32_t n) const {
+    [[nodiscard]] MIR_HD double count_probability(std::uint32_t k, PathGap gap,
+                                                  std::uint32_t n) const {
         return count_weight(k, gap, n) / total_count_weight(k, gap);
     }
 
     /// Fewest of `n` new vertices that must come from the camera's side: x1 always does.
-    static std::uint32_t min_from_eye(PathGap gap) { return gap.left == 0 ? 1 : 0; }
+    MIR_HD static std::uint32_t min_from_eye(PathGap gap) { return gap.left == 0 ? 1 : 0; }
 
  private:
+    /// 2^-|a - b|, exact.
+    MIR_HD static double halved(std::uint32_t a, std::uint32_t b) {
+        return ldexp(1.0, a > b ? static_cast<int>(b) - static_cast<int>(a)
+                                : static_cast<int>(a) - static_cast<int>(b));
+    }
     template <class Body>
-    void for_each_gap(std::uint32_t k, Body&& body) const {
+    MIR_HD void for_each_gap(std::uint32_t k, Body&& body) const {
         for (std::uint32_t left = 0; left <= k; ++left)
             for (std::uint32_t right = left + 1; right <= k + 1; ++right)
                 if (const double w = weight_of(k, {left, right}); w > 0.0)
@@ -65,26 +73,26 @@ class GapChoices {
     }
     /// Small gaps are likelier; the one that moves x1 alone is rare, because it yields no new VPL.
     /// An edge can be cut open only where a vertex fits in.
-    [[nodiscard]] double weight_of(std::uint32_t k, PathGap gap) const {
+    [[nodiscard]] MIR_HD double weight_of(std::uint32_t k, PathGap gap) const {
         const bool at_end = gap.left == 0 || gap.right == k + 1;
         if (gap.left > k || (gap.vertices() == 0 && (at_end || k == max_))) return 0.0;
-        const double weight = std::exp2(-std::abs(static_cast<double>(gap.vertices()) - 1.0));
+        const double weight = halved(gap.vertices(), 1);
         return gap.left == 0 && gap.vertices() == 1 ? 0.25 * weight : weight;
     }
-    [[nodiscard]] double total_weight(std::uint32_t k) const {
+    [[nodiscard]] MIR_HD double total_weight(std::uint32_t k) const {
         double sum = 0.0;
         for_each_gap(k, [&](PathGap, double w) { sum += w; });
         return sum;
     }
     /// Two-tailed geometric around the old count.
-    [[nodiscard]] double count_weight(std::uint32_t k, PathGap gap, std::uint32_t n) const {
+    [[nodiscard]] MIR_HD double count_weight(std::uint32_t k, PathGap gap, std::uint32_t n) const {
         const std::uint32_t edges = k - gap.vertices() + n;
         if (edges < min_ || edges > max_) return 0.0;
         const bool at_end = gap.left == 0 || gap.right == k + 1;
         if (n == 0 && (at_end || gap.vertices() == 0)) return 0.0;
-        return std::exp2(-std::abs(static_cast<double>(n) - static_cast<double>(gap.vertices())));
+        return halved(n, gap.vertices());
     }
-    [[nodiscard]] double total_count_weight(std::uint32_t k, PathGap gap) const {
+    [[nodiscard]] MIR_HD double total_count_weight(std::uint32_t k, PathGap gap) const {
         double sum = 0.0;
         for (std::uint32_t n = 0; n <= max_; ++n) sum += count_weight(k, gap, n);
         return sum;
@@ -97,8 +105,8 @@ class GapChoices {
 /// Density of the `n` vertices between the ends of a gap in a path of k edges, over all splits of
 /// them into a camera's and a light's side. Leaving out splits that could have built the same
 /// vertices would break detailed balance.
-inline double refill_density(const PathMeasure& m, std::uint32_t k, std::uint32_t left,
-                             std::uint32_t n) {
+MIR_HD inline double refill_density(const PathMeasure& m, std::uint32_t k, std::uint32_t left,
+                                    std::uint32_t n) {
     const std::uint32_t fewest = GapChoices::min_from_eye({left, left + n + 1});
     double sum = 0.0;
     for (std::uint32_t eye = fewest; eye <= n; ++eye) {
@@ -117,12 +125,12 @@ inline double refill_density(const PathMeasure& m, std::uint32_t k, std::uint32_
 /// camera's side, the others from the light's, and connects. False when that leads nowhere; the
 /// light that passes is not computed.
 template <class World, class Numbers>
-bool refill(const World& world, Numbers& u, const Path& x, PathGap gap, std::uint32_t n,
-            std::uint32_t from_eye, Path& y) {
+MIR_HD bool refill(const World& world, Numbers& u, const Path& x, PathGap gap, std::uint32_t n,
+                   std::uint32_t from_eye, Path& y) {
     y.film = x.film;
     y.lens = x.lens;
     y.eye = x.eye;
-    y.vertices.assign(x.vertices.begin(), x.vertices.begin() + gap.left);
+    y.vertices.assign_front(x.vertices, gap.left);
     if (gap.left == 0 && !start_at_camera(world, u, y)) return false;
     if (!extend_from_eye(world, u, gap.left + from_eye, y)) return false;
     const std::uint32_t from_light = n - from_eye;
@@ -131,9 +139,12 @@ bool refill(const World& world, Numbers& u, const Path& x, PathGap gap, std::uin
         if (!close_path(world, u, from_light, y)) return false;
         if (from_light == 0) return true;
     } else {
-        LightSubpath part{{x.vertices.rbegin(), x.vertices.rend() - (gap.right - 1)}, x.light};
-        if (!extend_from_light(world, u, part.vertices.size() + from_light, part)) return false;
-        join(y, part);
+        const std::uint32_t kept = k - gap.right + 1;
+        y.vertices.resize(y.edges() + from_light + kept);
+        y.light = x.light;
+        LightPart part{y};
+        while (part.size < kept) part.add(x.x(k - part.size));
+        if (!extend_from_light(world, u, kept + from_light, part)) return false;
     }
     return edge_is_free(world, y, gap.left + from_eye);
 }

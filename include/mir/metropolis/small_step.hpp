@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/core/hd.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -12,15 +13,15 @@ namespace detail {
 
 /// 2^x for |x| < 1000 to a relative error of 1e-8, from operations that IEEE 754 rounds alike
 /// everywhere. std::exp2 differs between machines, and one differing bit sends a chain elsewhere.
-inline double portable_exp2(double x) {
+MIR_HD inline double portable_exp2(double x) {
     constexpr double ln2 = 0.69314718055994531;
     constexpr double sqrt2 = 1.41421356237309505;
-    const double whole = std::floor(x);
+    const double whole = floor(x);
     const double y = (x - whole - 0.5) * ln2;  // |y| <= ln(2) / 2
-    double e = 1.0 / 5040;                     // Taylor series of exp(y), Horner's scheme
-    for (double inverse_factorial : {1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0})
-        e = e * y + inverse_factorial;
-    return std::ldexp(e * sqrt2, static_cast<int>(whole));
+    const double inverse_factorials[] = {1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0};
+    double e = 1.0 / 5040;  // Taylor series of exp(y), Horner's scheme
+    for (const double c : inverse_factorials) e = e * y + c;
+    return ldexp(e * sqrt2, static_cast<int>(whole));
 }
 
 }  // namespace detail
@@ -38,7 +39,7 @@ inline double portable_exp2(double x) {
 class SmallStep {
  public:
     /// s1 = 1/1024 and s2 = 1/64, the sizes of the paper.
-    SmallStep() : SmallStep(0x1p-10f, 0x1p-6f) {}
+    MIR_HD SmallStep() : longest_(0x1p-6 * cells), octaves_(4.0) {}
 
     /// Lengths from `smallest` (s1) to `largest` (s2), 2^-24 <= s1 <= s2 <= 1/2.
     /// @throws Error(invalid_argument) outside this range.
@@ -53,7 +54,7 @@ class SmallStep {
 
     /// Moves `u` by the length and sign that `number` stands for. Both are multiples of 2^-24 in
     /// [0, 1); numbers that differ by 1/2 move equally far, in opposite directions.
-    [[nodiscard]] float perturb(float u, float number) const {
+    [[nodiscard]] MIR_HD float perturb(float u, float number) const {
         const bool up = number < 0.5f;
         const std::uint32_t length = length_in_cells(2.0f * (up ? number : number - 0.5f));
         const auto from = static_cast<std::uint32_t>(u * cells);
@@ -64,9 +65,10 @@ class SmallStep {
  private:
     static constexpr std::uint32_t cells = 1u << 24;
 
-    [[nodiscard]] std::uint32_t length_in_cells(float xi) const {
-        return static_cast<std::uint32_t>(
-            std::lround(longest_ * detail::portable_exp2(-octaves_ * static_cast<double>(xi))));
+    [[nodiscard]] MIR_HD std::uint32_t length_in_cells(float xi) const {
+        const double cells_moved =
+            longest_ * detail::portable_exp2(-octaves_ * static_cast<double>(xi));
+        return static_cast<std::uint32_t>(cells_moved + 0.5);  // the nearest, as none is below 1
     }
 
     double longest_;  // in cells

@@ -19,21 +19,21 @@ class SuffixProposal {
         : world_(std::move(world)), techniques_(techniques), floor_(floor) {}
 
     /// Density of x3 .. x_k under draw(), up to a factor that all paths share.
-    [[nodiscard]] double density(const PathMeasure& m, std::uint32_t k) const {
+    [[nodiscard]] MIR_HD double density(const PathMeasure& m, std::uint32_t k) const {
         return suffix_density(m, k, techniques_);
     }
 
     /// The target over that density: the weight of the independence chain.
-    [[nodiscard]] double weight(const PathMeasure& m, std::uint32_t k) const {
+    [[nodiscard]] MIR_HD double weight(const PathMeasure& m, std::uint32_t k) const {
         const double target = luminance(m.contribution) + floor_ * luminance(m.leaving);
         const double p = density(m, k);
-        return p > 0.0 && std::isfinite(target / p) ? target / p : 0.0;
+        return p > 0.0 && is_finite(target / p) ? target / p : 0.0;
     }
 
     /// A path with the x0, x1, x2 of `from` and a new rest; its weight is that of weight(), 0 when
     /// nothing came of it.
     template <class Numbers>
-    void draw(const WeightedPath& from, Numbers&& u, WeightedPath& out) const {
+    MIR_HD void draw(const WeightedPath& from, Numbers&& u, WeightedPath& out) const {
         out.weight = 0.0;
         const Technique t =
             techniques_.sample(static_cast<double>(u.at(path_dimension::technique)));
@@ -43,7 +43,7 @@ class SuffixProposal {
         y.film = from.path.film;
         y.lens = from.path.lens;
         y.eye = from.path.eye;
-        y.vertices.assign(from.path.vertices.begin(), from.path.vertices.begin() + 2);
+        y.vertices.assign_front(from.path.vertices, 2);
         y.spread = spread_at(u);
         if (!extend_from_eye(world_, u, from_eye, y) || !close_path(world_, u, t.from_light, y))
             return;

@@ -3,8 +3,6 @@
 
 #include "mir/paths/light_end.hpp"
 
-#include <algorithm>
-
 namespace mir {
 
 /// Meaning of each coordinate of primary sample space. Each role keeps its coordinates whatever the
@@ -19,9 +17,9 @@ inline constexpr std::uint32_t on_light = 9;
 inline constexpr std::uint32_t light_direction = 11;
 inline constexpr std::uint32_t light_side = 13;
 /// Three numbers for the direction drawn at the `i`-th vertex of the camera's part, i >= 1.
-constexpr std::uint32_t eye_vertex(std::uint32_t i) { return 14 + 6 * (i - 1); }
+MIR_HD constexpr std::uint32_t eye_vertex(std::uint32_t i) { return 14 + 6 * (i - 1); }
 /// And at the `i`-th surface of the light's part, i >= 1.
-constexpr std::uint32_t light_vertex(std::uint32_t i) { return 17 + 6 * (i - 1); }
+MIR_HD constexpr std::uint32_t light_vertex(std::uint32_t i) { return 17 + 6 * (i - 1); }
 /// One past the last coordinate that any path uses.
 inline constexpr std::uint32_t count = eye_vertex(max_path_edges + 1);
 }  // namespace path_dimension
@@ -29,37 +27,38 @@ inline constexpr std::uint32_t count = eye_vertex(max_path_edges + 1);
 // Below, `u.at(d)` yields coordinate d in [0, 1) of whoever asks.
 
 template <class Numbers>
-Vec2 pair_at(Numbers& u, std::uint32_t d) {
+MIR_HD Vec2 pair_at(Numbers& u, std::uint32_t d) {
     const float x = u.at(d);
     return {x, u.at(d + 1)};
 }
 
 /// Begins a path at the camera: film, lens and x1. False when the ray leaves the scene.
 template <class World, class Numbers>
-bool start_at_camera(const World& world, Numbers& u, Path& path) {
+MIR_HD bool start_at_camera(const World& world, Numbers& u, Path& path) {
     path.vertices.clear();
     path.film = pair_at(u, path_dimension::film);
     path.lens = {0.0f, 0.0f};
     if (world.camera.lens_radius > 0.0f) path.lens = pair_at(u, path_dimension::lens);
     const Ray ray = world.camera.ray(path.film, world.aspect, path.lens);
     path.eye = ray.origin;
-    const auto first = world.hit(ray);
-    if (first) path.vertices.push_back(*first);
-    return first.has_value();
+    PathVertex first;
+    if (!world.hit(ray, first)) return false;
+    path.vertices.push_back(first);
+    return true;
 }
 
-/// Next vertex from `at` along `w`, if the direction lies above the surface and hits another.
+/// Writes the next vertex from `at` along `w`; false unless the direction lies above the surface
+/// and hits another.
 template <class World>
-std::optional<PathVertex> step_along(const World& world, const PathVertex& at, Vec3 w) {
-    if (!(glm::dot(w, at.normal) > 0.0f) || !(glm::dot(w, at.shading_normal) > 0.0f))
-        return std::nullopt;
-    return world.hit({at.position, w});
+MIR_HD bool step_along(const World& world, const PathVertex& at, Vec3 w, PathVertex& next) {
+    if (!(glm::dot(w, at.normal) > 0.0f) || !(glm::dot(w, at.shading_normal) > 0.0f)) return false;
+    return world.hit({at.position, w}, next);
 }
 
 /// Extends a path from the camera to `edges` edges. x2 spreads light as a VPL does, so it is
 /// sampled like one, whatever x1 is. False when a direction leads nowhere.
 template <class World, class Numbers>
-bool extend_from_eye(const World& world, Numbers& u, std::uint32_t edges, Path& path) {
+MIR_HD bool extend_from_eye(const World& world, Numbers& u, std::uint32_t edges, Path& path) {
     using B = typename World::Bsdf;
     while (path.edges() < edges) {
         const std::uint32_t i = path.edges();
@@ -74,37 +73,45 @@ bool extend_from_eye(const World& world, Numbers& u, std::uint32_t edges, Path& 
             const Vec3 wo = glm::normalize(path.position(i - 1) - at.position);
             w = B::sample(world.params(at), at.shading_normal, wo, uv, u.at(d + 2)).wi;
         }
-        const auto next = step_along(world, at, w);
-        if (!next) return false;
-        path.vertices.push_back(*next);
+        PathVertex next;
+        if (!step_along(world, at, w, next)) return false;
+        path.vertices.push_back(next);
     }
     return true;
 }
 
-/// The light's part of a path: x_k first, then towards the camera.
-struct LightSubpath {
-    std::vector<PathVertex> vertices;
-    LightEnd end;
+/// The light's part of a path in the making. It grows from x_k towards the camera, in place: the
+/// path has all its edges already, and those that connect both parts come last.
+struct LightPart {
+    Path& path;
+    std::uint32_t size = 0;  ///< vertices so far
+
+    /// Its i-th vertex, x_(k-i).
+    [[nodiscard]] MIR_HD PathVertex& vertex(std::uint32_t i) const {
+        return path.x(path.edges() - i);
+    }
+    MIR_HD void add(const PathVertex& v) { vertex(size++) = v; }
 };
 
 namespace detail {
 
 /// First ray of a light path whose end is given.
 template <class World, class Numbers>
-Ray ray_from_light(const World& world, Numbers& u, const PathVertex& v, const LightEnd& end) {
+MIR_HD Ray ray_from_light(const World& world, Numbers& u, const PathVertex& v,
+                          const LightEnd& end) {
     const Vec2 uv = pair_at(u, path_dimension::light_direction);
     const Frame frame = Frame::around(v.normal);
     if (end.kind == LightEndKind::area)
         return {v.position, frame.to_world(square_to_cosine_hemisphere(uv))};
     if (end.kind == LightEndKind::point) return {v.position, square_to_sphere(uv)};
     if (end.kind == LightEndKind::spot) {
-        const float cos_outer = spot_of(world.lights, end.light).cos_outer;
+        const float cos_outer = world.lights.delta_source(end.light).cos_outer;
         return {v.position, frame.to_world(square_to_cone(uv, cos_outer))};
     }
-    const float radius = world.lights.radius();
+    const float radius = world.lights.radius;
     const Vec2 disc = radius * square_to_disc(uv);
     const Vec3 on_disc = disc.x * frame.tangent + disc.y * frame.bitangent;
-    return {world.lights.centre() + on_disc - 2.0f * radius * v.normal, v.normal};
+    return {world.lights.centre + on_disc - 2.0f * radius * v.normal, v.normal};
 }
 
 }  // namespace detail
@@ -112,48 +119,52 @@ Ray ray_from_light(const World& world, Numbers& u, const PathVertex& v, const Li
 /// Extends a light's part, which holds at least x_k, to `count` vertices. False when a direction
 /// leads nowhere.
 template <class World, class Numbers>
-bool extend_from_light(const World& world, Numbers& u, std::size_t count, LightSubpath& part) {
+MIR_HD bool extend_from_light(const World& world, Numbers& u, std::uint32_t count,
+                              LightPart& part) {
     using B = typename World::Bsdf;
-    while (part.vertices.size() < count) {
-        const std::size_t n = part.vertices.size();
-        const PathVertex& at = part.vertices.back();
-        std::optional<PathVertex> next;
+    for (; part.size < count; ++part.size) {
+        const std::uint32_t n = part.size;
+        const PathVertex& at = part.vertex(n - 1);
+        PathVertex& next = part.vertex(n);
         if (n == 1) {
-            next = world.hit(detail::ray_from_light(world, u, at, part.end));
-        } else {
-            const bool far = n == 2 && part.end.kind == LightEndKind::directional;
-            const PathVertex& before = part.vertices[n - 2];
-            const Vec3 wo = far ? -before.normal : glm::normalize(before.position - at.position);
-            const std::uint32_t d = path_dimension::light_vertex(static_cast<std::uint32_t>(n) - 1);
-            const Vec2 uv = pair_at(u, d);
-            next = step_along(
-                world, at, B::sample(world.params(at), at.shading_normal, wo, uv, u.at(d + 2)).wi);
+            if (!world.hit(detail::ray_from_light(world, u, at, part.path.light), next))
+                return false;
+            continue;
         }
-        if (!next) return false;
-        part.vertices.push_back(*next);
+        const bool far = n == 2 && part.path.light.kind == LightEndKind::directional;
+        const PathVertex& before = part.vertex(n - 2);
+        const Vec3 wo = far ? -before.normal : glm::normalize(before.position - at.position);
+        const std::uint32_t d = path_dimension::light_vertex(n - 1);
+        const Vec2 uv = pair_at(u, d);
+        const Vec3 w = B::sample(world.params(at), at.shading_normal, wo, uv, u.at(d + 2)).wi;
+        if (!step_along(world, at, w, next)) return false;
     }
     return true;
 }
 
 /// Begins a light's part with a light chosen by power, for emission.
 template <class World, class Numbers>
-void start_at_light(const World& world, Numbers& u, LightSubpath& part) {
+MIR_HD void start_at_light(const World& world, Numbers& u, LightPart& part) {
     const PlacedLightEnd placed =
         sample_light_start(world, u.at(path_dimension::light), pair_at(u, path_dimension::on_light),
                            u.at(path_dimension::light_side));
-    part.vertices.assign(1, placed.vertex);
-    part.end = placed.end;
+    part.add(placed.vertex);
+    part.path.light = placed.end;
 }
 
-/// Closes a camera's part: joins the light's part to it.
-inline void join(Path& path, const LightSubpath& part) {
-    path.vertices.insert(path.vertices.end(), part.vertices.rbegin(), part.vertices.rend());
-    path.light = part.end;
+/// Closes a path, which holds the camera's part, with a light path of `count` vertices. False when
+/// a direction leads nowhere.
+template <class World, class Numbers>
+MIR_HD bool attach_light_path(const World& world, Numbers& u, std::uint32_t count, Path& path) {
+    path.vertices.resize(path.edges() + count);
+    LightPart part{path};
+    start_at_light(world, u, part);
+    return extend_from_light(world, u, count, part);
 }
 
 /// Closes a camera's part with one light sample for its last vertex.
 template <class World, class Numbers>
-void attach_light_sample(const World& world, Numbers& u, Path& path) {
+MIR_HD void attach_light_sample(const World& world, Numbers& u, Path& path) {
     const PlacedLightEnd placed =
         sample_light_end(world, u.at(path_dimension::light), pair_at(u, path_dimension::on_light),
                          path.vertices.back().position);
@@ -163,34 +174,28 @@ void attach_light_sample(const World& world, Numbers& u, Path& path) {
 
 /// Closes a camera's part that has run into a lamp. False when its last vertex does not emit.
 template <class World>
-bool end_on_lamp(const World& world, Path& path) {
-    const auto placed = light_end_at(world, path.vertices.back());
-    if (placed) path.light = placed->end;
-    return placed.has_value();
+MIR_HD bool end_on_lamp(const World& world, Path& path) {
+    return light_end_at(world, path.vertices.back(), path.light);
 }
 
 /// Closes a camera's part with `from_light` vertices from a light: 0, it has run into a lamp; 1, a
 /// light sample; more, a light path. The edge that connects them may be blocked.
 template <class World, class Numbers>
-bool close_path(const World& world, Numbers& u, std::uint32_t from_light, Path& path) {
+MIR_HD bool close_path(const World& world, Numbers& u, std::uint32_t from_light, Path& path) {
     if (from_light == 0) return end_on_lamp(world, path);
     if (from_light == 1) {
         attach_light_sample(world, u, path);
         return true;
     }
-    LightSubpath part;
-    start_at_light(world, u, part);
-    if (!extend_from_light(world, u, from_light, part)) return false;
-    join(path, part);
-    return true;
+    return attach_light_path(world, u, from_light, path);
 }
 
 /// Whether the edge from x_i to x_(i+1) is free.
 template <class World>
-bool edge_is_free(const World& world, const Path& path, std::uint32_t i) {
+MIR_HD bool edge_is_free(const World& world, const Path& path, std::uint32_t i) {
     Vec3 to = path.position(i + 1);
     if (i + 1 == path.edges() && path.light.kind == LightEndKind::directional)
-        to = path.position(i) - 4.0f * world.lights.radius() * path.x(i + 1).normal;
+        to = path.position(i) - 4.0f * world.lights.radius * path.x(i + 1).normal;
     return world.visibility.visible(to, path.position(i));
 }
 

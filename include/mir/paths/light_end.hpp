@@ -15,7 +15,8 @@ struct PlacedLightEnd {
 
 namespace detail {
 
-inline PlacedLightEnd area_end(const LightTable& lights, std::uint32_t light, EmitterSample s,
+template <class Lights>
+MIR_HD PlacedLightEnd area_end(const Lights& lights, std::uint32_t light, const EmitterSample& s,
                                bool back, float ray_offset) {
     PlacedLightEnd placed;
     const Vec3 n = back ? -s.normal : s.normal;
@@ -27,88 +28,69 @@ inline PlacedLightEnd area_end(const LightTable& lights, std::uint32_t light, Em
     return placed;
 }
 
-inline PlacedLightEnd delta_end(const LightTable& lights, std::uint32_t light) {
+template <class Lights>
+MIR_HD PlacedLightEnd delta_end(const Lights& lights, std::uint32_t light) {
     const double probability = static_cast<double>(lights.light_probability(light));
+    const DeltaSource& source = lights.delta_source(light);
     PlacedLightEnd placed;
-    const auto set = [&](LightEndKind kind, std::uint16_t group, Rgb emission, Vec3 position,
-                         Vec3 normal) {
-        placed.vertex.position = position;
-        placed.vertex.normal = normal;
-        placed.end = {kind, group, light, emission, probability, probability};
-        return placed;
-    };
-    std::size_t i = light - lights.emissive_triangles().size();
-    if (i < lights.point_lights().size()) {
-        const PointLight& l = lights.point_lights()[i];
-        return set(LightEndKind::point, l.light_group, l.intensity, l.position, {0, 0, 1});
-    }
-    i -= lights.point_lights().size();
-    if (i < lights.spot_lights().size()) {
-        const SpotLight& l = lights.spot_lights()[i];
-        return set(LightEndKind::spot, l.light_group, l.intensity, l.position, l.direction);
-    }
-    const DirectionalLight& l = lights.directional_lights()[i - lights.spot_lights().size()];
-    return set(LightEndKind::directional, l.light_group, l.irradiance, {}, l.direction);
-}
-
-inline const SpotLight& spot_of(const LightTable& lights, std::uint32_t light) {
-    return lights
-        .spot_lights()[light - lights.emissive_triangles().size() - lights.point_lights().size()];
+    placed.vertex.position = source.position;
+    placed.vertex.normal = source.direction;
+    placed.end = {source.kind,     source.light_group, light,
+                  source.emission, probability,        probability};
+    return placed;
 }
 
 }  // namespace detail
 
 /// Light end for the receiver at `from`, the light chosen by power: next-event estimation.
 template <class World>
-PlacedLightEnd sample_light_end(const World& world, float pick, Vec2 uv, Vec3 from) {
-    const LightTable& lights = world.lights;
+MIR_HD PlacedLightEnd sample_light_end(const World& world, float pick, Vec2 uv, Vec3 from) {
+    const auto& lights = world.lights;
     const std::uint32_t light = lights.sample_light(pick);
-    if (light < lights.emissive_triangles().size()) {
-        const EmitterSample s = lights.point_on(light, uv);
-        const bool back = s.both_sides && glm::dot(from - s.position, s.normal) < 0.0f;
-        return detail::area_end(lights, light, s, back, world.geometry.ray_offset());
-    }
-    return detail::delta_end(lights, light);
+    if (!lights.is_triangle(light)) return detail::delta_end(lights, light);
+    const EmitterSample s = lights.point_on(world.geometry, light, uv);
+    const bool back = s.both_sides && glm::dot(from - s.position, s.normal) < 0.0f;
+    return detail::area_end(lights, light, s, back, world.geometry.ray_offset);
 }
 
 /// Light end for a light path, the light chosen by power. `side` picks the side of a lamp that
 /// shines from both.
 template <class World>
-PlacedLightEnd sample_light_start(const World& world, float pick, Vec2 uv, float side) {
-    const LightTable& lights = world.lights;
+MIR_HD PlacedLightEnd sample_light_start(const World& world, float pick, Vec2 uv, float side) {
+    const auto& lights = world.lights;
     const std::uint32_t light = lights.sample_light(pick);
-    if (light >= lights.emissive_triangles().size()) return detail::delta_end(lights, light);
-    const EmitterSample s = lights.point_on(light, uv);
+    if (!lights.is_triangle(light)) return detail::delta_end(lights, light);
+    const EmitterSample s = lights.point_on(world.geometry, light, uv);
     return detail::area_end(lights, light, s, s.both_sides && side >= 0.5f,
-                            world.geometry.ray_offset());
+                            world.geometry.ray_offset);
 }
 
-/// The light end of a path that ran into the emissive surface `at`, if that side emits.
+/// Writes the light end of a path that ran into the surface `at`; false when its side that was hit
+/// does not emit.
 template <class World>
-std::optional<PlacedLightEnd> light_end_at(const World& world, const PathVertex& at) {
-    const LightTable& lights = world.lights;
-    const auto light = lights.light_of(at.triangle);
-    if (!light) return std::nullopt;
-    EmitterSample s = lights.point_on(*light, {0.0f, 0.0f});
+MIR_HD bool light_end_at(const World& world, const PathVertex& at, LightEnd& end) {
+    const auto& lights = world.lights;
+    const std::uint32_t light = lights.light_of(at.triangle);
+    if (light == lights.none) return false;
+    const EmitterSample s = lights.point_on(world.geometry, light, {0.0f, 0.0f});
     const bool back = glm::dot(at.normal, s.normal) < 0.0f;
-    if (back && !s.both_sides) return std::nullopt;
-    PlacedLightEnd placed = detail::area_end(lights, *light, s, back, world.geometry.ray_offset());
-    placed.vertex = at;
-    return placed;
+    if (back && !s.both_sides) return false;
+    end = detail::area_end(lights, light, s, back, world.geometry.ray_offset).end;
+    return true;
 }
 
 /// Light that leaves the end along the unit vector `w`, and what it becomes at a receiver with the
 /// squared distance d2: L_e cos / d2, I / d2, or E. The receiver's own cosine is not in it.
 template <class World>
-Rgb light_at_receiver(const World& world, const PathVertex& v, const LightEnd& end, Vec3 w,
-                      float d2) {
+MIR_HD Rgb light_at_receiver(const World& world, const PathVertex& v, const LightEnd& end, Vec3 w,
+                             float d2) {
     switch (end.kind) {
         case LightEndKind::area:
             return end.emission * (larger(glm::dot(w, v.normal), 0.0f) / d2);
         case LightEndKind::point:
             return end.emission * (1.0f / d2);
         case LightEndKind::spot:
-            return end.emission * (spot_falloff(detail::spot_of(world.lights, end.light), w) / d2);
+            return end.emission * (spot_falloff(world.lights.delta_source(end.light), w) / d2);
         default:
             return end.emission;
     }
@@ -117,17 +99,17 @@ Rgb light_at_receiver(const World& world, const PathVertex& v, const LightEnd& e
 /// Density per m^2 of a surface with cosine `cos_receiver` with which a light path from this end
 /// hits it along the unit vector `w` after the squared distance d2.
 template <class World>
-double light_ray_density(const World& world, const PathVertex& v, const LightEnd& end, Vec3 w,
-                         float cos_receiver, float d2) {
-    const LightTable& lights = world.lights;
+MIR_HD double light_ray_density(const World& world, const PathVertex& v, const LightEnd& end,
+                                Vec3 w, float cos_receiver, float d2) {
+    const auto& lights = world.lights;
     if (end.kind == LightEndKind::directional)
         return static_cast<double>(cos_receiver) /
-               (static_cast<double>(pi) * lights.radius() * lights.radius());
+               (static_cast<double>(pi) * lights.radius * lights.radius);
     const double to_area = static_cast<double>(cos_receiver) / static_cast<double>(d2);
     if (end.kind == LightEndKind::area)
         return to_area * static_cast<double>(cosine_hemisphere_pdf(glm::dot(w, v.normal)));
     if (end.kind == LightEndKind::point) return to_area * static_cast<double>(sphere_pdf());
-    const SpotLight& spot = detail::spot_of(lights, end.light);
+    const DeltaSource& spot = lights.delta_source(end.light);
     return glm::dot(w, spot.direction) > spot.cos_outer
                ? to_area * static_cast<double>(cone_pdf(spot.cos_outer))
                : 0.0;

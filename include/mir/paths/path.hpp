@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/math.hpp"
-#include "mir/core/rgb.hpp"
+#include "mir/core/inline_vector.hpp"
+#include "mir/scene/light_table_view.hpp"
 
 #include <cstdint>
-#include <vector>
 
 namespace mir {
 
@@ -22,18 +21,11 @@ struct PathVertex {
     std::uint32_t material = 0;  ///< index into Scene::materials
 };
 
-enum class LightEndKind : std::uint8_t {
-    area,        ///< a point of an emissive triangle
-    point,       ///< a point light
-    spot,        ///< a spot light
-    directional  ///< light from outside the scene: the vertex has a direction, but no place
-};
-
 /// What is known about the light at the end of a path besides its place.
 struct LightEnd {
     LightEndKind kind = LightEndKind::area;
     std::uint16_t light_group = 0;
-    std::uint32_t light = 0;      ///< index as LightTable::sample_light() counts
+    std::uint32_t light = 0;      ///< as LightTable::sample_light() counts
     Rgb emission;                 ///< area: L_e; point, spot: intensity; directional: irradiance
     double pdf_next_event = 0.0;  ///< of choosing this end for a given receiver: m^-2, or a
                                   ///< probability for lights without extent
@@ -41,25 +33,23 @@ struct LightEnd {
 };
 
 /// A full light transport path x0 (lens), x1, ..., x_k (light). Place and direction of the first
-/// edge are given by film and lens, so x1 is a function of them.
+/// edge are given by film and lens, so x1 is a function of them. 3.5 kB, without memory elsewhere.
 struct Path {
-    Vec2 film{0};                      ///< in [0,1]^2, origin top left
-    Vec2 lens{0};                      ///< in [0,1)^2
-    Vec3 eye{0};                       ///< x0, metres
-    Vec3 spread{0};                    ///< numbers that choose how x_2 spreads light, [0,1)^3
-    std::vector<PathVertex> vertices;  ///< x1 .. x_k; element i - 1 is x_i
+    Vec2 film{0};    ///< in [0,1]^2, origin top left
+    Vec2 lens{0};    ///< in [0,1)^2
+    Vec3 eye{0};     ///< x0, metres
+    Vec3 spread{0};  ///< numbers that choose how x_2 spreads light, [0,1)^3
+    InlineVector<PathVertex, max_path_edges> vertices;  ///< x1 .. x_k; element i - 1 is x_i
     LightEnd light;
 
     /// k: the number of edges.
-    [[nodiscard]] std::uint32_t edges() const {
-        return static_cast<std::uint32_t>(vertices.size());
-    }
+    [[nodiscard]] MIR_HD std::uint32_t edges() const { return vertices.size(); }
     /// Scattering events, k - 1: the bounce that the path counts in.
-    [[nodiscard]] std::uint32_t bounce() const { return edges() - 1; }
-    [[nodiscard]] const PathVertex& x(std::uint32_t i) const { return vertices[i - 1]; }
-    [[nodiscard]] PathVertex& x(std::uint32_t i) { return vertices[i - 1]; }
+    [[nodiscard]] MIR_HD std::uint32_t bounce() const { return edges() - 1; }
+    [[nodiscard]] MIR_HD const PathVertex& x(std::uint32_t i) const { return vertices[i - 1]; }
+    [[nodiscard]] MIR_HD PathVertex& x(std::uint32_t i) { return vertices[i - 1]; }
     /// Position of x_i, x0 included.
-    [[nodiscard]] Vec3 position(std::uint32_t i) const {
+    [[nodiscard]] MIR_HD Vec3 position(std::uint32_t i) const {
         return i == 0 ? eye : vertices[i - 1].position;
     }
 };

@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// A path together with what it is worth.
+/// A path together with what it is worth. 4.7 kB.
 struct WeightedPath {
     Path path;
     PathMeasure measure;
@@ -19,20 +19,20 @@ struct WeightedPath {
 /// Gives `out` its measure, density and weight, if light passes along its path; visibility is not
 /// asked for. `density` is a function of the PathMeasure.
 template <class World, class Density>
-bool weigh(const World& world, WeightedPath& out, const Density& density) {
+MIR_HD bool weigh(const World& world, WeightedPath& out, const Density& density) {
     out.weight = 0.0;
     if (!measure_path(world, out.path, out.measure)) return false;
     out.density = density(out.measure);
     if (!(out.density > 0.0)) return false;
     const double weight = luminance(out.measure.contribution) / out.density;
-    if (!std::isfinite(weight)) return false;
+    if (!is_finite(weight)) return false;
     out.weight = weight;
     return true;
 }
 
 /// Numbers that choose how x2 spreads light.
 template <class Numbers>
-Vec3 spread_at(Numbers& u) {
+MIR_HD Vec3 spread_at(Numbers& u) {
     const Vec2 uv = pair_at(u, path_dimension::spread);
     return {uv.x, uv.y, u.at(path_dimension::spread + 2)};
 }
@@ -50,13 +50,13 @@ class PathGenerator {
     PathGenerator(World world, const TechniqueTable& techniques)
         : world_(std::move(world)), techniques_(techniques) {}
 
-    [[nodiscard]] const World& world() const { return world_; }
-    [[nodiscard]] const TechniqueTable& techniques() const { return techniques_; }
+    [[nodiscard]] MIR_HD const World& world() const { return world_; }
+    [[nodiscard]] MIR_HD const TechniqueTable& techniques() const { return techniques_; }
 
     /// The path at the point `u` of primary sample space; `u.at(d)` is coordinate d. `out` is
-    /// written whole; its memory is used again.
+    /// written whole.
     template <class Numbers>
-    void generate(Numbers&& u, WeightedPath& out) const {
+    MIR_HD void generate(Numbers&& u, WeightedPath& out) const {
         out.weight = 0.0;
         const Technique t =
             techniques_.sample(static_cast<double>(u.at(path_dimension::technique)));
@@ -71,7 +71,8 @@ class PathGenerator {
 
  private:
     template <class Numbers>
-    bool build(Numbers& u, std::uint32_t from_eye, std::uint32_t from_light, Path& path) const {
+    MIR_HD bool build(Numbers& u, std::uint32_t from_eye, std::uint32_t from_light,
+                      Path& path) const {
         if (!start_at_camera(world_, u, path)) return false;
         if (!extend_from_eye(world_, u, from_eye, path)) return false;
         return close_path(world_, u, from_light, path);

@@ -4,8 +4,6 @@
 #include "mir/paths/light_end.hpp"
 #include "mir/paths/wide_rgb.hpp"
 
-#include <array>
-
 namespace mir {
 
 /// What a path carries and how likely each of its vertices is from either side. Visibility is not
@@ -15,10 +13,11 @@ struct PathMeasure {
     WideRgb contribution;  ///< F: image mean of the radiance that such paths bring, W m^-2 sr^-1
     WideRgb leaving;       ///< R: radiance that leaves x2 towards x1, W m^-2 sr^-1
     WideRgb response;      ///< F / R: what the image receives of R, a factor of x0, x1 and x2 alone
-    std::array<double, max_path_edges + 1> from_eye{};    ///< density of x_i, drawn from x_(i-1)
-    std::array<double, max_path_edges + 1> from_light{};  ///< density of x_i, drawn from x_(i+1)
-    double next_event = 0.0;  ///< density of x_k as a light sample for x_(k-1)
-    double emission = 0.0;    ///< density of x_k as the start of a light path
+    // Plain arrays, because device code cannot index std::array.
+    double from_eye[max_path_edges + 1] = {};    ///< density of x_i, drawn from x_(i-1)
+    double from_light[max_path_edges + 1] = {};  ///< density of x_i, drawn from x_(i+1)
+    double next_event = 0.0;                     ///< density of x_k as a light sample for x_(k-1)
+    double emission = 0.0;                       ///< density of x_k as the start of a light path
 };
 
 namespace detail {
@@ -29,10 +28,10 @@ struct PathEdge {
     float d2 = 1.0f;  ///< m^2; 1 towards a directional light
 };
 
-inline PathEdge edge_between(Vec3 from, Vec3 to) {
+MIR_HD inline PathEdge edge_between(Vec3 from, Vec3 to) {
     const Vec3 d = to - from;
     const float d2 = length_squared(d);
-    return {d * (1.0f / std::sqrt(d2)), d2};
+    return {d * (1.0f / sqrtf(d2)), d2};
 }
 
 /// Evaluates one path. Indices are those of the path: x1 is the first hit.
@@ -41,7 +40,7 @@ class PathMeasurer {
  public:
     using B = typename World::Bsdf;
 
-    PathMeasurer(const World& world, const Path& path)
+    MIR_HD PathMeasurer(const World& world, const Path& path)
         : world_(world), path_(path), k_(path.edges()) {
         for (std::uint32_t i = 2; i < k_; ++i) edges_[i] = edge(i);
         if (path.light.kind == LightEndKind::directional) edges_[k_ - 1] = {-end().normal, 1.0f};
@@ -49,7 +48,7 @@ class PathMeasurer {
 
     /// x2 .. x_k alone. False when no light can leave x2, whatever is visible; `m` is unfinished
     /// then.
-    bool run_suffix(PathMeasure& m) const {
+    MIR_HD bool run_suffix(PathMeasure& m) const {
         m.next_event = path_.light.pdf_next_event;
         m.emission = path_.light.pdf_emission;
         if (!is_representable() || !suffix_sides_agree()) return false;
@@ -61,7 +60,7 @@ class PathMeasurer {
     }
 
     /// The whole path.
-    bool run(PathMeasure& m) {
+    MIR_HD bool run(PathMeasure& m) {
         if (!run_suffix(m)) return false;
         for (std::uint32_t i = 0; i < 2; ++i) edges_[i] = edge(i);
         if (!camera_sides_agree()) return false;
@@ -72,24 +71,24 @@ class PathMeasurer {
     }
 
  private:
-    [[nodiscard]] const PathVertex& end() const { return path_.x(k_); }
+    [[nodiscard]] MIR_HD const PathVertex& end() const { return path_.x(k_); }
     /// Unit vector from x_i towards the light, and towards the camera.
-    [[nodiscard]] Vec3 to_light(std::uint32_t i) const { return edges_[i].w; }
-    [[nodiscard]] Vec3 to_eye(std::uint32_t i) const { return -edges_[i - 1].w; }
+    [[nodiscard]] MIR_HD Vec3 to_light(std::uint32_t i) const { return edges_[i].w; }
+    [[nodiscard]] MIR_HD Vec3 to_eye(std::uint32_t i) const { return -edges_[i - 1].w; }
 
     /// Lights without extent are no VPLs: they need a reflecting x2.
-    [[nodiscard]] bool is_representable() const {
+    [[nodiscard]] MIR_HD bool is_representable() const {
         return k_ > 2 || (k_ == 2 && path_.light.kind == LightEndKind::area);
     }
-    [[nodiscard]] PathEdge edge(std::uint32_t i) const {
+    [[nodiscard]] MIR_HD PathEdge edge(std::uint32_t i) const {
         return edge_between(path_.position(i), path_.position(i + 1));
     }
-    [[nodiscard]] static bool above(Vec3 w, const PathVertex& x) {
+    [[nodiscard]] MIR_HD static bool above(Vec3 w, const PathVertex& x) {
         return glm::dot(w, x.normal) > 0.0f && glm::dot(w, x.shading_normal) > 0.0f;
     }
     /// Every reflecting vertex must see both neighbours on its own side. x2 sends light as a VPL
     /// does, so only its geometric normal counts towards the camera.
-    [[nodiscard]] bool suffix_sides_agree() const {
+    [[nodiscard]] MIR_HD bool suffix_sides_agree() const {
         for (std::uint32_t i = 2; i < k_; ++i) {
             if (!above(to_light(i), path_.x(i))) return false;
             if (i > 2 && !above(to_eye(i), path_.x(i))) return false;
@@ -97,29 +96,29 @@ class PathMeasurer {
         const bool lamp_behind = k_ > 2 && path_.light.kind == LightEndKind::area;
         return !lamp_behind || glm::dot(to_eye(k_), end().normal) > 0.0f;
     }
-    [[nodiscard]] bool camera_sides_agree() const {
+    [[nodiscard]] MIR_HD bool camera_sides_agree() const {
         return above(to_light(1), path_.x(1)) && above(to_eye(1), path_.x(1)) &&
                glm::dot(to_eye(2), path_.x(2).normal) > 0.0f;
     }
 
     /// cos at x_i, shading normal, times cos at x_(i+1), geometric normal, over d^2.
-    [[nodiscard]] float geometry(std::uint32_t i) const {
+    [[nodiscard]] MIR_HD float geometry(std::uint32_t i) const {
         const PathEdge& e = edges_[i];
         const float receiver = larger(glm::dot(e.w, path_.x(i).shading_normal), 0.0f);
         return receiver * larger(-glm::dot(e.w, path_.x(i + 1).normal), 0.0f) / e.d2;
     }
     /// Irradiance at the last reflecting vertex.
-    [[nodiscard]] Rgb light_at(std::uint32_t receiver) const {
+    [[nodiscard]] MIR_HD Rgb light_at(std::uint32_t receiver) const {
         const PathEdge& e = edges_[receiver];
         const float cosine = larger(glm::dot(e.w, path_.x(receiver).shading_normal), 0.0f);
         return light_at_receiver(world_, end(), path_.light, -e.w, e.d2) * cosine;
     }
-    [[nodiscard]] Rgb bsdf(std::uint32_t i) const {
+    [[nodiscard]] MIR_HD Rgb bsdf(std::uint32_t i) const {
         const PathVertex& x = path_.x(i);
         return B::eval(world_.params(x), x.shading_normal, to_light(i), to_eye(i));
     }
     /// Irradiance at x2, spread as a Lambertian surface would, or the emission of a lamp there.
-    [[nodiscard]] WideRgb leaving_second() const {
+    [[nodiscard]] MIR_HD WideRgb leaving_second() const {
         if (k_ == 2) return path_.light.emission;
         WideRgb light = light_at(k_ - 1);
         for (std::uint32_t i = k_ - 1; i > 2; --i)
@@ -129,7 +128,7 @@ class PathMeasurer {
                                             {path_.spread.x, path_.spread.y}, path_.spread.z);
         return light * sample.weight * static_cast<double>(inv_pi);
     }
-    [[nodiscard]] double density_from_eye(std::uint32_t i) const {
+    [[nodiscard]] MIR_HD double density_from_eye(std::uint32_t i) const {
         const PathEdge& e = edges_[i - 1];
         const PathVertex& from = path_.x(i - 1);
         if (i == k_ && path_.light.kind != LightEndKind::area) return 0.0;
@@ -139,7 +138,7 @@ class PathMeasurer {
                    : B::pdf(world_.params(from), from.shading_normal, e.w, to_eye(i - 1));
         return static_cast<double>(pdf) * static_cast<double>(cosine) / static_cast<double>(e.d2);
     }
-    [[nodiscard]] double density_from_light(std::uint32_t i) const {
+    [[nodiscard]] MIR_HD double density_from_light(std::uint32_t i) const {
         const PathEdge& e = edges_[i];
         const float cosine = larger(glm::dot(e.w, path_.x(i).normal), 0.0f);
         if (i + 1 == k_) return light_ray_density(world_, end(), path_.light, -e.w, cosine, e.d2);
@@ -151,7 +150,7 @@ class PathMeasurer {
     const World& world_;
     const Path& path_;
     std::uint32_t k_;
-    std::array<PathEdge, max_path_edges> edges_{};
+    PathEdge edges_[max_path_edges];
 };
 
 }  // namespace detail
@@ -159,13 +158,13 @@ class PathMeasurer {
 /// Measures x2 .. x_k alone: `leaving`, `from_light`, `from_eye` from x3 on, and the light's own
 /// densities. x0 and x1 are not read. False when no light can leave x2.
 template <class World>
-bool measure_suffix(const World& world, const Path& path, PathMeasure& m) {
+MIR_HD bool measure_suffix(const World& world, const Path& path, PathMeasure& m) {
     return detail::PathMeasurer<World>(world, path).run_suffix(m);
 }
 
 /// Measures a path of 2 to max_path_edges edges. False when no light can pass along it.
 template <class World>
-bool measure_path(const World& world, const Path& path, PathMeasure& m) {
+MIR_HD bool measure_path(const World& world, const Path& path, PathMeasure& m) {
     return detail::PathMeasurer<World>(world, path).run(m);
 }
 

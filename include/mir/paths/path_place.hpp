@@ -9,10 +9,9 @@ namespace mir {
 /// Place of the VPL of a path, x2, along a space-filling curve through the scene, below 2^30. Paths
 /// in the order of their places are spread evenly by systematic resampling.
 template <class World>
-std::uint64_t place_of_vpl(const World& world, const Path& path) {
-    const LightTable& lights = world.lights;
-    const Vec3 corner = lights.centre() - lights.radius();
-    return morton_code((path.x(2).position - corner) / (2.0f * lights.radius()));
+MIR_HD std::uint64_t place_of_vpl(const World& world, const Path& path) {
+    const Vec3 corner = world.lights.centre - world.lights.radius;
+    return morton_code((path.x(2).position - corner) / (2.0f * world.lights.radius));
 }
 
 }  // namespace mir

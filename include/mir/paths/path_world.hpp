@@ -10,42 +10,82 @@
 #include "mir/shading/surface_table.hpp"
 
 #include <limits>
-#include <optional>
 
 namespace mir {
 
-/// What full paths run through. A value of references; the scene data must outlive it. Const use
-/// from any thread.
-template <Bsdf B, RayCaster R, Visibility V>
+/// What full paths run through, in memory of space `S`: a value of views that may be passed to a
+/// kernel. The scene data must outlive it. On the host `R` may be any RayCaster, elsewhere it is a
+/// PointFinder. Const use from any thread.
+template <Bsdf B, class R, Visibility V, Space S = Space::host>
 struct PathWorld {
-    using Bsdf = B;
+    static_assert(PointFinder<R> || (RayCaster<R> && S == Space::host),
+                  "mir: paths in a kernel need a ray caster with find_point(), such as "
+                  "KdRayCaster<Space::device>");
+    static_assert(AccessibleFrom<V, S>,
+                  "mir: the visibility of a PathWorld lies in another memory than its scene");
 
-    const WorldGeometry& geometry;
-    const LightTable& lights;
-    const SurfaceTable<B>& surfaces;
+    using Bsdf = B;
+    static constexpr Space space = S;
+
+    GeometryView<S> geometry;
+    LightTableView<S> lights;
+    SurfaceTableView<S, B> surfaces;
     R caster;
     V visibility;
-    Camera camera;
+    CameraOptics camera;
     float aspect = 1.0f;                              ///< width / height of the film
     float bound = std::numeric_limits<float>::max();  ///< of the geometry term x1, x2; m^-2
 
-    /// First surface along a ray as a path vertex.
-    [[nodiscard]] std::optional<PathVertex> hit(Ray ray) const {
-        const auto p = caster.closest_hit(ray);
-        if (!p) return std::nullopt;
-        return PathVertex{lift(p->position, p->geometric_normal, geometry.ray_offset()),
-                          p->geometric_normal,
-                          p->shading_normal,
-                          p->barycentrics,
-                          p->triangle,
-                          p->material};
+    PathWorld(const GeometryView<S>& geometry_view, const LightTableView<S>& light_table,
+              const SurfaceTableView<S, B>& surface_table, R ray_caster, V sight,
+              const CameraOptics& optics, float film_aspect = 1.0f,
+              float geometry_bound = std::numeric_limits<float>::max())
+        : geometry(geometry_view),
+          lights(light_table),
+          surfaces(surface_table),
+          caster(ray_caster),
+          visibility(sight),
+          camera(optics),
+          aspect(film_aspect),
+          bound(geometry_bound) {}
+
+    /// Views of what the host has.
+    PathWorld(const WorldGeometry& world_geometry, const LightTable& light_table,
+              const SurfaceTable<B>& surface_table, R ray_caster, V sight, const Camera& seen_from,
+              float film_aspect = 1.0f,
+              float geometry_bound = std::numeric_limits<float>::max()) requires(S == Space::host)
+        : PathWorld(world_geometry.view(), light_table.view(), surface_table.view(), ray_caster,
+                    sight, seen_from.optics(), film_aspect, geometry_bound) {}
+
+    /// Writes the first surface along a ray as a path vertex; false when there is none.
+    [[nodiscard]] MIR_HD bool hit(const Ray& ray, PathVertex& vertex) const {
+        SurfacePoint p;
+        if (!find(ray, p)) return false;
+        vertex = {lift(p.position, p.geometric_normal, geometry.ray_offset),
+                  p.geometric_normal,
+                  p.shading_normal,
+                  p.barycentrics,
+                  p.triangle,
+                  p.material};
+        return true;
     }
-    [[nodiscard]] const typename B::Params& params(const PathVertex& v) const {
+    [[nodiscard]] MIR_HD const typename B::Params& params(const PathVertex& v) const {
         return surfaces.params(v.material);
     }
+
+ private:
+    [[nodiscard]] MIR_HD bool find(const Ray& ray, SurfacePoint& point) const {
+        if constexpr (PointFinder<R>) {
+            return caster.find_point(ray, point);
+        } else {
+            const auto found = caster.closest_hit(ray);
+            if (found) point = *found;
+            return found.has_value();
+        }
+    }
 };
-template <Bsdf B, RayCaster R, Visibility V>
-PathWorld(const WorldGeometry&, const LightTable&, const SurfaceTable<B>&, R, V, Camera, float,
-          float) -> PathWorld<B, R, V>;
+template <Bsdf B, class R, Visibility V>
+PathWorld(const WorldGeometry&, const LightTable&, const SurfaceTable<B>&, R, V, const Camera&,
+          float, float) -> PathWorld<B, R, V>;
 
 }  // namespace mir

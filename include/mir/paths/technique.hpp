@@ -17,7 +17,8 @@ struct Technique {
 };
 
 /// Which techniques are used how often: first the length, geometrically distributed and cut to
-/// [min_edges, max_edges], then s, uniform over what `techniques` allows. Immutable value.
+/// [min_edges, max_edges], then s, uniform over what `techniques` allows. Immutable
+/// value; made on the host, used anywhere.
 class TechniqueTable {
  public:
     /// @throws Error(invalid_argument) when the range is empty or too long.
@@ -32,25 +33,26 @@ class TechniqueTable {
         for (std::uint32_t k = min_; k <= max_; ++k) pmf_[k] /= total;
     }
 
-    [[nodiscard]] std::uint32_t min_edges() const { return min_; }
-    [[nodiscard]] std::uint32_t max_edges() const { return max_; }
+    [[nodiscard]] MIR_HD std::uint32_t min_edges() const { return min_; }
+    [[nodiscard]] MIR_HD std::uint32_t max_edges() const { return max_; }
 
     /// Technique for one number in [0, 1).
-    [[nodiscard]] Technique sample(double u) const {
+    [[nodiscard]] MIR_HD Technique sample(double u) const {
         Technique t{min_, 1};
         while (t.edges < max_ && u >= pmf_[t.edges]) u -= pmf_[t.edges++];
         if (techniques_ == PathTechniques::camera) return t;
-        const double rest = std::max(0.0, u / pmf_[t.edges]) * t.edges;
-        t.from_light = std::min(static_cast<std::uint32_t>(rest), t.edges - 1);
+        const double rest = (u > 0.0 ? u / pmf_[t.edges] : 0.0) * t.edges;
+        const auto from_light = static_cast<std::uint32_t>(rest);
+        t.from_light = from_light < t.edges ? from_light : t.edges - 1;
         return t;
     }
 
     /// Probability of a length.
-    [[nodiscard]] double probability(std::uint32_t edges) const {
+    [[nodiscard]] MIR_HD double probability(std::uint32_t edges) const {
         return edges >= min_ && edges <= max_ ? pmf_[edges] : 0.0;
     }
     /// Probability of s, given the length.
-    [[nodiscard]] double probability_of(Technique t) const {
+    [[nodiscard]] MIR_HD double probability_of(Technique t) const {
         if (t.from_light >= t.edges) return 0.0;
         if (techniques_ == PathTechniques::bidirectional) return 1.0 / t.edges;
         return t.from_light == 1 ? 1.0 : 0.0;
@@ -66,13 +68,13 @@ class TechniqueTable {
     std::uint32_t min_;
     std::uint32_t max_;
     PathTechniques techniques_;
-    std::array<double, max_path_edges + 1> pmf_{};
+    double pmf_[max_path_edges + 1] = {};
 };
 
 /// Density of x_(first) .. x_k when the vertices before are given and the last `s` come from the
 /// light, for s <= k - first + 1.
-inline double technique_density(const PathMeasure& m, std::uint32_t k, std::uint32_t s,
-                                std::uint32_t first = 2) {
+MIR_HD inline double technique_density(const PathMeasure& m, std::uint32_t k, std::uint32_t s,
+                                       std::uint32_t first = 2) {
     double density = s == 0 ? 1.0 : s == 1 ? m.next_event : m.emission;
     for (std::uint32_t i = first; i <= k - s; ++i) density *= m.from_eye[i];
     for (std::uint32_t i = k - s + 1; i < k; ++i) density *= m.from_light[i];
@@ -81,7 +83,8 @@ inline double technique_density(const PathMeasure& m, std::uint32_t k, std::uint
 
 /// Density with which the table's techniques together build the path: what the balance heuristic
 /// divides by (Veach 1997, section 9.2).
-inline double mixture_density(const PathMeasure& m, std::uint32_t k, const TechniqueTable& table) {
+MIR_HD inline double mixture_density(const PathMeasure& m, std::uint32_t k,
+                                     const TechniqueTable& table) {
     double density = 0.0;
     for (std::uint32_t s = 0; s < k; ++s) {
         const double probability = table.probability_of({k, s});
@@ -91,7 +94,8 @@ inline double mixture_density(const PathMeasure& m, std::uint32_t k, const Techn
 }
 
 /// The same for x3 .. x_k alone, x2 being given: the techniques that reach x2 from the camera.
-inline double suffix_density(const PathMeasure& m, std::uint32_t k, const TechniqueTable& table) {
+MIR_HD inline double suffix_density(const PathMeasure& m, std::uint32_t k,
+                                    const TechniqueTable& table) {
     double density = 0.0;
     for (std::uint32_t s = 0; s + 2 <= k; ++s) {
         const double probability = table.probability_of({k, s});

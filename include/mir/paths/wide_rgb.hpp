@@ -13,21 +13,21 @@ struct WideRgb {
     double b = 0.0;
 
     constexpr WideRgb() = default;
-    constexpr WideRgb(double red, double green, double blue) : r(red), g(green), b(blue) {}
+    MIR_HD constexpr WideRgb(double red, double green, double blue) : r(red), g(green), b(blue) {}
     /// Not explicit: nothing is lost.
-    constexpr WideRgb(Rgb c)
+    MIR_HD constexpr WideRgb(Rgb c)
         : WideRgb(static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)) {}
 
-    friend constexpr WideRgb operator*(const WideRgb& a, const WideRgb& o) {
+    friend MIR_HD constexpr WideRgb operator*(const WideRgb& a, const WideRgb& o) {
         return {a.r * o.r, a.g * o.g, a.b * o.b};
     }
-    friend constexpr WideRgb operator*(const WideRgb& a, double s) {
+    friend MIR_HD constexpr WideRgb operator*(const WideRgb& a, double s) {
         return {a.r * s, a.g * s, a.b * s};
     }
 };
 
 /// Rec. 709 luminance, in the unit of `c`.
-constexpr double luminance(const WideRgb& c) {
+MIR_HD constexpr double luminance(const WideRgb& c) {
     constexpr double red = luminance(Rgb{1, 0, 0});
     constexpr double green = luminance(Rgb{0, 1, 0});
     constexpr double blue = luminance(Rgb{0, 0, 1});
@@ -35,14 +35,16 @@ constexpr double luminance(const WideRgb& c) {
 }
 
 /// True when every channel is exactly zero.
-constexpr bool is_black(const WideRgb& c) { return c.r == 0.0 && c.g == 0.0 && c.b == 0.0; }
+MIR_HD constexpr bool is_black(const WideRgb& c) { return c.r == 0.0 && c.g == 0.0 && c.b == 0.0; }
 
 /// In single precision; what is too small becomes 0 and what is too large infinite.
-constexpr Rgb narrowed(const WideRgb& c) {
+MIR_HD constexpr Rgb narrowed(const WideRgb& c) {
     return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
 }
 
 /// The same colour with luminance 1. `c` must not be black.
-constexpr Rgb with_unit_luminance(const WideRgb& c) { return narrowed(c * (1.0 / luminance(c))); }
+MIR_HD constexpr Rgb with_unit_luminance(const WideRgb& c) {
+    return narrowed(c * (1.0 / luminance(c)));
+}
 
 }  // namespace mir

@@ -4,6 +4,7 @@
 #include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/metropolis/proposal_sampler.hpp"
 #include "mir/runtime/render_context.hpp"
+#include "mir/runtime/sampling_engine.hpp"
 #include "mir/sampling/bidirectional_sampler.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 #include "mir/sampling/vpl_roulette.hpp"
@@ -80,8 +81,17 @@ auto with_sampler(const RenderContext<B, Engine, E>& c, const LightTable& lights
     // With direct light alone, and not by VPLs, there is nothing to sample: light paths know that.
     const bool any = s.max_bounce > 1 || s.direct == DirectLight::vpl;
     if (!any || !needs_probe(s)) {
-        if (any && s.sampler == SamplerKind::metropolis)
-            return use(MetropolisSampler(paths, metropolis_options(s), s.limits));
+        if (any && s.sampler == SamplerKind::metropolis) {
+            if constexpr (SamplingEngine<Engine>)
+                return use(EngineMetropolis<Engine>{c.engine,
+                                                    lights,
+                                                    {c.rays.camera.optics(), c.aspect(), bound},
+                                                    metropolis_options(s),
+                                                    s.limits,
+                                                    c.monitor});
+            else
+                return use(MetropolisSampler(paths, metropolis_options(s), s.limits));
+        }
         return use(LightPaths(light_paths, light_path_options(s), s.limits));
     }
     const auto probe = image_probe(c, bound);

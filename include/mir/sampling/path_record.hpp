@@ -8,7 +8,8 @@ namespace mir {
 
 /// The path VPL at x2 of a path. `weight` counts recorded states.
 template <class World>
-VplRecord record_of(const World& world, const WeightedPath& p, Rgb intensity, double weight) {
+MIR_HD VplRecord record_of(const World& world, const WeightedPath& p, Rgb intensity,
+                           double weight) {
     const PathVertex& x = p.path.x(2);
     const bool on_lamp = p.path.edges() == 2;
     VplRecord r;

@@ -73,16 +73,12 @@ class VplGenerator {
  private:
     template <class Numbers>
     bool build(Numbers& u, Technique t, Path& path) const {
-        path.vertices.assign(1, {});
+        path.vertices.resize(1);
         if (t.from_light + 1 < t.edges)
             return start_at_probe(u, path) &&
                    extend_from_eye(world_, u, t.edges - t.from_light, path) &&
                    close_path(world_, u, t.from_light, path);
-        LightSubpath part;
-        start_at_light(world_, u, part);
-        if (!extend_from_light(world_, u, t.from_light, part)) return false;
-        join(path, part);
-        return true;
+        return attach_light_path(world_, u, t.from_light, path);
     }
 
     template <class Numbers>
@@ -91,9 +87,10 @@ class VplGenerator {
         const auto ray =
             ray_from_probe(probe_, u.at(path_dimension::film), pair_at(u, d), u.at(d + 2));
         if (!ray) return false;
-        const auto second = world_.hit(*ray);
-        if (second) path.vertices.push_back(*second);
-        return second.has_value();
+        PathVertex second;
+        if (!world_.hit(*ray, second)) return false;
+        path.vertices.push_back(second);
+        return true;
     }
 
     [[nodiscard]] bool is_connected(const Path& path, Technique t) const {

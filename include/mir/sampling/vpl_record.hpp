@@ -28,7 +28,7 @@ struct VplRecord {
 };
 
 /// True when two records lie at one geometric VPL.
-inline bool is_same_vpl(const VplRecord& a, const VplRecord& b) {
+MIR_HD inline bool is_same_vpl(const VplRecord& a, const VplRecord& b) {
     return same_place(a.origin, b.origin) && a.vpl.normal == b.vpl.normal;
 }
 

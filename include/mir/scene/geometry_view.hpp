@@ -29,6 +29,11 @@ struct GeometryView {
         return glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
     }
 
+    /// m^2.
+    [[nodiscard]] MIR_HD float area(std::uint32_t triangle) const {
+        return 0.5f * glm::length(area_vector(triangle));
+    }
+
     /// Unit normal of the front of a triangle.
     [[nodiscard]] MIR_HD Vec3 front_normal(std::uint32_t triangle) const {
         return glm::normalize(area_vector(triangle));

@@ -37,9 +37,10 @@ struct DirectionalLight {
     std::uint16_t light_group = 0;
 };
 
-/// Share of a spot light's intensity sent along the unit vector `w`, 0..1.
-/// Source: KHR_lights_punctual, "Inner and outer cone angles".
-inline float spot_falloff(const SpotLight& light, Vec3 w) {
+/// Share of a spot light's intensity sent along the unit vector `w`, 0..1, for a light with these
+/// members. Source: KHR_lights_punctual, "Inner and outer cone angles".
+template <class Spot>
+MIR_HD float spot_falloff(const Spot& light, Vec3 w) {
     const float width = larger(light.cos_inner - light.cos_outer, 1e-4f);
     const float t = (glm::dot(w, light.direction) - light.cos_outer) / width;
     const float clamped = smaller(larger(t, 0.0f), 1.0f);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/discrete_distribution.hpp"
+#include "mir/scene/light_table_view.hpp"
 #include "mir/scene/world_geometry.hpp"
 
 #include <optional>
@@ -10,18 +10,6 @@
 #include <vector>
 
 namespace mir {
-
-/// A point on an emissive triangle.
-struct EmitterSample {
-    Vec3 position{0};         ///< on the surface, not lifted
-    Vec3 normal{0};           ///< unit, of the triangle's front
-    Rgb radiance;             ///< W m^-2 sr^-1
-    float pdf_area = 0.0f;    ///< of this point among all emissive triangles, m^-2
-    bool both_sides = false;  ///< shines from the back too
-    std::uint16_t light_group = 0;
-    std::uint32_t triangle = 0;
-    Vec2 barycentrics{0};
-};
 
 /// All lights of a scene, ready to be sampled. Immutable; const use from any thread. The Scene and
 /// the WorldGeometry must outlive it.
@@ -53,33 +41,52 @@ class LightTable {
 
     /// Any light by power, as an index: first emissive triangles, then point, spot and directional
     /// lights. Must not be empty().
-    [[nodiscard]] std::uint32_t sample_light(float u) const { return by_power_.sample(u); }
+    [[nodiscard]] std::uint32_t sample_light(float u) const { return view().sample_light(u); }
     [[nodiscard]] float light_probability(std::uint32_t light) const {
-        return by_power_.probability(light);
+        return view().light_probability(light);
     }
 
     /// Index, as sample_light() counts, of an emissive triangle of the WorldGeometry.
     [[nodiscard]] std::optional<std::uint32_t> light_of(std::uint32_t triangle) const {
-        const auto found = std::lower_bound(triangles_.begin(), triangles_.end(), triangle);
-        if (found == triangles_.end() || *found != triangle) return std::nullopt;
-        return static_cast<std::uint32_t>(found - triangles_.begin());
+        const std::uint32_t light = view().light_of(triangle);
+        if (light == LightTableView<Space::host>::none) return std::nullopt;
+        return light;
     }
 
     /// Point on the emissive triangle at `index` of emissive_triangles(); pdf_area is that of the
     /// triangle alone.
-    [[nodiscard]] EmitterSample point_on(std::uint32_t index, Vec2 uv) const;
+    [[nodiscard]] EmitterSample point_on(std::uint32_t index, Vec2 uv) const {
+        return view().point_on(geometry_->view(), index, uv);
+    }
 
     /// Bounding sphere that directional light is sent through.
     [[nodiscard]] Vec3 centre() const { return geometry_->bounds().centre(); }
     [[nodiscard]] float radius() const { return 0.5f * geometry_->bounds().diagonal(); }
 
+    /// What kernels on the host read; valid until the table is changed or ends.
+    [[nodiscard]] LightTableView<Space::host> view() const {
+        return {triangles_.data(),
+                static_cast<std::uint32_t>(triangles_.size()),
+                delta_sources_.data(),
+                lamps_.data(),
+                by_power_.view(),
+                centre(),
+                radius()};
+    }
+    /// The arrays of view().
+    [[nodiscard]] std::span<const DeltaSource> delta_sources() const { return delta_sources_; }
+    [[nodiscard]] std::span<const LampEntry> lamps() const { return lamps_; }
+    [[nodiscard]] const DiscreteDistribution& by_power() const { return by_power_; }
+
  private:
     void add_triangles(std::vector<float>& power);
-    void add_delta_lights(std::vector<float>& power) const;
+    void add_delta_lights(std::vector<float>& power);
 
     const Scene* scene_;
     const WorldGeometry* geometry_;
     std::vector<std::uint32_t> triangles_;
+    std::vector<DeltaSource> delta_sources_;
+    std::vector<LampEntry> lamps_;
     DiscreteDistribution emitters_;
     DiscreteDistribution by_power_;
 };
@@ -102,8 +109,10 @@ inline float spot_solid_angle(const SpotLight& s) {
 
 inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     : scene_(&scene), geometry_(&geometry) {
-    for (const Material& m : scene.materials)
+    for (const Material& m : scene.materials) {
         detail::check_emission(m.emission, "material", m.name);
+        lamps_.push_back({m.emission, m.emits_from_both_sides, m.light_group});
+    }
     for (const PointLight& l : scene.point_lights)
         detail::check_emission(l.intensity, "point light", l.name);
     for (const SpotLight& l : scene.spot_lights)
@@ -127,28 +136,21 @@ inline void LightTable::add_triangles(std::vector<float>& power) {
     }
 }
 
-inline void LightTable::add_delta_lights(std::vector<float>& power) const {
+inline void LightTable::add_delta_lights(std::vector<float>& power) {
+    const auto add = [&](const DeltaSource& source, float its_power) {
+        delta_sources_.push_back(source);
+        power.push_back(its_power);
+    };
     for (const PointLight& l : scene_->point_lights)
-        power.push_back(luminance(l.intensity) * 4.0f * pi);
+        add({LightEndKind::point, l.light_group, l.intensity, l.position},
+            luminance(l.intensity) * 4.0f * pi);
     for (const SpotLight& l : scene_->spot_lights)
-        power.push_back(luminance(l.intensity) * detail::spot_solid_angle(l));
+        add({LightEndKind::spot, l.light_group, l.intensity, l.position, l.direction, l.cos_inner,
+             l.cos_outer},
+            luminance(l.intensity) * detail::spot_solid_angle(l));
     for (const DirectionalLight& l : scene_->directional_lights)
-        power.push_back(luminance(l.irradiance) * pi * radius() * radius());
-}
-
-inline EmitterSample LightTable::point_on(std::uint32_t index, Vec2 uv) const {
-    const std::uint32_t t = triangles_[index];
-    const Material& m = scene_->materials[geometry_->material_of(t)];
-    EmitterSample s;
-    s.barycentrics = square_to_triangle(uv);
-    s.normal = geometry_->front_normal(t);
-    s.position = geometry_->surface_point(t, s.barycentrics, -s.normal).position;
-    s.radiance = m.emission;
-    s.pdf_area = 1.0f / geometry_->area(t);
-    s.both_sides = m.emits_from_both_sides;
-    s.light_group = m.light_group;
-    s.triangle = t;
-    return s;
+        add({LightEndKind::directional, l.light_group, l.irradiance, {}, l.direction},
+            luminance(l.irradiance) * pi * radius() * radius());
 }
 
 inline EmitterSample LightTable::sample_emitter(float u, Vec2 uv) const {

@@ -63,9 +63,7 @@ class WorldGeometry {
     }
 
     /// m^2.
-    [[nodiscard]] float area(std::uint32_t triangle) const {
-        return 0.5f * glm::length(view().area_vector(triangle));
-    }
+    [[nodiscard]] float area(std::uint32_t triangle) const { return view().area(triangle); }
 
     /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
     /// travels along `direction`.

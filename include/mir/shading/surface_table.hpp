@@ -32,14 +32,14 @@ class SurfaceTable {
     }
 
     [[nodiscard]] const typename B::Params& params(std::uint32_t material) const {
-        return entries_[material].params;
+        return view().params(material);
     }
     /// Luminance of the reflectance at a typical angle, 0..1: what Keller's rho averages.
     [[nodiscard]] float mean_albedo(std::uint32_t material) const {
         return entries_[material].mean_albedo;
     }
     [[nodiscard]] bool is_lambertian(std::uint32_t material) const {
-        return entries_[material].lambertian;
+        return view().is_lambertian(material);
     }
 
  private:

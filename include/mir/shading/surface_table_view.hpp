@@ -31,6 +31,13 @@ struct SurfaceTableView {
         const SurfaceEntry<B>& e = entries[p.material];
         return {p.shading_normal, wo, p.front || e.both_sides ? e.emission : Rgb{}, e.params};
     }
+
+    [[nodiscard]] MIR_HD const typename B::Params& params(std::uint32_t material) const {
+        return entries[material].params;
+    }
+    [[nodiscard]] MIR_HD bool is_lambertian(std::uint32_t material) const {
+        return entries[material].lambertian;
+    }
 };
 
 }  // namespace mir

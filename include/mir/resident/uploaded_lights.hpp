@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/resident/uploaded_array.hpp"
+#include "mir/scene/light_table.hpp"
+
+namespace mir {
+
+/// The lights of a scene in a backend's memory.
+template <Backend B>
+class UploadedLights {
+ public:
+    /// Starts the copies on `queue`; `lights` must live until they are done.
+    UploadedLights(const B& backend, typename B::Queue& queue, const LightTable& lights)
+        : triangles_(backend, queue, lights.emissive_triangles()),
+          delta_sources_(backend, queue, lights.delta_sources()),
+          lamps_(backend, queue, lights.lamps()),
+          cumulative_(backend, queue, lights.by_power().cumulative()),
+          values_(lights.view()) {}
+
+    /// For kernels that follow on the queue; valid until this is moved or ends.
+    [[nodiscard]] LightTableView<B::space> view() const {
+        return {triangles_.data(),
+                values_.triangle_count,
+                delta_sources_.data(),
+                lamps_.data(),
+                {cumulative_.data(), values_.by_power.size, values_.by_power.total},
+                values_.centre,
+                values_.radius};
+    }
+
+ private:
+    UploadedArray<B, std::uint32_t> triangles_;
+    UploadedArray<B, DeltaSource> delta_sources_;
+    UploadedArray<B, LampEntry> lamps_;
+    UploadedArray<B, double> cumulative_;
+    LightTableView<Space::host> values_;  ///< of which only the values are used
+};
+
+}  // namespace mir

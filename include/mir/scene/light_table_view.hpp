@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/discrete_distribution.hpp"
+#include "mir/core/warp.hpp"
+#include "mir/scene/geometry_view.hpp"
+#include "mir/scene/light.hpp"
+
+namespace mir {
+
+/// A point on an emissive triangle.
+struct EmitterSample {
+    Vec3 position{0};         ///< on the surface, not lifted
+    Vec3 normal{0};           ///< unit, of the triangle's front
+    Rgb radiance;             ///< W m^-2 sr^-1
+    float pdf_area = 0.0f;    ///< of this point among all emissive triangles, m^-2
+    bool both_sides = false;  ///< shines from the back too
+    std::uint16_t light_group = 0;
+    std::uint32_t triangle = 0;
+    Vec2 barycentrics{0};
+};
+
+/// What a light path may end on.
+enum class LightEndKind : std::uint8_t {
+    area,        ///< a point of an emissive triangle
+    point,       ///< a point light
+    spot,        ///< a spot light
+    directional  ///< light from outside the scene: it has a direction, but no place
+};
+
+/// A light without extent: a PointLight, SpotLight or DirectionalLight but for its name.
+struct DeltaSource {
+    LightEndKind kind = LightEndKind::point;
+    std::uint16_t light_group = 0;
+    Rgb emission;             ///< intensity in W sr^-1, or irradiance in W m^-2
+    Vec3 position{0};         ///< metres; of directional lights none
+    Vec3 direction{0, 0, 1};  ///< unit, along which it shines; of point lights any
+    float cos_inner = 1.0f;   ///< of spot lights
+    float cos_outer = 1.0f;   ///< of spot lights
+};
+
+/// What the triangles of a material emit.
+struct LampEntry {
+    Rgb radiance;  ///< W m^-2 sr^-1
+    bool both_sides = false;
+    std::uint16_t light_group = 0;
+};
+
+/// What kernels read of a LightTable. Lights are counted as there: first emissive triangles, then
+/// point, spot and directional lights. A view; thread-safe.
+template <Space S>
+struct LightTableView {
+    static constexpr Space space = S;
+
+    /// Answer of light_of() for triangles that emit nothing.
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+    const std::uint32_t* triangles = nullptr;  ///< emissive ones, ascending
+    std::uint32_t triangle_count = 0;
+    const DeltaSource* delta_sources = nullptr;  ///< point, spot, then directional lights
+    const LampEntry* lamps = nullptr;            ///< by material
+    DiscreteDistributionView<S> by_power;        ///< of all lights
+    Vec3 centre{0};                              ///< of the scene's bounding sphere, metres
+    float radius = 0.0f;                         ///< of the scene's bounding sphere, metres
+
+    [[nodiscard]] MIR_HD bool empty() const { return by_power.empty(); }
+    /// Luminance of the power emitted by everything, W.
+    [[nodiscard]] MIR_HD double power() const { return by_power.total; }
+
+    /// Any light by power, for u in [0, 1). Must not be empty().
+    [[nodiscard]] MIR_HD std::uint32_t sample_light(float u) const { return by_power.sample(u); }
+    [[nodiscard]] MIR_HD float light_probability(std::uint32_t light) const {
+        return by_power.probability(light);
+    }
+
+    [[nodiscard]] MIR_HD bool is_triangle(std::uint32_t light) const {
+        return light < triangle_count;
+    }
+    /// A light that is no triangle.
+    [[nodiscard]] MIR_HD const DeltaSource& delta_source(std::uint32_t light) const {
+        return delta_sources[light - triangle_count];
+    }
+
+    /// Index, as sample_light() counts, of an emissive triangle of the WorldGeometry, or `none`.
+    [[nodiscard]] MIR_HD std::uint32_t light_of(std::uint32_t triangle) const {
+        const std::uint32_t found = first_not_below(triangles, triangle_count, triangle);
+        return found < triangle_count && triangles[found] == triangle ? found : none;
+    }
+
+    /// Point on the emissive triangle that is light `light`; pdf_area is that of the triangle
+    /// alone.
+    [[nodiscard]] MIR_HD EmitterSample point_on(const GeometryView<S>& geometry,
+                                                std::uint32_t light, Vec2 uv) const {
+        const std::uint32_t t = triangles[light];
+        const LampEntry& lamp = lamps[geometry.materials[t]];
+        EmitterSample s;
+        s.barycentrics = square_to_triangle(uv);
+        s.normal = geometry.front_normal(t);
+        s.position = geometry.surface_point(t, s.barycentrics, -s.normal).position;
+        s.radiance = lamp.radiance;
+        s.pdf_area = 1.0f / geometry.area(t);
+        s.both_sides = lamp.both_sides;
+        s.light_group = lamp.light_group;
+        s.triangle = t;
+        return s;
+    }
+};
+
+}  // namespace mir

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd_ray_caster.hpp"
+#include "mir/accel/kd_tree_visibility.hpp"
+#include "mir/resident/backend_metropolis.hpp"
+#include "mir/resident/uploaded_geometry.hpp"
+#include "mir/resident/uploaded_kd_tree.hpp"
+#include "mir/resident/uploaded_lights.hpp"
+#include "mir/resident/uploaded_surfaces.hpp"
+
+namespace mirtest {
+
+/// What a backend needs of a scene that chains run through. nvcc compiles this, but no builder of
+/// kd-trees.
+template <mir::Bsdf F>
+struct ChainParts {
+    const mir::WorldGeometry& geometry;
+    const mir::LightTable& lights;
+    const mir::SurfaceTable<F>& surfaces;
+    const mir::KdTree& tree;
+    mir::CameraOptics camera;
+    float aspect;
+    float bound;
+};
+
+/// Copies the scene into the backend's memory and runs the chains there, as many at a time as fit
+/// into `bytes`.
+template <mir::Backend B, mir::Bsdf F>
+mir::VplRecords chains_on(const B& backend, const ChainParts<F>& parts,
+                          const mir::MetropolisOptions& options, std::uint64_t bytes = 1u << 28) {
+    auto queue = backend.queue();
+    const mir::UploadedGeometry<B> geometry(backend, queue, parts.geometry);
+    const mir::UploadedLights<B> lights(backend, queue, parts.lights);
+    const mir::UploadedSurfaces<B, F> surfaces(backend, queue, parts.surfaces);
+    const mir::UploadedKdTree<B> tree(backend, queue, parts.tree);
+    using Caster = mir::KdRayCaster<B::space>;
+    using Sight = mir::KdTreeVisibility<B::space>;
+    const mir::PathWorld<F, Caster, Sight, B::space> world(
+        geometry.view(), lights.view(), surfaces.view(), Caster(geometry.view(), tree.view()),
+        Sight{tree.view()}, parts.camera, parts.aspect, parts.bound);
+    return mir::BackendMetropolis(backend, world, options, {}, bytes).sample(queue);
+}
+
+}  // namespace mirtest
