@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "cuda/segments/gpu_segment_bits.hpp"
+#include "mir/accel/kd_tree_visibility.hpp"
+#include "mir/cuda/backend.cuh"
+#include "mir/resident/uploaded_kd_tree.hpp"
+#include "support/fused_visibility.hpp"
+#include "support/segment_bits.hpp"
+
+namespace mirtest {
+
+std::vector<std::uint32_t> gpu_segment_bits(const mir::cuda::Backend& backend,
+                                            const mir::KdTree& tree,
+                                            std::span<const SegmentEnds> segments,
+                                            Rounding rounding) {
+    auto queue = backend.queue();
+    const mir::UploadedKdTree<mir::cuda::Backend> there(backend, queue, tree);
+    queue.record().sync();
+    if (rounding == Rounding::fused)
+        return segment_bits(backend, FusedVisibility<mir::Space::device>{there.view()}, segments);
+    return segment_bits(backend, mir::KdTreeVisibility<mir::Space::device>{there.view()}, segments);
+}
+
+}  // namespace mirtest
