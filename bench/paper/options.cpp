@@ -57,6 +57,26 @@ std::uint32_t number(const std::string& option, const std::string& text, std::ui
     return value;
 }
 
+float real(const std::string& option, const std::string& text) {
+    float value = 0.0f;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || rest != end)
+        throw BadValue{option + ": '" + text + "' is not a number"};
+    return value;
+}
+
+/// A choice for the kd-tree, which knows its own limits.
+void set_tree(float& choice, const mir::KdTreeOptions& tree, const std::string& option,
+              const std::string& text) {
+    choice = real(option, text);
+    try {
+        mir::check(tree);
+    } catch (const mir::Error& e) {
+        throw BadValue{option + ": " + e.what()};
+    }
+}
+
 mir::Extent size(const std::string& option, const std::string& text) {
     const std::size_t cross = text.find('x');
     if (cross == std::string::npos)
@@ -109,6 +129,10 @@ void set(Options& o, const std::string& option, const std::string& value) {
         o.host_repeat = number(option, value, 1, 10000);
     else if (option == "--threads")
         o.threads = number(option, value, 0, 4096);
+    else if (option == "--traversal-cost")
+        set_tree(o.tree.traversal_cost, o.tree, option, value);
+    else if (option == "--empty-bonus")
+        set_tree(o.tree.empty_bonus, o.tree, option, value);
     else if (option == "--out")
         o.out = value;
     else
@@ -154,6 +178,8 @@ std::string usage() {
            "  --repeat N          runs of which the median is taken (default 20)\n"
            "  --host-repeat N     the same where rays are traced on the host (default 3)\n"
            "  --threads N         of the host (default 0: every core)\n"
+           "  --traversal-cost X  of an inner node of the kd-tree, in triangle tests\n"
+           "  --empty-bonus X     of planes of the kd-tree that cut off empty space, 0 <= X < 1\n"
            "  --out FOLDER        writes paper.json, paper.csv and paper.md there\n\n"
            "Tables go to stdout, progress to stderr. Exit codes: 0 done, 1 failed, 2 usage, 4 no "
            "such device.\n";

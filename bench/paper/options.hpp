@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/kd_options.hpp"
 #include "mir/data/tile.hpp"
 
 #include <string>
@@ -18,6 +19,7 @@ struct Options {
     unsigned repeat = 20;
     unsigned host_repeat = 3;  ///< where rays are traced on the host
     unsigned threads = 0;      ///< 0: every core
+    mir::KdTreeOptions tree;   ///< how kd-trees are built
     std::string out;           ///< folder; empty: tables on stdout alone
 
     [[nodiscard]] bool wants(const std::string& figure) const;

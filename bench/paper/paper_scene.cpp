@@ -38,13 +38,14 @@ void sort_along_morton(std::vector<std::uint32_t>& chosen, const mir::VplList& p
 
 }  // namespace
 
-PaperScene::PaperScene(const std::string& name, mir::Extent size, Executor& executor)
+PaperScene::PaperScene(const std::string& name, mir::Extent size, const mir::KdTreeOptions& tree,
+                       Executor& executor)
     : name_(name),
       executor_(&executor),
       scene_(mir::builtin::make(name)),
       hash_(mir::SceneHash(scene_).hex()),
       geometry_(scene_),
-      tree_(geometry_, {}, executor),
+      tree_(geometry_, tree, executor),
       lights_(scene_, geometry_),
       surfaces_(scene_),
       luxels_(size, size) {

@@ -27,9 +27,10 @@ using Executor = mirbench::ThreadExecutor;
 /// from any thread but for vpls().
 class PaperScene {
  public:
-    /// The built-in scene `name` at one luxel per pixel of `size`.
+    /// The built-in scene `name` at one luxel per pixel of `size`; `tree` changes no VPL.
     /// @throws Error(invalid_argument) when there is no such scene.
-    PaperScene(const std::string& name, mir::Extent size, Executor& executor);
+    PaperScene(const std::string& name, mir::Extent size, const mir::KdTreeOptions& tree,
+               Executor& executor);
 
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const std::string& hash() const { return hash_; }

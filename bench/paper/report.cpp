@@ -132,6 +132,8 @@ Fields fields_of(const SceneNote& scene) {
     f.add("tree_seconds", scene.tree_seconds);
     f.add("tree_sah_cost", scene.tree_sah_cost);
     f.add("tree_bytes", static_cast<double>(scene.tree_bytes));
+    f.add("traversal_cost", scene.tree.traversal_cost);
+    f.add("empty_bonus", scene.tree.empty_bonus);
     return f;
 }
 

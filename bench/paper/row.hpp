@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/kd_options.hpp"
 #include "mir/data/tile.hpp"
 #include "ray_counters.hpp"
 #include "spread.hpp"
@@ -51,6 +52,7 @@ struct SceneNote {
     double tree_seconds = 0.0;
     double tree_sah_cost = 0.0;
     std::uint64_t tree_bytes = 0;
+    mir::KdTreeOptions tree;
 };
 
 /// Everything that was measured.

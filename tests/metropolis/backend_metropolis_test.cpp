@@ -63,6 +63,12 @@ TEST_CASE("Chains on a backend make the sampler's records however they are cut")
     SECTION("a single VPL") { options.states = 1; }
     SECTION("a single chain") { options.chains = 1; }
     SECTION("chains of unequal length") { options.states = 29; }
+    SECTION("a shorter chain whose trace is longer") {
+        // 65 states, 4096 steps, every second kept; 64 states, 4032 steps, all kept.
+        options.chains = 2;
+        options.states = 129;
+        options.stride = 64;
+    }
     SECTION("no suffixes") { options.suffix_refresh = 0; }
     SECTION("lamps as VPLs") { options.emitter_vpls = true; }
     SECTION("paths from the camera alone") { options.techniques = mir::PathTechniques::camera; }
@@ -80,8 +86,11 @@ TEST_CASE("Chains that do not fit into memory together run in turn") {
     const VplRecords wanted = stage.sampled_on_host(options);
     mir::InlineExecutor one;
     const mir::cpu::Backend backend(one);
-    CHECK(same_records(chains_on(backend, stage.parts(), options, 1), wanted));
-    CHECK(same_records(chains_on(backend, stage.parts(), options, 200'000), wanted));
+    for (const std::uint64_t bytes : {1, 200'000}) {
+        const VplRecords found = chains_on(backend, stage.parts(), options, bytes);
+        CHECK(same_records(found, wanted));
+        CHECK(same_health(*found.health, *wanted.health));
+    }
 }
 
 TEST_CASE("Chains wait for what they read on a backend that is late") {

@@ -59,6 +59,7 @@ void check(const mirtest::SegmentScene& scene, std::uint64_t segments) {
     CHECK(c.generic.hidden < c.generic.asked * 49 / 50);
     CHECK(c.wrong_in_packets == 0);
     CHECK(c.tree_wrong() == 0);
+    CHECK(c.generic.other_wrong + c.aimed.other_wrong + c.in_plane.other_wrong == 0);
     CHECK(c.generic.different <= most_disagreements(c.generic.asked));
 }
 

@@ -14,8 +14,8 @@ inline auto bits_of(const mir::Vpl& v) { return std::bit_cast<std::array<std::ui
 /// Whether two records agree in every bit of every member.
 inline bool same_record(const mir::VplRecord& a, const mir::VplRecord& b) {
     return bits_of(a.vpl) == bits_of(b.vpl) && mir::same_place(a.origin, b.origin) &&
-           a.bounce == b.bounce && a.light_group == b.light_group && a.weight == b.weight &&
-           a.lambertian == b.lambertian;
+           a.origin.multiplicity == b.origin.multiplicity && a.bounce == b.bounce &&
+           a.light_group == b.light_group && a.weight == b.weight && a.lambertian == b.lambertian;
 }
 
 /// Whether two samplers' results are the same in every bit, health left aside.

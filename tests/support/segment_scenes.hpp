@@ -2,13 +2,9 @@
 #pragma once
 
 #include "conformance/worlds.hpp"
-#include "mir/io/gltf_reader.hpp"
-#include "mir/scene/builtin.hpp"
-#include "support/shared_scenes.hpp"
+#include "support/named_scene.hpp"
 
 #include <array>
-#include <optional>
-#include <string_view>
 
 namespace mirtest {
 
@@ -30,10 +26,9 @@ inline constexpr std::array<SegmentScene, 6> segment_scenes{{
 
 /// Nothing when the scene's file is not on this machine.
 [[nodiscard]] inline std::optional<World> load(const SegmentScene& scene) {
-    if (scene.file.empty()) return World(mir::builtin::make(scene.name));
-    const auto folder = shared_scenes();
-    if (!folder) return std::nullopt;
-    return World(mir::read_gltf(*folder / scene.file).scene);
+    auto loaded = load_scene(scene.name, scene.file);
+    if (!loaded) return std::nullopt;
+    return World(std::move(*loaded));
 }
 
 }  // namespace mirtest

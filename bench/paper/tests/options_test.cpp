@@ -26,9 +26,10 @@ TEST_CASE("Without options everything is measured as the paper did") {
 
 TEST_CASE("Options of bench_paper are read") {
     const auto [o, help, error] =
-        parsed({"--figure", "9,11", "--backend", "cpu", "--scenes", "car,garage", "--vpls",
-                "16,1024", "--size", "64x48", "--repeat", "3", "--host-repeat", "2", "--threads",
-                "4", "--out", "there"});
+        parsed({"--figure",      "9,11",    "--backend", "cpu",   "--scenes",         "car,garage",
+                "--vpls",        "16,1024", "--size",    "64x48", "--repeat",         "3",
+                "--host-repeat", "2",       "--threads", "4",     "--traversal-cost", "0.5",
+                "--empty-bonus", "0.25",    "--out",     "there"});
     REQUIRE(error.empty());
     CHECK(o.figures == std::vector<std::string>{"9", "11"});
     CHECK(o.backends == std::vector<std::string>{"cpu"});
@@ -38,17 +39,25 @@ TEST_CASE("Options of bench_paper are read") {
     CHECK(o.repeat == 3);
     CHECK(o.host_repeat == 2);
     CHECK(o.threads == 4);
+    CHECK(o.tree.traversal_cost == 0.5f);
+    CHECK(o.tree.empty_bonus == 0.25f);
     CHECK(o.out == "there");
     CHECK(parsed({"--help"}).help);
 }
 
 TEST_CASE("Bad options of bench_paper are refused in one line that names them") {
     const std::vector<std::vector<const char*>> bad{
-        {"--figure", "7"},    {"--figure", ""},   {"--figure"},           {"--backend", "gpu"},
-        {"--scenes", "nope"}, {"--vpls", "0"},    {"--vpls", "12x"},      {"--vpls", ""},
-        {"--size", "10"},     {"--size", "0x10"}, {"--size", "10x"},      {"--size", "99999x1"},
-        {"--repeat", "0"},    {"--repeat", "-1"}, {"--host-repeat", "x"}, {"--threads", "1000000"},
-        {"--unknown", "1"},   {"word"},
+        {"--figure", "7"},      {"--figure", ""},
+        {"--figure"},           {"--backend", "gpu"},
+        {"--scenes", "nope"},   {"--vpls", "0"},
+        {"--vpls", "12x"},      {"--vpls", ""},
+        {"--size", "10"},       {"--size", "0x10"},
+        {"--size", "10x"},      {"--size", "99999x1"},
+        {"--repeat", "0"},      {"--repeat", "-1"},
+        {"--host-repeat", "x"}, {"--threads", "1000000"},
+        {"--unknown", "1"},     {"word"},
+        {"--empty-bonus", "1"}, {"--traversal-cost", "0"},
+        {"--empty-bonus", "x"},
     };
     for (const auto& words : bad) {
         const std::string error = parsed(words).error;

@@ -7,8 +7,9 @@ namespace mir {
 
 /// Point of the unit circle after `turns` whole turns from (1, 0): cosine and sine of 2 pi turns.
 /// Absolute error of either below 1.5e-7 for |turns| < 2^21; exact at multiples of a quarter. Made
-/// of products and sums in a fixed order, so equal in bits on every machine: the sine and cosine of
-/// a math library are not, and one differing bit sends a Markov chain elsewhere.
+/// of products and sums in a fixed order, so equal in bits on every machine where none are fused
+/// (docs/embedding.md): the sine and cosine of a math library are not, and one differing bit sends
+/// a Markov chain elsewhere.
 MIR_HD constexpr Vec2 unit_circle(float turns) {
     const int quarters = static_cast<int>(4.0f * turns + (turns < 0.0f ? -0.5f : 0.5f));
     const float r = turns - 0.25f * static_cast<float>(quarters);  // exact, |r| <= 1/8

@@ -82,7 +82,7 @@ MIR_HD inline double acceptance(double f_x, double K_xy, double f_y, double K_yx
     const double back = detail::checked_weight(K_yx, ChainNumber::transition);
     const bool is_impossible = y == 0.0 || back == 0.0;
     const double ratio = (y / x) * (back / there);
-    if (is_impossible && is_finite(x) && is_finite(there)) return 0.0;
+    if (is_impossible && is_finite(x + y + there + back)) return 0.0;
     if (ratio >= 1.0) return 1.0;
     return detail::checked(ratio < 1.0, ratio, ChainNumber::transition, Where::here());
 }

@@ -24,7 +24,7 @@ struct ChainRules {
     MIR_HD static bool accepts(double number, double probability) { return number < probability; }
 };
 
-/// Where a Markov chain stands and what it has been through: all that a PathChain remembers, 15 kB.
+/// Where a Markov chain stands and what it has been through: all that a PathChain remembers, 17 kB.
 struct ChainState {
     PrimarySample sample;
     WeightedPath paths[2];              ///< the current one and room for a proposal
@@ -48,7 +48,7 @@ class PathChain {
 
  public:
     /// Chain number `chain` of a run, started from a path of the bootstrap that carries light.
-    /// `state` is written whole.
+    /// Of what `state` was before nothing is read.
     MIR_HD PathChain(const Generator& generator, const ChainOptions& options, std::uint64_t seed,
                      std::uint32_t chain, LargeStep start, ChainState& state)
         : generator_(generator),

@@ -4,6 +4,9 @@
 #include "mir/kernels/chain_walk.hpp"
 #include "mir/metropolis/bootstrap.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace mir {
 
 /// What one chain brings home.

@@ -54,8 +54,9 @@ MIR_HD inline MultipleTry multiple_try(double current, const double* candidates,
     for (std::uint32_t i = 0; i < count; ++i)
         sum += detail::checked_weight(candidates[i], ChainNumber::target);
     sum = detail::checked_weight(sum, ChainNumber::target);
-    if (sum == 0.0) return {};
     MultipleTry result;
+    result.acceptance = current - current;  // 0, or NaN
+    if (sum == 0.0) return result;
     result.chosen = detail::choose_by_weight(candidates, count, sum, choice);
     double way_back = current;
     for (std::uint32_t i = 0; i < count; ++i)

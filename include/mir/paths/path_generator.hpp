@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// A path together with what it is worth. 4.7 kB.
+/// A path together with what it is worth. 4.6 kB. Where the weight is 0, nothing else is defined.
 struct WeightedPath {
     Path path;
     PathMeasure measure;
@@ -53,8 +53,8 @@ class PathGenerator {
     [[nodiscard]] MIR_HD const World& world() const { return world_; }
     [[nodiscard]] MIR_HD const TechniqueTable& techniques() const { return techniques_; }
 
-    /// The path at the point `u` of primary sample space; `u.at(d)` is coordinate d. `out` is
-    /// written whole.
+    /// The path at the point `u` of primary sample space; `u.at(d)` is coordinate d. Of what
+    /// `out` was before nothing is read.
     template <class Numbers>
     MIR_HD void generate(Numbers&& u, WeightedPath& out) const {
         out.weight = 0.0;

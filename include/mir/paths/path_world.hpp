@@ -13,14 +13,21 @@
 
 namespace mir {
 
+/// True when paths in space `S` can be traced by `R`.
+template <class R, Space S>
+consteval bool finds_points_from() {
+    if constexpr (PointFinder<R>) return AccessibleFrom<R, S>;
+    return RayCaster<R> && S == Space::host;
+}
+
 /// What full paths run through, in memory of space `S`: a value of views that may be passed to a
 /// kernel. The scene data must outlive it. On the host `R` may be any RayCaster, elsewhere it is a
 /// PointFinder. Const use from any thread.
 template <Bsdf B, class R, Visibility V, Space S = Space::host>
 struct PathWorld {
-    static_assert(PointFinder<R> || (RayCaster<R> && S == Space::host),
-                  "mir: paths in a kernel need a ray caster with find_point(), such as "
-                  "KdRayCaster<Space::device>");
+    static_assert(finds_points_from<R, S>(),
+                  "mir: paths in a kernel need a ray caster with find_point() that reads the same "
+                  "memory, such as KdRayCaster<Space::device>");
     static_assert(AccessibleFrom<V, S>,
                   "mir: the visibility of a PathWorld lies in another memory than its scene");
 

@@ -5,15 +5,19 @@
 #include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/resident/uploaded_array.hpp"
 
+#include <algorithm>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace mir {
 
 /// MetropolisSampler on a backend: bootstrap and chains run as kernels, only the chains' starts are
 /// chosen on the host. Same records and health, in every bit, as MetropolisSampler over the same
-/// scene, ray caster and visibility, wherever floating-point numbers are those of IEEE 754. Memory:
-/// 60 kB or so for each of the chains that run at a time, at most `bytes` unless one chain alone
-/// needs more. Const use by one thread per queue.
+/// scene, ray caster and visibility, where neither compiler fuses products (docs/embedding.md).
+/// Memory: for each of the chains that run at a time a ChainMemory, the records that it may make
+/// and up to 4096 samples of its trace; `bytes` for all of them, unless one chain alone needs more.
+/// Const use by one thread per queue.
 template <Backend B, class World>
     requires(World::space == B::space)
 class BackendMetropolis {
@@ -34,7 +38,8 @@ class BackendMetropolis {
 
     /// Runs bootstrap and chains; all work is done when it returns. No record comes out when no
     /// path carries light. `monitor` may be null.
-    /// @throws Error(cancelled) between kernels; what the backend throws.
+    /// @throws Error(cancelled) between kernels, each of which runs a batch of chains to their
+    ///         ends; what the backend throws.
     [[nodiscard]] VplRecords sample(typename B::Queue& queue, Monitor* monitor = nullptr) const {
         Machine machine{*this, queue, monitor};
         return run_chains(generator_.world().lights, options_, machine);
@@ -120,10 +125,13 @@ void BackendMetropolis<B, World>::draw(typename B::Queue& queue, Monitor* monito
 template <Backend B, class World>
     requires(World::space == B::space)
 auto BackendMetropolis<B, World>::make_batch(std::uint32_t chains) const -> Batch {
-    // The first chain may write most.
-    const ChainExtent extent = ChainExtent::of(options_, 0, chains);
-    const std::uint64_t records = extent.states * (1 + options_.suffix_refresh);
-    const std::uint64_t samples = TraceRhythm(extent.steps).kept(extent.steps);
+    // Chains have one of two lengths. The longer one writes most records, but may keep fewer
+    // samples.
+    const ChainExtent longer = ChainExtent::of(options_, 0, chains);
+    const ChainExtent shorter = ChainExtent::of(options_, chains - 1, chains);
+    const std::uint64_t records = longer.states * (1 + options_.suffix_refresh);
+    const std::uint64_t samples = std::max(TraceRhythm(longer.steps).kept(longer.steps),
+                                           TraceRhythm(shorter.steps).kept(shorter.steps));
     const std::uint64_t bytes = sizeof(ChainMemory) + sizeof(ChainReport) +
                                 records * sizeof(VplRecord) + samples * sizeof(TraceSample);
     const auto count = std::clamp<std::uint64_t>(bytes_ / bytes, 1, chains);
@@ -155,15 +163,16 @@ void BackendMetropolis<B, World>::walk_batch(typename B::Queue& queue, const Wal
                                              const std::uint32_t* starts, std::uint32_t first,
                                              Batch& batch, std::span<ChainRun> runs) const {
     const auto n = static_cast<std::uint32_t>(runs.size());
+    // Before the kernel: memory that cannot be had must not leave it running.
+    std::vector<ChainReport> reports(n);
+    std::vector<VplRecord> records(n * batch.records_per_chain);
+    std::vector<TraceSample> samples(n * batch.samples_per_chain);
     // A thread block for each chain, while there are few of them: they share nothing.
     const std::uint32_t spread = n <= 1024 ? 256 : n <= 8192 ? 32 : 1;
     queue.for_each(n * spread, ChainWalks<Walk>{walk, first, spread, starts, batch.memory.data(),
                                                 batch.records.data(), batch.records_per_chain,
                                                 batch.samples.data(), batch.samples_per_chain,
                                                 batch.reports.data()});
-    std::vector<ChainReport> reports(n);
-    std::vector<VplRecord> records(n * batch.records_per_chain);
-    std::vector<TraceSample> samples(n * batch.samples_per_chain);
     queue.download(batch.reports, std::span(reports));
     queue.download(batch.records, std::span(records));
     queue.download(batch.samples, std::span(samples));

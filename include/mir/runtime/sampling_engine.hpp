@@ -5,6 +5,9 @@
 #include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/scene/camera.hpp"
 
+#include <concepts>
+#include <limits>
+
 namespace mir {
 
 /// How the image of a render looks at the scene.
