@@ -68,7 +68,8 @@ class SmallStep {
     [[nodiscard]] MIR_HD std::uint32_t length_in_cells(float xi) const {
         const double cells_moved =
             longest_ * detail::portable_exp2(-octaves_ * static_cast<double>(xi));
-        return static_cast<std::uint32_t>(cells_moved + 0.5);  // the nearest, as none is below 1
+        const auto below = static_cast<std::uint32_t>(cells_moved);
+        return cells_moved - static_cast<double>(below) < 0.5 ? below : below + 1;
     }
 
     double longest_;  // in cells
