@@ -58,7 +58,7 @@ struct Furnace {
     template <class Rules = ChainRules>
     [[nodiscard]] PathChain<World, Rules> chain(std::uint32_t c, Mutation mutation) const {
         const LargeStep start{Stream::bootstrap, std::uint64_t{starts[c]}};
-        return {generator, options_for(mutation), seed, c, start, *state};
+        return {generator, options_for(mutation), seed, c, start, *state_};
     }
 
  private:
@@ -69,7 +69,7 @@ struct Furnace {
         return mutation == Mutation::primary ? primary : bidirectional;
     }
 
-    std::unique_ptr<mir::ChainState> state = std::make_unique<mir::ChainState>();
+    std::unique_ptr<mir::ChainState> state_ = std::make_unique<mir::ChainState>();
 };
 
 /// Chi-square of the lengths against P(k) ~ rho^k on the chain's range.
