@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
-#include "mir/kernels/bootstrap_paths.hpp"
 #include "mir/metropolis/bootstrap_options.hpp"
+#include "mir/metropolis/bootstrap_paths.hpp"
 #include "mir/metropolis/path_luminance.hpp"
 #include "mir/metropolis/systematic_resampling.hpp"
 

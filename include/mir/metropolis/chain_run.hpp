@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/kernels/chain_walk.hpp"
 #include "mir/metropolis/bootstrap.hpp"
+#include "mir/metropolis/chain_walk.hpp"
 
 #include <algorithm>
 #include <vector>
