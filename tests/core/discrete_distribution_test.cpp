@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace {
@@ -14,6 +15,17 @@ mir::DiscreteDistribution of(const std::vector<float>& weights) {
 constexpr float almost_one = 0x1.fffffep-1f;
 
 }  // namespace
+
+TEST_CASE("The first value that something is true of is found, wherever it is") {
+    const std::vector<std::uint32_t> values = {2, 3, 3, 3, 7, 8, 8};
+    for (std::uint32_t count = 0; count <= values.size(); ++count)
+        for (std::uint32_t x = 0; x < 10; ++x) {
+            const auto is_above = [=](std::uint32_t v) { return v > x; };
+            const auto end = values.begin() + count;
+            CHECK(mir::first_that(values.data(), count, is_above) ==
+                  std::find_if(values.begin(), end, is_above) - values.begin());
+        }
+}
 
 TEST_CASE("An index is picked as often as its weight says") {
     const auto d = of({1, 2, 0, 5});

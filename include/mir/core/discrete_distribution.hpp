@@ -11,29 +11,16 @@
 
 namespace mir {
 
-/// Index of the first of `count` ascending values that is not less than `value`; `count` if all
-/// are.
-template <class T>
-MIR_HD std::uint32_t first_not_below(const T* values, std::uint32_t count, T value) {
+/// Index of the first of `count` values that `holds` is true of, found by halving: it must be true
+/// of all behind that one. `count` if there is none.
+template <class T, class Predicate>
+MIR_HD std::uint32_t first_that(const T* values, std::uint32_t count, const Predicate& holds) {
     std::uint32_t first = 0;
     while (count > 0) {
         const std::uint32_t half = count / 2;
-        const bool below = values[first + half] < value;
-        first += below ? half + 1 : 0;
-        count = below ? count - half - 1 : half;
-    }
-    return first;
-}
-
-/// The same for the first that is greater than `value`.
-template <class T>
-MIR_HD std::uint32_t first_above(const T* values, std::uint32_t count, T value) {
-    std::uint32_t first = 0;
-    while (count > 0) {
-        const std::uint32_t half = count / 2;
-        const bool above = value < values[first + half];
-        first += above ? 0 : half + 1;
-        count = above ? half : count - half - 1;
+        const bool found = holds(values[first + half]);
+        first += found ? 0 : half + 1;
+        count = found ? half : count - half - 1;
     }
     return first;
 }
@@ -51,9 +38,13 @@ struct DiscreteDistributionView {
 
     /// Index for u in [0, 1). Must not be empty.
     [[nodiscard]] MIR_HD std::uint32_t sample(float u) const {
-        const std::uint32_t found = first_above(cumulative, size, static_cast<double>(u) * total);
+        const double most = total;
+        const double wanted = static_cast<double>(u) * most;
+        const std::uint32_t found =
+            first_that(cumulative, size, [=](double sum) { return sum > wanted; });
         // u close to 1 may round up to the total: step back to the last index with weight.
-        return found < size ? found : first_not_below(cumulative, size, total);
+        return found < size ? found
+                            : first_that(cumulative, size, [=](double sum) { return sum >= most; });
     }
 
     /// Probability with which sample() picks `i`.

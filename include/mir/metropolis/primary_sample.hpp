@@ -13,7 +13,6 @@ namespace mir {
 struct LargeStep {
     Stream stream = Stream::bootstrap;
     std::uint64_t index = 0;
-    friend MIR_HD constexpr bool operator==(const LargeStep&, const LargeStep&) = default;
 };
 
 /// Coordinates that a PrimarySample has.

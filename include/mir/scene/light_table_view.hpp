@@ -83,7 +83,8 @@ struct LightTableView {
 
     /// Index, as sample_light() counts, of an emissive triangle of the WorldGeometry, or `none`.
     [[nodiscard]] MIR_HD std::uint32_t light_of(std::uint32_t triangle) const {
-        const std::uint32_t found = first_not_below(triangles, triangle_count, triangle);
+        const std::uint32_t found =
+            first_that(triangles, triangle_count, [=](std::uint32_t t) { return t >= triangle; });
         return found < triangle_count && triangles[found] == triangle ? found : none;
     }
 
