@@ -34,7 +34,6 @@ class BackendMachine final : public Machine {
     void enter(PaperScene& scene) override {
         uploaded_.reset();
         resident_.reset();
-        ropes_.reset();
         there_.reset();
         scene_ = &scene;
         there_.emplace(backend_, scene);
@@ -52,10 +51,6 @@ class BackendMachine final : public Machine {
     std::vector<KernelRun> kernels(const KernelChoice& choice, unsigned repeat) override {
         if (choice.start == RayStart::luxel)
             return kernels_with(choice, FromLuxel<Rays>{there_->visibility()}, repeat);
-        if (choice.traversal == Traversal::ropes) {
-            if (!ropes_) ropes_.emplace(backend_, scene_->tree(), there_->visibility().tree);
-            return kernels_with(choice, ropes_->visibility(), repeat);
-        }
         return kernels_with(choice, there_->visibility(), repeat);
     }
 
@@ -173,7 +168,6 @@ class BackendMachine final : public Machine {
     Executor& executor_;
     PaperScene* scene_ = nullptr;
     std::optional<SceneOnBackend<B>> there_;
-    std::optional<RopesOnBackend<B>> ropes_;
     std::optional<Uploaded> uploaded_;
     std::optional<Resident> resident_;
     mir::Extent uploaded_tile_;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mir/accel/kd_ray_finder.hpp"
-#include "mir/accel/kd_ropes.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_kd_tree.hpp"
@@ -40,46 +39,6 @@ class SceneOnBackend {
     mir::UploadedGeometry<B> geometry_;
     mir::UploadedSurfaces<B, Bsdf> surfaces_;
     mir::LuxelRays rays_;
-};
-
-/// Answers a kd-tree along ropes. Model of Visibility.
-template <mir::Space S>
-struct RopesVisibility {
-    static constexpr mir::Space space = S;
-
-    mir::KdRopesView<S> ropes;
-
-    [[nodiscard]] MIR_HD bool visible(mir::Vec3 a, mir::Vec3 b) const {
-        return !mir::is_hidden(ropes, a, b);
-    }
-};
-
-/// The ropes of a kd-tree in a backend's memory, beside the tree itself, which must outlive them.
-template <mir::Backend B>
-class RopesOnBackend {
- public:
-    RopesOnBackend(const B& backend, const mir::KdTree& tree,
-                   const mir::KdTreeView<B::space>& uploaded)
-        : RopesOnBackend(backend, mir::KdRopes(tree.nodes()), uploaded) {}
-
-    [[nodiscard]] RopesVisibility<B::space> visibility() const {
-        return {{nodes_.data(), leaves_.data(), tree_.references, tree_.triangles, tree_.reach}};
-    }
-
- private:
-    RopesOnBackend(const B& backend, const mir::KdRopes& ropes,
-                   const mir::KdTreeView<B::space>& uploaded)
-        : queue_(backend.queue()),
-          nodes_(backend, queue_, ropes.nodes()),
-          leaves_(backend, queue_, ropes.leaves()),
-          tree_(uploaded) {
-        queue_.record().sync();
-    }
-
-    typename B::Queue queue_;
-    mir::UploadedArray<B, mir::KdNode> nodes_;
-    mir::UploadedArray<B, mir::KdRopeLeaf> leaves_;
-    mir::KdTreeView<B::space> tree_;
 };
 
 }  // namespace mirpaper

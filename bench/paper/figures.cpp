@@ -177,14 +177,13 @@ void stages(Lab& lab, PaperScene& scene, const Figure& figure) {
 std::vector<KernelChoice> kernel_choices(std::uint32_t vpls) {
     KernelChoice own;
     own.vpls = vpls;
-    std::vector<KernelChoice> choices(8, own);
+    std::vector<KernelChoice> choices(7, own);
     choices[1].form = KernelForm::split;
     choices[2].form = KernelForm::per_vpl;
     choices[3].start = RayStart::luxel;
-    choices[4].traversal = Traversal::ropes;
-    choices[5].luxels = LuxelOrder::rows;
-    choices[6].luxels = LuxelOrder::clusters;
-    choices[7].vpl_order = VplOrder::shuffled;
+    choices[4].luxels = LuxelOrder::rows;
+    choices[5].luxels = LuxelOrder::clusters;
+    choices[6].vpl_order = VplOrder::shuffled;
     return choices;
 }
 
@@ -192,7 +191,7 @@ std::string name_of(const KernelChoice& c) {
     const auto index = [](auto e) { return static_cast<std::size_t>(e); };
     return std::string("luxels in ") + luxel_order_names[index(c.luxels)] + ", VPLs " +
            vpl_order_names[index(c.vpl_order)] + ", rays from the " +
-           ray_start_names[index(c.start)] + ", " + traversal_names[index(c.traversal)];
+           ray_start_names[index(c.start)];
 }
 
 void kernel_figure(Lab& lab, PaperScene& scene, const Figure& figure) {

@@ -29,24 +29,16 @@ enum class VplOrder {
 /// The end at which a shadow ray starts.
 enum class RayStart { vpl, luxel };
 
-/// How a ray walks through the kd-tree.
-enum class Traversal {
-    stack,  ///< one entry per level; the library's
-    ropes   ///< from leaf to leaf without a stack
-};
-
 inline constexpr std::array form_names{"fused", "split", "per-vpl"};
 inline constexpr std::array luxel_order_names{"squares", "rows", "clusters"};
 inline constexpr std::array vpl_order_names{"morton", "shuffled"};
 inline constexpr std::array ray_start_names{"vpl", "luxel"};
-inline constexpr std::array traversal_names{"stack", "ropes"};
 
 struct KernelChoice {
     KernelForm form = KernelForm::fused;
     LuxelOrder luxels = LuxelOrder::squares;
     VplOrder vpl_order = VplOrder::morton;
     RayStart start = RayStart::vpl;
-    Traversal traversal = Traversal::stack;
     std::uint32_t vpls = 256;
 };
 

@@ -58,7 +58,6 @@ class Machine {
     virtual Run trace(const Job& job) = 0;
 
     /// Kernels alone on all luxels at once, everything in the backend's memory; warmed up once.
-    /// Ropes start at the VPL only.
     virtual std::vector<KernelRun> kernels(const KernelChoice& choice, unsigned repeat) = 0;
 
     /// Brings the luxels there in both ways; warmed up once.

@@ -19,8 +19,8 @@ struct Options {
     unsigned repeat = 20;
     unsigned host_repeat = 3;  ///< where rays are traced on the host
     unsigned threads = 0;      ///< 0: every core
-    mir::KdTreeOptions tree;   ///< how kd-trees are built
-    std::string out;           ///< folder; empty: tables on stdout alone
+    mir::KdTreeOptions tree = mir::KdTreeOptions::for_gpu();
+    std::string out;  ///< folder; empty: tables on stdout alone
 
     [[nodiscard]] bool wants(const std::string& figure) const;
 };

@@ -71,9 +71,10 @@ mir::KdNode descend(const Tree& tree, mir::Vec3 from, mir::Vec3 to, Cell& cell,
         const int axis = static_cast<int>(cell.node.axis());
         const float along = to[axis] - from[axis];
         const float t = (cell.node.split() - from[axis]) / (along == 0.0f ? 0x1p-90f : along);
-        const std::uint32_t downwards = along < 0.0f ? 1u : 0u;
-        const mir::KdNode first = tree.nodes[cell.node.below() + downwards];
-        const mir::KdNode second = tree.nodes[cell.node.below() + 1u - downwards];
+        const bool downwards = along < 0.0f;
+        const mir::KdChildren children = tree.children(cell.node);
+        const mir::KdNode first = downwards ? children.above : children.below;
+        const mir::KdNode second = downwards ? children.below : children.above;
         cell.node = t <= cell.begin ? second : first;
         if (t > cell.begin && t < cell.end) {
             waiting.push_back({second, t, cell.end});
@@ -86,7 +87,7 @@ mir::KdNode descend(const Tree& tree, mir::Vec3 from, mir::Vec3 to, Cell& cell,
 /// The walk of kd_traverse.hpp, step by step.
 Steps count_steps(const Tree& tree, mir::Vec3 from, mir::Vec3 to) {
     Steps steps;
-    std::vector<Cell> waiting{{tree.nodes[0]}};
+    std::vector<Cell> waiting{{tree.nodes[Tree::root]}};
     while (!waiting.empty() && !steps.hidden) {
         Cell cell = waiting.back();
         waiting.pop_back();

@@ -11,7 +11,6 @@
 #include "mir/accel/kd_packet.hpp"
 #include "mir/accel/kd_ray_caster.hpp"
 #include "mir/accel/kd_ray_finder.hpp"
-#include "mir/accel/kd_ropes.hpp"
 #include "mir/accel/kd_statistics.hpp"
 #include "mir/accel/kd_traverse.hpp"
 #include "mir/accel/kd_tree.hpp"

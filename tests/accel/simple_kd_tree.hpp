@@ -38,8 +38,8 @@ class SimpleKdTree {
         if (!all.empty()) view_.low = all.low, view_.high = all.high;
         std::vector<std::uint32_t> references(triangles_.size());
         std::iota(references.begin(), references.end(), 0u);
-        nodes_.emplace_back();
-        split(0, all, std::move(references), leaf_size, depth);
+        nodes_.resize(view_.root + 1);
+        split(view_.root, all, std::move(references), leaf_size, depth);
     }
 
     [[nodiscard]] mir::KdTreeView<mir::Space::host> view() const {

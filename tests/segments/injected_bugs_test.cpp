@@ -42,8 +42,7 @@ struct RememberLeaf {
 
     bool operator()(mir::KdNode leaf, float) {
         first_reference = leaf.first();
-        return mir::detail::any_hides(tree.triangles, tree.references + leaf.first(), leaf.count(),
-                                      s.from, s.to);
+        return mir::detail::any_hides(tree, leaf, s.from, s.to);
     }
 };
 

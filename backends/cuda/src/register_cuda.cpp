@@ -94,7 +94,7 @@ class CudaRenderer : public Renderer {
         std::optional<GpuEngine<F>> engine;
         {
             const Stopwatch watch(build);
-            tree.emplace(geometry, KdTreeOptions{}, executor);
+            tree.emplace(geometry, KdTreeOptions::for_gpu(), executor);
             engine.emplace(backend_, scene, geometry, *tree, executor, scheduler_);
         }
         if (monitor != nullptr) monitor->check();

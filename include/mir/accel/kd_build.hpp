@@ -82,7 +82,7 @@ KdTree::KdTree(const WorldGeometry& geometry, const KdTreeOptions& options, E& e
 inline void KdTree::count_parts(detail::KdTally total, const std::vector<detail::KdGrown>& grown) {
     for (const detail::KdGrown& part : grown) total.add(part.subtree.tally);
     statistics_.triangles = triangles_.size();
-    statistics_.nodes = nodes_.size();
+    statistics_.nodes = nodes_.size() - KdTreeView<Space::host>::root;
     statistics_.leaves = total.leaves;
     statistics_.empty_leaves = total.empty_leaves;
     statistics_.references = references_.size();

@@ -8,8 +8,7 @@
 namespace mir {
 
 /// One node of a kd-tree, 8 bytes: a plane between two neighbouring children, or a leaf that lists
-/// triangles. A trivially copyable value, the same on host and device; aligned so that traversal
-/// fetches it as one word.
+/// triangles. A trivially copyable value, the same on host and device.
 class alignas(8) KdNode {
  public:
     /// Largest index of a child and largest number of references of a leaf.
@@ -53,5 +52,12 @@ class alignas(8) KdNode {
 };
 
 static_assert(sizeof(KdNode) == 8);
+
+/// Both children of an inner node as they lie in memory, so that one fetch of 16 bytes can begin
+/// before it is known which child comes next.
+struct alignas(16) KdChildren {
+    KdNode below;
+    KdNode above;
+};
 
 }  // namespace mir

@@ -12,6 +12,14 @@ struct KdTreeOptions {
     /// Deepest leaf that any tree may have; traversal has a stack of that size.
     static constexpr std::uint32_t depth_limit = 64;
 
+    /// Choices for traversal on a GPU, one ray per thread: there an inner node costs less beside a
+    /// triangle than in the packets of the host (docs/performance.md has the sweep).
+    [[nodiscard]] static KdTreeOptions for_gpu() {
+        KdTreeOptions options;
+        options.traversal_cost = 0.75f;
+        return options;
+    }
+
     float traversal_cost = 1.5f;     ///< of one inner node; > 0
     float intersection_cost = 1.0f;  ///< of one triangle, in the same unit; > 0
     float empty_bonus = 0.0f;        ///< share of the cost that a plane saves which cuts off empty

@@ -75,7 +75,7 @@ class PacketWalk {
 /// one that lanes need is put on the stack.
 inline std::uint32_t PacketWalk::enter_children(KdNode node, LaneIntervals& part) {
     const float* inverse = inverse_[node.axis()].at;
-    const float gap = node.split() - component(origin_, node.axis());
+    const float gap = node.split() - origin_[static_cast<int>(node.axis())];
     const bool starts_below = gap >= 0.0f;
     LaneIntervals far;
     for (std::uint32_t k = 0; k < packet_lanes; ++k) {
@@ -129,7 +129,7 @@ inline std::uint32_t PacketWalk::run() {
         part.begin.at[k] = 0.0f;
         part.end.at[k] = 1.0f;
     }
-    KdNode node = tree_.nodes[0];
+    KdNode node = tree_.nodes[KdTreeView<Space::host>::root];
     for (;;) {
         while (!node.is_leaf()) node = tree_.nodes[enter_children(node, part)];
         test_leaf(node);

@@ -24,10 +24,11 @@ namespace mir {
 
 namespace detail {
 
-/// t of a plane on an axis is split * inverse - offset.
-struct AxisSteps {
-    Vec3 inverse{0};
-    Vec3 offset{0};
+/// t of a plane on one axis is split * inverse - offset. Aligned so that a walk, which looks a step
+/// up by axis, fetches it as one word.
+struct alignas(8) AxisStep {
+    float inverse = 0.0f;
+    float offset = 0.0f;
 };
 
 /// Keeps reciprocals finite: zero becomes a step so short that it moves nothing (far below the
@@ -35,16 +36,9 @@ struct AxisSteps {
 /// 1e11 m overflows.
 MIR_HD inline float never_zero(float x) { return copysignf(larger(fabsf(x), 0x1p-90f), x); }
 
-MIR_HD inline AxisSteps axis_steps(Vec3 from, Vec3 to) {
-    const Vec3 inverse(loose::reciprocal(never_zero(strict::sub(to.x, from.x))),
-                       loose::reciprocal(never_zero(strict::sub(to.y, from.y))),
-                       loose::reciprocal(never_zero(strict::sub(to.z, from.z))));
-    return {inverse, from * inverse};
-}
-
-/// Selects: an array would be put into memory on the device.
-MIR_HD inline float component(Vec3 v, std::uint32_t axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+MIR_HD inline AxisStep axis_step(float from, float to) {
+    const float inverse = loose::reciprocal(never_zero(strict::sub(to, from)));
+    return {inverse, strict::mul(from, inverse)};
 }
 
 /// A cell that waits on the stack. Its part of the segment begins where the last one visited ended.
@@ -58,24 +52,25 @@ struct WaitingCell {
 /// the walk then returns. `end` is the fraction of the segment at which the leaf's cell ends.
 template <Space S, class Leaf>
 MIR_HD bool walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to, Leaf& leaf) {
-    const AxisSteps steps = axis_steps(from, to);
+    const AxisStep steps[3] = {axis_step(from.x, to.x), axis_step(from.y, to.y),
+                               axis_step(from.z, to.z)};
     WaitingCell stack[KdTreeView<S>::max_depth];
     std::uint32_t waiting = 0;
-    KdNode node = tree.nodes[0];
+    KdNode node = tree.nodes[KdTreeView<S>::root];
     float begin = 0.0f;
     float end = 1.0f;
     for (;;) {
         while (!node.is_leaf()) {
-            const float inverse = component(steps.inverse, node.axis());
-            const float t =
-                loose::mul_sub(node.split(), inverse, component(steps.offset, node.axis()));
-            const bool downwards = inverse < 0.0f;
+            const KdChildren children = tree.children(node);
+            const AxisStep step = steps[node.axis()];
+            const float t = loose::mul_sub(node.split(), step.inverse, step.offset);
+            const bool downwards = step.inverse < 0.0f;
             const bool behind = t <= begin;
             if (!behind && t < end) {
                 stack[waiting++] = {node.below() + (downwards ? 0u : 1u), end};
                 end = t;
             }
-            node = tree.nodes[node.below() + (downwards != behind ? 1u : 0u)];
+            node = downwards != behind ? children.above : children.below;
         }
         if (leaf(node, end)) return true;
         if (waiting == 0) return false;
@@ -85,13 +80,14 @@ MIR_HD bool walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to, Leaf& leaf) {
     }
 }
 
-/// True when one of the triangles listed at `first` hides the ends of the segment from each
-/// other. This is hits_segment(), with its two conditions apart: one boolean less per triangle on
-/// the device, which is a sixth of the instructions of a triangle whose plane is not crossed.
-MIR_HD inline bool any_hides(const TriangleRows* triangles, const std::uint32_t* first,
-                             std::uint32_t count, Vec3 from, Vec3 to) {
-    for (std::uint32_t i = 0; i != count; ++i) {
-        const TriangleRows& rows = triangles[first[i]];
+/// True when one of the leaf's triangles hides the ends of the segment from each other. This is
+/// hits_segment(), with its two conditions apart: one boolean less per triangle on the device,
+/// which is a sixth of the instructions of a triangle whose plane is not crossed.
+template <Space S>
+MIR_HD bool any_hides(const KdTreeView<S>& tree, KdNode leaf, Vec3 from, Vec3 to) {
+    const std::uint32_t last = leaf.first() + leaf.count();
+    for (std::uint32_t i = leaf.first(); i != last; ++i) {
+        const TriangleRows& rows = tree.triangles[tree.references[i]];
         const float s_from = row_at(rows.s, from);
         const float s_to = row_at(rows.s, to);
         if (!opposite(s_from, s_to)) continue;
@@ -107,9 +103,7 @@ struct FindAny {
     Vec3 from{0};
     Vec3 to{0};
 
-    MIR_HD bool operator()(KdNode leaf, float) const {
-        return any_hides(tree.triangles, tree.references + leaf.first(), leaf.count(), from, to);
-    }
+    MIR_HD bool operator()(KdNode leaf, float) const { return any_hides(tree, leaf, from, to); }
 };
 
 /// Leaf visitor of rays. The walk may stop where the best crossing, enlarged by the rounding of its

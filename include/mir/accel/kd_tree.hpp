@@ -20,8 +20,8 @@ struct KdGrown;
 struct KdTally;
 }  // namespace detail
 
-/// What traversal reads of a kd-tree. Node 0 is the root; cells at the border of the tree have no
-/// outer limit. accept_box.hpp says which triangles a leaf must list.
+/// What traversal reads of a kd-tree. Cells at the border of the tree have no outer limit.
+/// accept_box.hpp says which triangles a leaf must list.
 template <Space S>
 struct KdTreeView {
     static constexpr Space space = S;
@@ -29,12 +29,19 @@ struct KdTreeView {
     /// Largest number of planes between the root and a leaf. Traversal keeps a stack of this size.
     static constexpr std::uint32_t max_depth = KdTreeOptions::depth_limit;
 
-    const KdNode* nodes = nullptr;
+    /// Index of the first node. Children follow in pairs, each with an even index.
+    static constexpr std::uint32_t root = 1;
+
+    const KdNode* nodes = nullptr;              ///< aligned to 16 bytes
     const std::uint32_t* references = nullptr;  ///< triangle indices, leaf by leaf
     const TriangleRows* triangles = nullptr;    ///< by triangle index of WorldGeometry
     Vec3 low{0};                                ///< box around all accept boxes
     Vec3 high{0};
     float reach = 0.0f;  ///< metres: reach_of(magnitude_of(bounds of the scene)), accept_box.hpp
+
+    [[nodiscard]] MIR_HD KdChildren children(KdNode inner) const {
+        return *reinterpret_cast<const KdChildren*>(nodes + inner.below());
+    }
 };
 
 /// A kd-tree over all triangles of a scene, in host memory. Move only; const use from any thread.
@@ -56,6 +63,7 @@ class KdTree {
     }
     [[nodiscard]] const KdTreeStatistics& statistics() const { return statistics_; }
 
+    /// As KdTreeView counts them: node 0 is never visited.
     [[nodiscard]] std::span<const KdNode> nodes() const { return nodes_.span(); }
     [[nodiscard]] std::span<const std::uint32_t> references() const { return references_.span(); }
     [[nodiscard]] std::span<const TriangleRows> triangles() const { return triangles_.span(); }

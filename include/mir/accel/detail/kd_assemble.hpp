@@ -2,13 +2,15 @@
 #pragma once
 
 #include "mir/accel/detail/kd_grow.hpp"
+#include "mir/accel/kd_tree.hpp"
 
 namespace mir::detail {
 
-/// Where a subtree goes in the arrays of the whole tree.
+/// Where a part of the tree goes in the arrays of the whole. Each part counts its nodes from its
+/// root, 0, and has its pairs of children behind it.
 struct KdPlace {
-    std::size_t root = 0;        ///< index of its root, in the top
-    std::size_t first_node = 0;  ///< of the others, which follow each other
+    std::size_t root = 0;        ///< index of its root
+    std::size_t first_pair = 0;  ///< of the others, which follow each other; even
     std::size_t first_reference = 0;
 };
 
@@ -16,17 +18,20 @@ inline KdNode moved(KdNode node, const KdPlace& place) {
     if (node.is_leaf())
         return KdNode::leaf(node.first() + static_cast<std::uint32_t>(place.first_reference),
                             node.count());
-    // Node 0 of a subtree is its root, which lies elsewhere.
     return KdNode::inner(node.axis(), node.split(),
-                         node.below() + static_cast<std::uint32_t>(place.first_node) - 1);
+                         node.below() - 1 + static_cast<std::uint32_t>(place.first_pair));
+}
+
+inline void copy_nodes(std::span<const KdNode> from, const KdPlace& place,
+                       RawArray<KdNode>& nodes) {
+    nodes[place.root] = moved(from[0], place);
+    for (std::size_t i = 1; i < from.size(); ++i)
+        nodes[place.first_pair + i - 1] = moved(from[i], place);
 }
 
 inline void copy_subtree(const KdGrown& from, const KdPlace& place, RawArray<KdNode>& nodes,
                          RawArray<std::uint32_t>& references) {
-    const std::span<const KdNode> source = from.nodes();
-    nodes[place.root] = moved(source[0], place);
-    for (std::size_t i = 1; i < source.size(); ++i)
-        nodes[place.first_node + i - 1] = moved(source[i], place);
+    copy_nodes(from.nodes(), place, nodes);
     std::copy(from.references().begin(), from.references().end(),
               references.data() + place.first_reference);
 }
@@ -36,17 +41,20 @@ inline void copy_subtree(const KdGrown& from, const KdPlace& place, RawArray<KdN
 template <Executor E>
 void assemble(const KdTop& top, const std::vector<KdGrown>& grown, const KdTreeOptions& options,
               RawArray<KdNode>& nodes, RawArray<std::uint32_t>& references, E& executor) {
+    constexpr std::size_t root = KdTreeView<Space::host>::root;
+    const KdPlace place_of_top{root, root + 1, 0};
     std::vector<KdPlace> places(grown.size());
-    KdPlace end{0, top.nodes.size(), 0};
+    KdPlace end{0, root + top.nodes.size(), 0};
     for (std::size_t i = 0; i < grown.size(); ++i) {
-        places[i] = {top.open[i].node, end.first_node, end.first_reference};
-        end.first_node += grown[i].nodes().size() - 1;
+        places[i] = {root + top.open[i].node, end.first_pair, end.first_reference};
+        end.first_pair += grown[i].nodes().size() - 1;
         end.first_reference += grown[i].references().size();
     }
-    check_kd_size(end.first_node, end.first_reference, options);
-    nodes.resize(end.first_node);
+    check_kd_size(end.first_pair, end.first_reference, options);
+    nodes.resize(end.first_pair);
     references.resize(end.first_reference);
-    std::copy_n(top.nodes.data(), top.nodes.size(), nodes.data());
+    nodes[0] = {};
+    copy_nodes(top.nodes.span(), place_of_top, nodes);
     executor.for_each(grown.size(),
                       [&](std::size_t i) { copy_subtree(grown[i], places[i], nodes, references); });
 }

@@ -31,8 +31,16 @@ constexpr void check_kernel() {
                   "arguments; put data into a buffer");
 }
 
+/// Blocks that a multiprocessor is to hold at least, for which the compiler has to do with fewer
+/// registers: as the kernel says in `resident_blocks`, else what the compiler likes.
 template <class Kernel>
-__global__ void __launch_bounds__(threads_per_block)
+inline constexpr std::uint32_t resident_blocks = 1;
+template <class Kernel>
+    requires requires { Kernel::resident_blocks; }
+inline constexpr std::uint32_t resident_blocks<Kernel> = Kernel::resident_blocks;
+
+template <class Kernel>
+__global__ void __launch_bounds__(threads_per_block, resident_blocks<Kernel>)
     for_each_index(std::uint32_t n, const __grid_constant__ Kernel kernel) {
     const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
     if (i < n) kernel(i);
