@@ -272,7 +272,7 @@ TEST_CASE("bad options are refused with a sentence that names them") {
     CHECK_THAT(refusal([](O& o) { o.chain.tries = 255; }), Contains("tries"));
     CHECK_THAT(refusal([](O& o) { o.chain.large_step_probability = 0; }), Contains("large step"));
     CHECK_THAT(refusal([](O& o) { o.chain.large_step_probability = 1.1; }), Contains("large step"));
-    CHECK_THAT(refusal([](O& o) { o.bootstrap.relative_error = 0; }), Contains("relative error"));
+    CHECK_THAT(refusal([](O& o) { o.bootstrap.relative_error = -1; }), Contains("relative error"));
     CHECK_THAT(refusal([](O& o) { o.bootstrap.relative_error = std::nan(""); }),
                Contains("relative error"));
     CHECK_THAT(refusal([](O& o) { o.bootstrap.min_paths = 0; }), Contains("bootstrap"));

@@ -65,7 +65,7 @@ VplRecords run_chains(const Lights& lights, const MetropolisOptions& options, Ma
     out.health.emplace();
     if (lights.empty()) return out;
     const Bootstrap seeds = grow_bootstrap(
-        options.bootstrap,
+        options.bootstrap.for_states(options.states),
         [&](std::uint64_t first, std::span<double> weights, std::span<std::uint32_t> places) {
             machine.draw(first, weights, places);
         });
