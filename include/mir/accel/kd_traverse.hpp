@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_tree.hpp"
+#include "mir/accel/kd_tree_view.hpp"
 #include "mir/accel/reach.hpp"
-#include "mir/accel/triangle_rows.hpp"
 
 namespace mir {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/accel/detail/kd_grow.hpp"
-#include "mir/accel/kd_tree.hpp"
+#include "mir/accel/kd_tree_view.hpp"
 
 namespace mir::detail {
 
