@@ -37,13 +37,13 @@ void report(benchmark::State& state, const mir::KdTreeStatistics& s) {
     state.counters["peak_bytes"] = peak_bytes();
 }
 
-void kd_build(benchmark::State& state, const std::string& name) {
+void kd_build(benchmark::State& state, const std::string& name, const mir::KdTreeOptions& options) {
     const mir::WorldGeometry& geometry = bench_scene(name).geometry;
     mir::cpu::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
     mir::KdTreeStatistics fastest;
     double triangles = 0.0;
     for (auto _ : state) {
-        const mir::KdTree tree(geometry, {}, executor);
+        const mir::KdTree tree(geometry, options, executor);
         const mir::KdTreeStatistics& s = tree.statistics();
         state.SetIterationTime(s.seconds());
         if (triangles == 0.0 || s.seconds() < fastest.seconds()) fastest = s;
@@ -56,16 +56,22 @@ void kd_build(benchmark::State& state, const std::string& name) {
     state.SetLabel(bench_scene(name).hash);
 }
 
-const int registered = [] {
+void register_builds(const std::string& title, const mir::KdTreeOptions& options) {
     for (const std::string& name : scenes_of_run())
         for (int threads : {1, 2, 0})
-            benchmark::RegisterBenchmark(("kd_build/" + name).c_str(),
-                                         [name](benchmark::State& s) { kd_build(s, name); })
+            benchmark::RegisterBenchmark(
+                (title + "/" + name).c_str(),
+                [name, options](benchmark::State& s) { kd_build(s, name, options); })
                 ->ArgName("threads")
                 ->Arg(threads)
                 ->UseManualTime()
                 ->Iterations(5)
                 ->Unit(benchmark::kMillisecond);
+}
+
+const int registered = [] {
+    register_builds("kd_build", {});
+    register_builds("kd_build_for_gpu", mir::KdTreeOptions::for_gpu());
     return 0;
 }();
 

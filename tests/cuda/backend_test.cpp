@@ -115,7 +115,7 @@ TEST_CASE("Queues of a backend do not wait for the legacy default stream") {
     CHECK_FALSE(gate.gave_up);
 }
 
-TEST_CASE("Events measure the time between them") {
+TEST_CASE("Events measure the time between them", "[clock]") {
     const Backend backend(select_device(0));
     static_cast<void>(mirtest::seconds_of_slow_kernel(backend, 1));
     const double shorter = mirtest::seconds_of_slow_kernel(backend, 1u << 14);
