@@ -6,14 +6,15 @@ namespace mirtest {
 
 template <mir::Bsdf F>
 mir::VplRecords chains_on_gpu(const mir::cuda::Backend& backend, const ChainParts<F>& parts,
-                              const mir::MetropolisOptions& options, std::uint64_t bytes) {
-    return chains_on(backend, parts, options, bytes);
+                              const mir::MetropolisOptions& options,
+                              const mir::ChainPortions& portions) {
+    return chains_on(backend, parts, options, portions);
 }
 
 template mir::VplRecords chains_on_gpu(const mir::cuda::Backend&, const ChainParts<mir::Lambert>&,
-                                       const mir::MetropolisOptions&, std::uint64_t);
+                                       const mir::MetropolisOptions&, const mir::ChainPortions&);
 template mir::VplRecords chains_on_gpu(const mir::cuda::Backend&,
                                        const ChainParts<mir::CookTorrance>&,
-                                       const mir::MetropolisOptions&, std::uint64_t);
+                                       const mir::MetropolisOptions&, const mir::ChainPortions&);
 
 }  // namespace mirtest

@@ -13,6 +13,7 @@ namespace mirtest {
 /// chains_on() the GPU.
 template <mir::Bsdf F>
 mir::VplRecords chains_on_gpu(const mir::cuda::Backend& backend, const ChainParts<F>& parts,
-                              const mir::MetropolisOptions& options, std::uint64_t bytes);
+                              const mir::MetropolisOptions& options,
+                              const mir::ChainPortions& portions);
 
 }  // namespace mirtest

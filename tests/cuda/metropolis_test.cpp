@@ -22,11 +22,11 @@ using mirtest::WedgeLights;
 
 template <mir::Bsdf F>
 void check_on_gpu(const mir::Scene& scene, const MetropolisOptions& options,
-                  std::uint64_t bytes = 1u << 28) {
+                  const mir::ChainPortions& portions = {}) {
     const mir::cuda::Backend backend(mir::cuda::select_device(0));
     const ChainScene<F> stage(scene);
     const mir::VplRecords wanted = stage.sampled_on_host(options);
-    const mir::VplRecords found = mirtest::chains_on_gpu(backend, stage.parts(), options, bytes);
+    const mir::VplRecords found = mirtest::chains_on_gpu(backend, stage.parts(), options, portions);
     REQUIRE(!wanted.records.empty());
     CHECK(mirtest::same_records(found, wanted));
     CHECK(mirtest::same_health(*found.health, *wanted.health));
@@ -53,10 +53,11 @@ TEST_CASE("Chains on the GPU make the sampler's records through a lens") {
 
 TEST_CASE("Chains on the GPU make the sampler's records however they are cut") {
     MetropolisOptions options = few_chains(Mutation::primary);
-    std::uint64_t bytes = 1u << 28;
+    mir::ChainPortions portions;
     SECTION("a single VPL") { options.states = 1; }
     SECTION("thousands of chains") { options.states = options.chains = 3000; }
     SECTION("the paper's stopping rule") { options.stop = mir::ChainStop::paper; }
-    SECTION("not all in memory at a time") { bytes = 200'000; }
-    check_on_gpu<Lambert>(Wedge(WedgeLights::two_sided).scene(), options, bytes);
+    SECTION("not all in memory at a time") { portions.bytes = 200'000; }
+    SECTION("a few mutations at a time") { portions.mutations = 5; }
+    check_on_gpu<Lambert>(Wedge(WedgeLights::two_sided).scene(), options, portions);
 }

@@ -87,7 +87,7 @@ TEST_CASE("Chains that do not fit into memory together run in turn") {
     mir::InlineExecutor one;
     const mir::cpu::Backend backend(one);
     for (const std::uint64_t bytes : {1, 200'000}) {
-        const VplRecords found = chains_on(backend, stage.parts(), options, bytes);
+        const VplRecords found = chains_on(backend, stage.parts(), options, {.bytes = bytes});
         CHECK(same_records(found, wanted));
         CHECK(same_health(*found.health, *wanted.health));
     }

@@ -24,11 +24,11 @@ struct ChainParts {
     float bound;
 };
 
-/// Copies the scene into the backend's memory and runs the chains there, as many at a time as fit
-/// into `bytes`.
+/// Copies the scene into the backend's memory and runs the chains there.
 template <mir::Backend B, mir::Bsdf F>
 mir::VplRecords chains_on(const B& backend, const ChainParts<F>& parts,
-                          const mir::MetropolisOptions& options, std::uint64_t bytes = 1u << 28) {
+                          const mir::MetropolisOptions& options,
+                          const mir::ChainPortions& portions = {}) {
     auto queue = backend.queue();
     const mir::UploadedGeometry<B> geometry(backend, queue, parts.geometry);
     const mir::UploadedLights<B> lights(backend, queue, parts.lights);
@@ -39,7 +39,7 @@ mir::VplRecords chains_on(const B& backend, const ChainParts<F>& parts,
     const mir::PathWorld<F, Caster, Sight, B::space> world(
         geometry.view(), lights.view(), surfaces.view(), Caster(geometry.view(), tree.view()),
         Sight{tree.view()}, parts.camera, parts.aspect, parts.bound);
-    return mir::BackendMetropolis(backend, world, options, {}, bytes).sample(queue);
+    return mir::BackendMetropolis(backend, world, options, {}, portions).sample(queue);
 }
 
 }  // namespace mirtest

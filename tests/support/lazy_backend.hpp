@@ -4,6 +4,7 @@
 #include "mir/concepts/backend.hpp"
 #include "mir/cpu/backend.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -29,6 +30,12 @@ class PutOff {
     }
     [[nodiscard]] std::size_t size(std::size_t queue) const {
         return queues_[queue].operations.size();
+    }
+
+    /// Whether no operation of any queue is left.
+    [[nodiscard]] bool is_done() const {
+        return std::all_of(queues_.begin(), queues_.end(),
+                           [](const Operations& q) { return q.done == q.operations.size(); });
     }
 
     /// Does the first `count` operations of a queue, those that were not done yet.

@@ -124,9 +124,9 @@ VplRecords GpuEngine<F>::sample_metropolis(const LightTable& lights, const PathV
     const PathWorld<F, Caster, Sight, Space::device> world(
         geometry_.view(), there.view(), surfaces_.view(), Caster(geometry_.view(), tree_.view()),
         device_visibility(), view.camera, view.aspect, view.bound);
-    const std::uint64_t bytes =
-        std::min<std::uint64_t>(free_memory(queue_.device()) / 4, std::uint64_t{1} << 29);
-    return BackendMetropolis(backend_, world, options, limits, bytes).sample(queue_, monitor);
+    ChainPortions portions;
+    portions.bytes = std::min<std::uint64_t>(free_memory(queue_.device()) / 4, portions.bytes);
+    return BackendMetropolis(backend_, world, options, limits, portions).sample(queue_, monitor);
 }
 
 template class GpuEngine<Lambert>;

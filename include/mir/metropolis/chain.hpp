@@ -47,23 +47,34 @@ class PathChain {
     static_assert(path_dimension::count <= max_coordinates);
 
  public:
-    /// Chain number `chain` of a run, started from a path of the bootstrap that carries light.
-    /// Of what `state` was before nothing is read.
+    /// Chain number `chain` of a run where `state` stands: after start(), or where a PathChain of
+    /// the same arguments has left it.
     MIR_HD PathChain(const Generator& generator, const ChainOptions& options, std::uint64_t seed,
-                     std::uint32_t chain, LargeStep start, ChainState& state)
+                     std::uint32_t chain, ChainState& state)
         : generator_(generator),
           options_(options),
           gaps_(generator.techniques().min_edges(), generator.techniques().max_edges()),
           seed_(seed),
           chain_(chain),
-          state_(state) {
-        state.sample.start(seed, chain, start);
-        state.current = state.step = 0;
-        state.large_weights = {};
-        state.health = {};
-        state.stay = 0;
-        state.is_broken = false;
-        generator.generate(state.sample.propose_large(start), state.paths[0]);
+          state_(state) {}
+
+    /// The same, started.
+    MIR_HD PathChain(const Generator& generator, const ChainOptions& options, std::uint64_t seed,
+                     std::uint32_t chain, LargeStep first, ChainState& state)
+        : PathChain(generator, options, seed, chain, state) {
+        start(first);
+    }
+
+    /// Begins at a path of the bootstrap that carries light. Of what the state was before nothing
+    /// is read.
+    MIR_HD void start(LargeStep first) {
+        state_.sample.start(seed_, chain_, first);
+        state_.current = state_.step = 0;
+        state_.large_weights = {};
+        state_.health = {};
+        state_.stay = 0;
+        state_.is_broken = false;
+        generator_.generate(state_.sample.propose_large(first), state_.paths[0]);
     }
 
     /// One mutation: the state moves or stays.

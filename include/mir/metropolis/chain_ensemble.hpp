@@ -54,10 +54,13 @@ class ChainEnsemble {
             std::vector<ChainRun> runs(chains);
             executor.for_each(chains, [&](std::size_t i) {
                 const auto chain = static_cast<std::uint32_t>(i);
-                runs[i].trace = MixingTrace(ChainExtent::of(walk.options, chain, chains).steps);
+                const std::uint64_t steps = ChainExtent::of(walk.options, chain, chains).steps;
+                runs[i].trace = MixingTrace(steps);
                 Vectors out{runs[i]};
                 const auto memory = std::make_unique<ChainMemory>();
-                runs[i].tally = walk(chain, {Stream::bootstrap, starts[i]}, *memory, out);
+                walk.start(chain, {Stream::bootstrap, starts[i]}, *memory);
+                walk.advance(chain, steps, *memory, out);
+                runs[i].tally = walk.tally(chain, *memory);
             });
             return runs;
         }

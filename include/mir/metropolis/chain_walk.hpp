@@ -17,13 +17,14 @@ struct ChainMemory {
     ChainState state;
     /// With the current suffix, unless that is the state's own, and with a proposal.
     WeightedPath refreshed[2];
+    VplRecord last;  ///< the first record of the state recorded last
 };
 
 /// What a chain says of itself at its end.
 struct ChainTally {
     ChainHealth health;  ///< summaries over chains are left at zero
     WeightMoments large_step_weights;
-    bool is_broken = false;  ///< PathChain::is_broken(), or the same in a suffix
+    bool is_broken = false;  ///< ChainState::is_broken
 };
 
 /// How much a chain may write.
@@ -42,11 +43,13 @@ struct ChainExtent {
     }
 };
 
-/// Runs a whole chain, from its start to its last record. `intensity(path)` is what the record of a
-/// path gets. The same on host and device, but for where records go. `Suffix` is a SuffixProposal.
+/// Runs chains, each from its start to its last record and in slices of any length, which leave no
+/// trace in the result. `intensity(path)` is what the record of a path gets. The same on host and
+/// device, but for where records go. `Suffix` is a SuffixProposal.
 template <class Generator, class Suffix, class Intensity>
 struct ChainWalk {
     using World = std::remove_cvref_t<decltype(std::declval<const Generator&>().world())>;
+    using Chain = PathChain<World, ChainRules, Generator>;
 
     Generator generator;
     Suffix suffix;
@@ -54,36 +57,41 @@ struct ChainWalk {
     MetropolisOptions options;
     std::uint32_t chains = 1;
 
-    /// Chain `chain` of `chains`. `out.record(VplRecord)` takes its records, `out.step(path)` the
-    /// states between them for the trace.
+    /// Begins chain `chain` of `chains` at a path of the bootstrap that carries light. Of what the
+    /// memory was before nothing is read.
+    MIR_HD void start(std::uint32_t chain, LargeStep first, ChainMemory& memory) const {
+        Chain(generator, options.chain, options.seed, chain, memory.state).start(first);
+    }
+
+    /// Goes on by `mutations`, or by as many as the chain lacks. `out.record(VplRecord)` takes its
+    /// records, `out.step(path)` the states between them for the trace.
     template <class Out>
-    MIR_HD ChainTally operator()(std::uint32_t chain, LargeStep start, ChainMemory& memory,
-                                 Out& out) const {
-        PathChain<World, ChainRules, Generator> walk(generator, options.chain, options.seed, chain,
-                                                     start, memory.state);
+    MIR_HD void advance(std::uint32_t chain, std::uint64_t mutations, ChainMemory& memory,
+                        Out& out) const {
+        Chain walk(generator, options.chain, options.seed, chain, memory.state);
         const ChainExtent extent = ChainExtent::of(options, chain, chains);
-        const bool paper = options.stop == ChainStop::paper;
-        ChainTally tally;
-        VplRecord last;
-        std::uint64_t recorded = 0;
-        std::uint32_t new_vpls = 0;
-        while (recorded < extent.states && !(paper && new_vpls > extent.wanted)) {
-            if (recorded > 0) advance(walk, out);
-            const VplRecord next =
-                record(walk.current(), index_of(chain, recorded), memory, tally, out);
-            new_vpls += recorded == 0 || !is_same_vpl(last, next) ? 1u : 0u;
-            last = next;
-            ++recorded;
+        const ChainHealth& health = memory.state.health;
+        for (std::uint64_t made = 0;; ++made) {
+            if (walk.steps() == health.recorded_states * options.stride)
+                record(walk.current(), chain, memory, out);
+            if (made == mutations || has_ended(health, extent)) return;
+            walk.step();
+            out.step(walk.current());
         }
-        const MutationCount suffixes = tally.health.suffix;
-        tally.health = walk.health();
-        tally.health.suffix = suffixes;
-        tally.health.recorded_states = recorded;
-        tally.health.distinct_vpls = new_vpls;
-        tally.health.capped = paper && new_vpls <= extent.wanted;
-        tally.large_step_weights = walk.large_step_weights();
-        tally.is_broken = tally.is_broken || walk.is_broken();
-        return tally;
+    }
+
+    /// Whether advance() has nothing left to do.
+    [[nodiscard]] MIR_HD bool has_ended(std::uint32_t chain, const ChainMemory& memory) const {
+        return has_ended(memory.state.health, ChainExtent::of(options, chain, chains));
+    }
+
+    /// Of a chain that has ended.
+    [[nodiscard]] MIR_HD ChainTally tally(std::uint32_t chain, const ChainMemory& memory) const {
+        const ChainState& state = memory.state;
+        ChainTally t{state.health, state.large_weights, state.is_broken};
+        t.health.capped = options.stop == ChainStop::paper &&
+                          !found_enough(t.health, ChainExtent::of(options, chain, chains));
+        return t;
     }
 
  private:
@@ -93,19 +101,34 @@ struct ChainWalk {
         return (std::uint64_t{chain} << 40) | static_cast<std::uint32_t>(state);
     }
 
-    template <class Walk, class Out>
-    MIR_HD void advance(Walk& walk, Out& out) const {
-        for (std::uint32_t i = 0; i < options.stride; ++i) {
-            walk.step();
-            out.step(walk.current());
-        }
+    MIR_HD static bool found_enough(const ChainHealth& health, const ChainExtent& extent) {
+        return health.distinct_vpls > extent.wanted;
+    }
+    [[nodiscard]] MIR_HD bool has_ended(const ChainHealth& health,
+                                        const ChainExtent& extent) const {
+        return health.recorded_states == extent.states ||
+               (options.stop == ChainStop::paper && found_enough(health, extent));
+    }
+
+    /// Records a state and counts it.
+    template <class Out>
+    MIR_HD void record(const WeightedPath& path, std::uint32_t chain, ChainMemory& memory,
+                       Out& out) const {
+        ChainHealth& health = memory.state.health;
+        const VplRecord next =
+            record_suffixes(path, index_of(chain, health.recorded_states), memory, out);
+        const bool is_new = health.recorded_states == 0 || !is_same_vpl(memory.last, next);
+        health.distinct_vpls += is_new ? 1 : 0;
+        ++health.recorded_states;
+        memory.last = next;
     }
 
     /// Records a state and further suffixes behind its VPL; returns the first record.
     template <class Out>
-    MIR_HD VplRecord record(const WeightedPath& path, std::uint64_t index, ChainMemory& memory,
-                            ChainTally& tally, Out& out) const {
+    MIR_HD VplRecord record_suffixes(const WeightedPath& path, std::uint64_t index,
+                                     ChainMemory& memory, Out& out) const {
         const World& world = generator.world();
+        ChainState& state = memory.state;
         const std::uint32_t refreshes = path.path.edges() > 2 ? options.suffix_refresh : 0;
         const double share = 1.0 / (1.0 + refreshes);
         const VplRecord first = record_of(world, path, intensity(path), share);
@@ -118,9 +141,9 @@ struct ChainWalk {
             WeightedPath& proposal = memory.refreshed[spare];
             suffix.draw(path, u, proposal);
             const double a = acceptance(weight, proposal.weight);
-            tally.is_broken = tally.is_broken || !is_finite(a);
+            state.is_broken = state.is_broken || !is_finite(a);
             const bool moved = static_cast<double>(u.at(path_dimension::count)) < a;
-            tally.health.suffix.add(moved);
+            state.health.suffix.add(moved);
             if (moved) {
                 current = &proposal;
                 weight = proposal.weight;
@@ -129,57 +152,6 @@ struct ChainWalk {
             out.record(record_of(world, *current, intensity(*current), share));
         }
         return first;
-    }
-};
-
-/// Where a chain in a kernel writes: arrays of the extent of a chain.
-struct ChainArrays {
-    VplRecord* records = nullptr;
-    TraceSample* samples = nullptr;
-    TraceRhythm rhythm;
-    std::uint64_t record_count = 0;
-    std::uint64_t sample_count = 0;
-
-    MIR_HD void record(const VplRecord& r) { records[record_count++] = r; }
-    MIR_HD void step(const WeightedPath& state) {
-        if (rhythm.keeps_next()) samples[sample_count++] = TraceSample::of(state);
-    }
-};
-
-/// What is kept of a chain that ran in a kernel, besides its arrays.
-struct ChainReport {
-    ChainTally tally;
-    std::uint64_t records = 0;
-    std::uint64_t samples = 0;
-};
-
-/// Runs chains `first` to `first` + n - 1. Kernel over n * spread indices, of which every
-/// spread-th works: neighbouring threads of a device wait for each other, and chains part at once.
-template <class Walk>
-struct ChainWalks {
-    Walk walk;
-    std::uint32_t first = 0;
-    std::uint32_t spread = 1;
-    const std::uint32_t* starts = nullptr;  ///< paths of the bootstrap, by chain
-    ChainMemory* memory = nullptr;          ///< below, all are of chain first + i at i
-    VplRecord* records = nullptr;
-    std::uint64_t records_per_chain = 0;
-    TraceSample* samples = nullptr;
-    std::uint64_t samples_per_chain = 0;
-    ChainReport* reports = nullptr;
-
-    MIR_HD void operator()(std::uint32_t index) const {
-        if (index % spread != 0) return;
-        const std::uint32_t i = index / spread;
-        const std::uint32_t chain = first + i;
-        ChainArrays out;
-        out.records = records + i * records_per_chain;
-        out.samples = samples + i * samples_per_chain;
-        out.rhythm = TraceRhythm(ChainExtent::of(walk.options, chain, walk.chains).steps);
-        const LargeStep start{Stream::bootstrap, starts[chain]};
-        reports[i].tally = walk(chain, start, memory[i], out);
-        reports[i].records = out.record_count;
-        reports[i].samples = out.sample_count;
     }
 };
 

@@ -23,8 +23,9 @@ struct TraceSample {
 class TraceRhythm {
  public:
     TraceRhythm() = default;
-    /// For a chain of `states` states.
-    MIR_HD explicit TraceRhythm(std::uint64_t states) : stride_((states + most - 1) / most) {}
+    /// For a chain of `states` states, of which `seen` have passed.
+    MIR_HD explicit TraceRhythm(std::uint64_t states, std::uint64_t seen = 0)
+        : stride_((states + most - 1) / most), seen_(seen) {}
 
     /// Counts the next state and says whether it is one.
     MIR_HD bool keeps_next() { return seen_++ % stride_ == 0; }
@@ -49,14 +50,13 @@ class MixingTrace {
     MixingTrace() = default;
     /// For a chain of `states` states.
     explicit MixingTrace(std::uint64_t states) : rhythm_(states) {}
-    /// Of samples that a TraceRhythm has chosen.
-    explicit MixingTrace(std::span<const TraceSample> samples)
-        : samples_(samples.begin(), samples.end()) {}
 
     /// Takes the next state of the chain.
     void add(const WeightedPath& state) {
-        if (rhythm_.keeps_next()) samples_.push_back(TraceSample::of(state));
+        if (rhythm_.keeps_next()) add(TraceSample::of(state));
     }
+    /// Takes the next state that a TraceRhythm has chosen.
+    void add(const TraceSample& sample) { samples_.push_back(sample); }
 
     /// States between two that are kept.
     [[nodiscard]] std::uint64_t stride() const { return rhythm_.stride(); }

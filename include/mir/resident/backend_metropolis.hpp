@@ -3,6 +3,7 @@
 
 #include "mir/core/monitor.hpp"
 #include "mir/metropolis/metropolis_sampler.hpp"
+#include "mir/resident/chain_batch.hpp"
 #include "mir/resident/uploaded_array.hpp"
 
 #include <algorithm>
@@ -12,34 +13,45 @@
 
 namespace mir {
 
+/// How much a BackendMetropolis does at a time. Its result does not depend on it.
+struct ChainPortions {
+    /// Memory of the chains that run at a time, unless one alone needs more.
+    std::uint64_t bytes = std::uint64_t{1} << 29;
+    /// Of each chain in one kernel, at least 1. A mutation traces some dozens of rays one after the
+    /// other, by estimate half a millisecond of a GPU: this many end before the watchdog of a
+    /// display (2 s) or somebody who cancels loses patience, and hide what starting a kernel costs.
+    std::uint32_t mutations = 1024;
+};
+
 /// MetropolisSampler on a backend: bootstrap and chains run as kernels, only the chains' starts are
 /// chosen on the host. Same records and health, in every bit, as MetropolisSampler over the same
 /// scene, ray caster and visibility, where neither compiler fuses products (docs/embedding.md).
-/// Memory: for each of the chains that run at a time a ChainMemory, the records that it may make
-/// and up to 4096 samples of its trace; `bytes` for all of them, unless one chain alone needs more.
-/// Const use by one thread per queue.
+/// Memory: for each of the chains that run at a time a ChainMemory, and the records and the samples
+/// of its trace that one kernel may make. Const use by one thread per queue.
 template <Backend B, class World>
     requires(World::space == B::space)
 class BackendMetropolis {
  public:
     /// What `world` views must outlive it.
-    /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when
-    ///         more states are wanted than `limits` allows VPLs.
+    /// @throws Error(invalid_argument) when options or portions are out of range,
+    ///         Error(limit_exceeded) when more states are wanted than `limits` allows VPLs.
     BackendMetropolis(const B& backend, const World& world, const MetropolisOptions& options,
-                      const Limits& limits = {}, std::uint64_t bytes = std::uint64_t{1} << 29)
+                      const Limits& limits = {}, const ChainPortions& portions = {})
         : backend_(backend),
           options_(options),
-          bytes_(bytes),
+          portions_(portions),
           generator_(world,
                      TechniqueTable(options.min_edges(), options.max_edges(), options.techniques)),
           suffix_(world, generator_.techniques()) {
         options.check(limits);
+        expects(portions.mutations > 0,
+                "0 mutations were asked for in one kernel (no chain would ever end); ask for at "
+                "least 1, 1024 is usual");
     }
 
-    /// Runs bootstrap and chains; all work is done when it returns. No record comes out when no
-    /// path carries light. `monitor` may be null.
-    /// @throws Error(cancelled) between kernels, each of which runs a batch of chains to their
-    ///         ends; what the backend throws.
+    /// Runs bootstrap and chains; all work is done when it returns. No record comes out
+    /// when no path carries light. `monitor` may be null.
+    /// @throws Error(cancelled) between kernels; what the backend throws.
     [[nodiscard]] VplRecords sample(typename B::Queue& queue, Monitor* monitor = nullptr) const {
         Machine machine{*this, queue, monitor};
         return run_chains(generator_.world().lights, options_, machine);
@@ -48,29 +60,6 @@ class BackendMetropolis {
  private:
     using Generator = PathGenerator<World>;
     using Walk = ChainWalk<Generator, SuffixProposal<World>, UnitRadiance>;
-    template <class T>
-    using Buffer = typename B::template Buffer<T>;
-
-    /// Arrays of the chains that run at a time.
-    struct Batch {
-        std::uint32_t chains;
-        std::uint64_t records_per_chain;
-        std::uint64_t samples_per_chain;
-        Buffer<ChainMemory> memory;
-        Buffer<VplRecord> records;
-        Buffer<TraceSample> samples;
-        Buffer<ChainReport> reports;
-
-        Batch(const B& backend, std::uint32_t count, std::uint64_t records_each,
-              std::uint64_t samples_each)
-            : chains(count),
-              records_per_chain(records_each),
-              samples_per_chain(samples_each),
-              memory(backend.template buffer<ChainMemory>(count)),
-              records(backend.template buffer<VplRecord>(count * records_each)),
-              samples(backend.template buffer<TraceSample>(count * samples_each)),
-              reports(backend.template buffer<ChainReport>(count)) {}
-    };
 
     struct Machine {
         const BackendMetropolis& sampler;
@@ -90,13 +79,13 @@ class BackendMetropolis {
               std::span<double> weights, std::span<std::uint32_t> places) const;
     [[nodiscard]] std::vector<ChainRun> walk(typename B::Queue& queue, Monitor* monitor,
                                              const std::vector<std::uint32_t>& starts) const;
-    void walk_batch(typename B::Queue& queue, const Walk& walk, const std::uint32_t* starts,
-                    std::uint32_t first, Batch& batch, std::span<ChainRun> runs) const;
-    [[nodiscard]] Batch make_batch(std::uint32_t chains) const;
+    [[nodiscard]] ChainBatch<B> make_batch(std::uint32_t chains) const;
+    void walk_batch(typename B::Queue& queue, Monitor* monitor, ChainSlices<Walk> slices,
+                    ChainBatch<B>& batch, std::span<ChainRun> runs) const;
 
     B backend_;
     MetropolisOptions options_;
-    std::uint64_t bytes_;
+    ChainPortions portions_;
     Generator generator_;
     SuffixProposal<World> suffix_;
 };
@@ -124,18 +113,15 @@ void BackendMetropolis<B, World>::draw(typename B::Queue& queue, Monitor* monito
 
 template <Backend B, class World>
     requires(World::space == B::space)
-auto BackendMetropolis<B, World>::make_batch(std::uint32_t chains) const -> Batch {
+ChainBatch<B> BackendMetropolis<B, World>::make_batch(std::uint32_t chains)
+const {
     // Chains have one of two lengths. The longer one writes most records, but may keep fewer
     // samples.
-    const ChainExtent longer = ChainExtent::of(options_, 0, chains);
-    const ChainExtent shorter = ChainExtent::of(options_, chains - 1, chains);
-    const std::uint64_t records = longer.states * (1 + options_.suffix_refresh);
-    const std::uint64_t samples = std::max(TraceRhythm(longer.steps).kept(longer.steps),
-                                           TraceRhythm(shorter.steps).kept(shorter.steps));
-    const std::uint64_t bytes = sizeof(ChainMemory) + sizeof(ChainReport) +
-                                records * sizeof(VplRecord) + samples * sizeof(TraceSample);
-    const auto count = std::clamp<std::uint64_t>(bytes_ / bytes, 1, chains);
-    return {backend_, static_cast<std::uint32_t>(count), records, samples};
+    const auto longer = SliceExtent::of(options_, 0, chains, portions_.mutations);
+    const auto shorter = SliceExtent::of(options_, chains - 1, chains, portions_.mutations);
+    const SliceExtent most{longer.records, std::max(longer.samples, shorter.samples)};
+    const std::uint64_t count = portions_.bytes / ChainBatch<B>::bytes_of_one(most);
+    return {backend_, std::clamp(count, std::uint64_t{1}, std::uint64_t{chains}), most};
 }
 
 template <Backend B, class World>
@@ -144,46 +130,32 @@ std::vector<ChainRun> BackendMetropolis<B, World>::walk(typename B::Queue& queue
                                                         const std::vector<std::uint32_t>& starts)
 const {
     const auto chains = static_cast<std::uint32_t>(starts.size());
-    const Walk walk{generator_, suffix_, {}, options_, chains};
-    const UploadedArray<B, std::uint32_t> starts_there(backend_, queue, starts);
-    Batch batch = make_batch(chains);
+    ChainBatch<B> batch = make_batch(chains);
     std::vector<ChainRun> runs(chains);
-    for (std::uint32_t first = 0; first < chains; first += batch.chains) {
-        if (monitor != nullptr) monitor->check();
-        const std::uint32_t n = std::min(batch.chains, chains - first);
-        walk_batch(queue, walk, starts_there.data(), first, batch,
-                   std::span(runs).subspan(first, n));
+    const UploadedArray<B, std::uint32_t> starts_there(backend_, queue, starts);
+    ChainSlices<Walk> slices{{generator_, suffix_, {}, options_, chains}, portions_.mutations};
+    slices.starts = starts_there.data();
+    for (slices.first = 0; slices.first < chains; slices.first += slices.count) {
+        slices.count = std::min(batch.chains(), chains - slices.first);
+        walk_batch(queue, monitor, slices, batch,
+                   std::span(runs).subspan(slices.first, slices.count));
     }
     return runs;
 }
 
 template <Backend B, class World>
     requires(World::space == B::space)
-void BackendMetropolis<B, World>::walk_batch(typename B::Queue& queue, const Walk& walk,
-                                             const std::uint32_t* starts, std::uint32_t first,
-                                             Batch& batch, std::span<ChainRun> runs) const {
-    const auto n = static_cast<std::uint32_t>(runs.size());
-    // Before the kernel: memory that cannot be had must not leave it running.
-    std::vector<ChainReport> reports(n);
-    std::vector<VplRecord> records(n * batch.records_per_chain);
-    std::vector<TraceSample> samples(n * batch.samples_per_chain);
+void BackendMetropolis<B, World>::walk_batch(typename B::Queue& queue, Monitor* monitor,
+                                             ChainSlices<Walk> slices, ChainBatch<B>& batch,
+                                             std::span<ChainRun> runs) const {
+    batch.lend(slices);
     // A thread block for each chain, while there are few of them: they share nothing.
-    const std::uint32_t spread = n <= 1024 ? 256 : n <= 8192 ? 32 : 1;
-    queue.for_each(n * spread, ChainWalks<Walk>{walk, first, spread, starts, batch.memory.data(),
-                                                batch.records.data(), batch.records_per_chain,
-                                                batch.samples.data(), batch.samples_per_chain,
-                                                batch.reports.data()});
-    queue.download(batch.reports, std::span(reports));
-    queue.download(batch.records, std::span(records));
-    queue.download(batch.samples, std::span(samples));
-    queue.record().sync();
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const auto own = std::span(std::as_const(records))
-                             .subspan(i * batch.records_per_chain, reports[i].records);
-        const auto trace = std::span(std::as_const(samples))
-                               .subspan(i * batch.samples_per_chain, reports[i].samples);
-        runs[i] = {{own.begin(), own.end()}, MixingTrace(trace), reports[i].tally};
-    }
+    slices.spread = slices.count <= 1024 ? 256 : slices.count <= 8192 ? 32 : 1;
+    do {
+        if (monitor != nullptr) monitor->check();
+        queue.for_each(slices.count * slices.spread, slices);
+        slices.is_first = false;
+    } while (!batch.bring_home(queue, runs));
 }
 
 }  // namespace mir
