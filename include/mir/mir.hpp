@@ -137,6 +137,7 @@
 #include "mir/resident/uploaded_kd_tree.hpp"
 #include "mir/resident/uploaded_lights.hpp"
 #include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/wait_at_end.hpp"
 #include "mir/sampling/bidirectional_sampler.hpp"
 #include "mir/sampling/emission.hpp"
 #include "mir/sampling/image_probe.hpp"

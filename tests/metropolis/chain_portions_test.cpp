@@ -171,6 +171,32 @@ TEST_CASE("A run is cancelled between any two kernels, and leaves nothing behind
     }
 }
 
+TEST_CASE("Anything may fail under chains: an error, nothing leaks, the next run is right") {
+    const Stage stage = wedge();
+    const MetropolisOptions options = few_chains(Mutation::bidirectional);
+    const VplRecords wanted = stage.sampled_on_host(options);
+    PutOff work(0);
+    Watch usual;
+    static_cast<void>(watched(stage, work, usual, options, small_portions()));
+    CHECK(usual.allocations > 5);
+    CHECK(usual.operations > 20);
+    const auto fails = [&](Watch watch, mir::ErrorCode code) {
+        CHECK(error_of([&] { return watched(stage, work, watch, options, small_portions()); }) ==
+              code);
+        CHECK(watch.buffers == 0);
+        CHECK(watch.ended_too_soon == 0);
+        CHECK(same(watched(stage, work, watch, options, small_portions()), wanted));
+    };
+    for (std::size_t i = 0; i < usual.allocations; ++i) {
+        CAPTURE(i);
+        fails({.failing_allocation = i}, mir::ErrorCode::out_of_memory);
+    }
+    for (std::size_t i = 0; i < usual.operations; ++i) {
+        CAPTURE(i);
+        fails({.failing_operation = i}, mir::ErrorCode::device);
+    }
+}
+
 TEST_CASE("Kernels without a mutation are refused") {
     const Stage stage = wedge();
     mir::InlineExecutor one;

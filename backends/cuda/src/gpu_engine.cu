@@ -6,6 +6,7 @@
 #include "mir/resident/backend_metropolis.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_lights.hpp"
+#include "mir/resident/wait_at_end.hpp"
 #include "mir/sched/reconstruct.hpp"
 #include "mir/sched/reconstruct_visibility_parallel.hpp"
 #include "mir/sched/shading_only.hpp"
@@ -50,6 +51,7 @@ template <Bsdf F>
 void GpuEngine<F>::find_visible(Luxels& luxels, VplSpan<Space::host> vpls,
                                 const Limits& limits) const {
     DeviceVpls there(backend_, vpls);
+    const WaitAtEnd wait(queue_);
     there.send(queue_);
     luxels.visibility.emplace(backend_, luxels.gbuffer->grid(), vpls.size(), limits);
     luxels.visibility->find(queue_, *luxels.gbuffer, there.view(), device_visibility());
@@ -60,6 +62,7 @@ template <Bsdf F>
 void GpuEngine<F>::Response::add(const Luxels& luxels, VplSpan<Space::host> vpls,
                                  const VplShading<F>& shading) {
     DeviceVpls there(engine_.backend_, vpls);
+    const WaitAtEnd wait(engine_.queue_);
     there.send(engine_.queue_);
     sum_.add_band(engine_.queue_, *luxels.gbuffer, there.view(), *luxels.visibility, shading);
     engine_.queue_.sync();
@@ -94,10 +97,11 @@ Image<Rgb> GpuEngine<F>::light_known(const Luxels& luxels, VplSpan<Space::host> 
     Image<Rgb> image(gbuffer.extent());
     const std::uint32_t most = gbuffer.view(0).size();
     DeviceVpls there(backend_, vpls);
-    there.send(queue_);
     auto sums = backend_.template buffer<std::uint32_t>(std::size_t{SoaView<Rgb>::words} * most);
     auto at_home =
         backend_.template host_buffer<std::uint32_t>(std::size_t{SoaView<Rgb>::words} * most);
+    const WaitAtEnd wait(queue_);
+    there.send(queue_);
     for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
         if (monitor != nullptr) monitor->check();
         const auto view = gbuffer.view(t);
@@ -121,6 +125,7 @@ VplRecords GpuEngine<F>::sample_metropolis(const LightTable& lights, const PathV
     using Caster = KdRayCaster<Space::device>;
     using Sight = KdTreeVisibility<Space::device>;
     const UploadedLights<Backend> there(backend_, queue_, lights);
+    const WaitAtEnd wait(queue_);
     const PathWorld<F, Caster, Sight, Space::device> world(
         geometry_.view(), there.view(), surfaces_.view(), Caster(geometry_.view(), tree_.view()),
         device_visibility(), view.camera, view.aspect, view.bound);

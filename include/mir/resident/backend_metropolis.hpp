@@ -5,6 +5,7 @@
 #include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/resident/chain_batch.hpp"
 #include "mir/resident/uploaded_array.hpp"
+#include "mir/resident/wait_at_end.hpp"
 
 #include <algorithm>
 #include <span>
@@ -49,7 +50,7 @@ class BackendMetropolis {
                 "least 1, 1024 is usual");
     }
 
-    /// Runs bootstrap and chains; all work is done when it returns. No record comes out
+    /// Runs bootstrap and chains; all work is done when it returns or throws. No record comes out
     /// when no path carries light. `monitor` may be null.
     /// @throws Error(cancelled) between kernels; what the backend throws.
     [[nodiscard]] VplRecords sample(typename B::Queue& queue, Monitor* monitor = nullptr) const {
@@ -99,6 +100,7 @@ void BackendMetropolis<B, World>::draw(typename B::Queue& queue, Monitor* monito
     const std::size_t most = std::min(weights.size(), at_a_time);
     auto weights_there = backend_.template buffer<double>(most);
     auto places_there = backend_.template buffer<std::uint32_t>(most);
+    const WaitAtEnd wait(queue);
     for (std::size_t i = 0; i < weights.size(); i += most) {
         if (monitor != nullptr) monitor->check();
         const std::size_t n = std::min(most, weights.size() - i);
@@ -133,6 +135,7 @@ const {
     ChainBatch<B> batch = make_batch(chains);
     std::vector<ChainRun> runs(chains);
     const UploadedArray<B, std::uint32_t> starts_there(backend_, queue, starts);
+    const WaitAtEnd wait(queue);
     ChainSlices<Walk> slices{{generator_, suffix_, {}, options_, chains}, portions_.mutations};
     slices.starts = starts_there.data();
     for (slices.first = 0; slices.first < chains; slices.first += slices.count) {
