@@ -3,6 +3,11 @@
 
 #include "support/catch.hpp"
 
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
 // What run_chains() makes of what a machine brings home, over a machine without paths.
 
 namespace {

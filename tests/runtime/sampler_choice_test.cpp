@@ -7,6 +7,8 @@
 #include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
 
+#include <type_traits>
+
 // Which sampler settings get, and what an engine that samples itself is told.
 
 namespace {

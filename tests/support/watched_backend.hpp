@@ -3,6 +3,7 @@
 
 #include "support/lazy_backend.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace mirtest {
