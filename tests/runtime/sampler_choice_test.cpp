@@ -8,6 +8,7 @@
 #include "support/catch.hpp"
 
 #include <type_traits>
+#include <utility>
 
 // Which sampler settings get, and what an engine that samples itself is told.
 
@@ -74,7 +75,7 @@ struct Render {
     mir::RenderJob<Bsdf, Engine, mir::InlineExecutor> job{world.scene, settings, world.geometry,
                                                           engine,      executor, &monitor};
 
-    explicit Render(const RenderSettings& s) : settings(s) {}
+    explicit Render(RenderSettings s) : settings(std::move(s)) {}
 
     template <class Use>
     auto with_sampler(const Use& use) {

@@ -79,7 +79,7 @@ class WatchedBackend {
 
     WatchedBackend(PutOff& work, Watch& watch) : work_(&work), watch_(&watch) {}
 
-    [[nodiscard]] Queue queue() const { return Queue(*work_, *watch_); }
+    [[nodiscard]] Queue queue() const { return {*work_, *watch_}; }
     /// @throws Error(out_of_memory) when it is the turn of Watch::failing_allocation.
     template <class T>
     [[nodiscard]] Buffer<T> buffer(std::size_t size) const {
@@ -87,7 +87,7 @@ class WatchedBackend {
             throw mir::Error(mir::ErrorCode::out_of_memory, "memory was refused by a test; go on");
         ++watch_->buffers;
         watch_->bytes_taken += size * sizeof(T);
-        return Buffer<T>(size, *work_, *watch_);
+        return {size, *work_, *watch_};
     }
     template <class T>
     [[nodiscard]] HostBuffer<T> host_buffer(std::size_t size) const {
