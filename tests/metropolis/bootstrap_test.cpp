@@ -95,13 +95,13 @@ TEST_CASE("the bootstrap grows until the error asked for, and not for ever") {
     CHECK(run(generator, {1e9, 7, 1u << 20}).luminance.contributing >= 256);
 }
 
-TEST_CASE("more VPLs deserve a better P_c, unless an error was asked for") {
+TEST_CASE("more chains deserve a larger bootstrap, unless an error was asked for") {
     const mir::BootstrapOptions own;
-    CHECK(own.for_states(1).relative_error == 0.05);
-    CHECK(own.for_states(256).relative_error == 0.05);
-    CHECK(std::fabs(own.for_states(1024).relative_error - 0.025) < 1e-12);
-    CHECK(own.for_states(1024).max_paths == own.max_paths);
-    CHECK(mir::BootstrapOptions{0.2}.for_states(1024).relative_error == 0.2);
+    CHECK(own.for_starts(1).relative_error == 0.05);
+    CHECK(std::fabs(own.for_starts(128).relative_error - 0.03) < 1e-12);
+    CHECK(std::fabs(own.for_starts(512).relative_error - 0.015) < 1e-12);
+    CHECK(own.for_starts(512).max_paths == own.max_paths);
+    CHECK(mir::BootstrapOptions{0.2}.for_starts(512).relative_error == 0.2);
 }
 
 TEST_CASE("scenes without light have P_c = 0") {

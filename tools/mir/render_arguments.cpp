@@ -86,7 +86,7 @@ void add_chains(CLI::App& app, mir::RenderSettings& s) {
     add_count(app, "--suffix-refresh", m.suffix_refresh, 0, 255,
               "Further light paths behind each recorded VPL (default 8)");
     app.add_option("--bootstrap-error", m.bootstrap.relative_error,
-                   "Relative standard error wanted of P_c (default 0.8 / sqrt(VPLs), at most 0.05)")
+                   "Relative standard error wanted of P_c (default 0.03 for 128 chains)")
         ->check(between(1e-6, 1, "above 0 to 1"));
     add_choice<mir::ChainStop>(
         app, "--stop", m.stop, {{"fixed", mir::ChainStop::fixed}, {"paper", mir::ChainStop::paper}},

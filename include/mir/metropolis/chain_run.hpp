@@ -64,8 +64,9 @@ VplRecords run_chains(const Lights& lights, const MetropolisOptions& options, Ma
     out.emitted_power = static_cast<float>(lights.power());
     out.health.emplace();
     if (lights.empty()) return out;
+    const std::uint32_t chains = std::min(options.chains, options.states);
     const Bootstrap seeds = grow_bootstrap(
-        options.bootstrap.for_states(options.states),
+        options.bootstrap.for_starts(chains),
         [&](std::uint64_t first, std::span<double> weights, std::span<std::uint32_t> places) {
             machine.draw(first, weights, places);
         });
@@ -75,7 +76,7 @@ VplRecords run_chains(const Lights& lights, const MetropolisOptions& options, Ma
 
     const Random choice(options.seed, Stream::seeding, 0);
     const double turn = fine_uniform(choice.at(0), choice.at(1));
-    const auto starts = chain_starts(seeds, std::min(options.chains, options.states), turn);
+    const auto starts = chain_starts(seeds, chains, turn);
     const std::vector<ChainRun> runs = machine.walk(starts);
     detail::check_runs(runs);
     for (const ChainRun& run : runs)

@@ -57,8 +57,9 @@ inline void MetropolisTuning::validate() const {
     expects(chain.large_step_probability > 0.0 && chain.large_step_probability <= 1.0,
             "the probability of a large step must be above 0 (a chain might never leave a part of "
             "the scene) and at most 1; 0.5 is usual");
-    expects(bootstrap.relative_error >= 0.0,
-            "the relative error asked of P_c must be positive, or 0 for one by the number of VPLs");
+    expects(
+        bootstrap.relative_error >= 0.0,
+        "the relative error asked of P_c must be positive, or 0 for one by the number of chains");
     expects(bootstrap.min_paths > 0 && bootstrap.min_paths <= bootstrap.max_paths,
             "the bootstrap must draw at least one path and may not draw more at least than at "
             "most; 16384 to 4194304 is usual");

@@ -32,9 +32,9 @@ constexpr void check_kernel() {
 }
 
 /// Blocks that a multiprocessor is to hold at least, for which the compiler has to do with fewer
-/// registers: as the kernel says in `resident_blocks`, else what the compiler likes.
+/// registers: as the kernel says in `resident_blocks`. 0: as the compiler likes.
 template <class Kernel>
-inline constexpr std::uint32_t resident_blocks = 1;
+inline constexpr std::uint32_t resident_blocks = 0;
 template <class Kernel>
     requires requires { Kernel::resident_blocks; }
 inline constexpr std::uint32_t resident_blocks<Kernel> = Kernel::resident_blocks;
