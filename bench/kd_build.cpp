@@ -57,16 +57,19 @@ void kd_build(benchmark::State& state, const std::string& name, const mir::KdTre
 }
 
 void register_builds(const std::string& title, const mir::KdTreeOptions& options) {
-    for (const std::string& name : scenes_of_run())
+    for (const std::string& scene : scenes_of_run()) {
+        std::string name = title;
+        name.append("/").append(scene);
         for (int threads : {1, 2, 0})
             benchmark::RegisterBenchmark(
-                (title + "/" + name).c_str(),
-                [name, options](benchmark::State& s) { kd_build(s, name, options); })
+                name.c_str(),
+                [scene, options](benchmark::State& s) { kd_build(s, scene, options); })
                 ->ArgName("threads")
                 ->Arg(threads)
                 ->UseManualTime()
                 ->Iterations(5)
                 ->Unit(benchmark::kMillisecond);
+    }
 }
 
 const int registered = [] {

@@ -31,7 +31,8 @@ void walk_tree(const mir::KdTree& tree, Visit visit) {
         std::uint32_t node = 0;
         LeafCell cell;
     };
-    std::vector<Waiting> stack{{tree.view().root, {{}, tree.view().low, tree.view().high, 0}}};
+    std::vector<Waiting> stack{
+        {mir::KdTreeView<mir::Space::host>::root, {{}, tree.view().low, tree.view().high, 0}}};
     while (!stack.empty()) {
         Waiting w = stack.back();
         stack.pop_back();

@@ -38,8 +38,9 @@ class SimpleKdTree {
         if (!all.empty()) view_.low = all.low, view_.high = all.high;
         std::vector<std::uint32_t> references(triangles_.size());
         std::iota(references.begin(), references.end(), 0u);
-        nodes_.resize(view_.root + 1);
-        split(view_.root, all, std::move(references), leaf_size, depth);
+        constexpr std::uint32_t root = mir::KdTreeView<mir::Space::host>::root;
+        nodes_.resize(root + 1);
+        split(root, all, std::move(references), leaf_size, depth);
     }
 
     [[nodiscard]] mir::KdTreeView<mir::Space::host> view() const {

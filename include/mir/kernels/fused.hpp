@@ -39,7 +39,8 @@ struct FusedKernel {
 
  private:
     /// Bit k is set where the luxel faces and sees VPL first + k.
-    MIR_HD std::uint32_t seen_from(const Hit& hit, VplIndex first, VplIndex last) const {
+    [[nodiscard]] MIR_HD std::uint32_t seen_from(const Hit& hit, VplIndex first,
+                                                 VplIndex last) const {
         std::uint32_t seen = 0;
         for (VplIndex j = first; j < last; ++j) {
             const Vpl vpl = vpls[j];
@@ -49,8 +50,8 @@ struct FusedKernel {
         return seen;
     }
 
-    MIR_HD Rgb shaded(LuxelIndex i, const Hit& hit, VplIndex first, VplIndex last,
-                      std::uint32_t seen, Rgb sum) const {
+    [[nodiscard]] MIR_HD Rgb shaded(LuxelIndex i, const Hit& hit, VplIndex first, VplIndex last,
+                                    std::uint32_t seen, Rgb sum) const {
         const auto surface = luxels.surface(i);
         for (VplIndex j = first; j < last; ++j)
             if ((seen >> (j - first) & 1u) != 0) sum += shade(hit, surface, vpls[j]);
