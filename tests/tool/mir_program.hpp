@@ -20,9 +20,11 @@ inline Words operator+(Words a, const Words& b) {
 /// The command `mir ARGUMENTS`.
 inline Words mir_command(const Words& arguments) { return Words{MIR_TOOL} + arguments; }
 
-/// Runs `mir ARGUMENTS` to its end.
+/// Runs `mir ARGUMENTS` to its end. A check that fails next shows what a failed run said.
 inline Outcome run_mir(const Words& arguments, const std::filesystem::path& folder = ".") {
-    return RunningProgram(mir_command(arguments), folder).wait();
+    const Outcome outcome = RunningProgram(mir_command(arguments), folder).wait();
+    if (outcome.exit_code != 0) UNSCOPED_INFO("stderr: " << outcome.err);
+    return outcome;
 }
 
 /// Arguments of a render without remarks that takes some milliseconds, on the processor whatever
