@@ -16,4 +16,8 @@ if(MIR_SANITIZE AND PROJECT_IS_TOP_LEVEL)
     if(MIR_SANITIZE MATCHES "address")
         add_compile_options(-fno-sanitize=null,object-size,vptr)
     endif()
+    if(MIR_SANITIZE MATCHES "thread" AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+        add_compile_options(
+            -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tools/sanitizers/tsan_ignore.txt)
+    endif()
 endif()

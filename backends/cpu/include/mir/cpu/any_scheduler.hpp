@@ -73,8 +73,8 @@ struct AnyScheduler {
             typename sched::Reconstruct<Backend<E>>::template Pipeline<In>,
             typename sched::ReconstructVisibilityParallel<Backend<E>>::template Pipeline<In>>;
 
-        [[nodiscard]] Any open(const In& in, Image<Rgb>& image, HostScheduler kind) const {
-            switch (kind) {
+        [[nodiscard]] Any open(const In& in, Image<Rgb>& image, HostScheduler chosen) const {
+            switch (chosen) {
                 case HostScheduler::cpu:
                     return schedulers_.cpu.open(in, image);
                 case HostScheduler::cpu_blocks:
