@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "mir/accel/kd_build.hpp"
 
+#include "accel/build_worlds.hpp"
 #include "accel/kd_cells.hpp"
-#include "conformance/worlds.hpp"
 #include "mir/accel/kd_traverse.hpp"
 #include "support/catch.hpp"
-
-#include <cstring>
-#include <thread>
 
 using namespace mirtest;
 using mir::Vec3;
@@ -24,79 +21,6 @@ mir::KdTree build_deep(const mir::WorldGeometry& geometry) {
     mir::KdTreeOptions options;
     options.traversal_cost = 0.02f;
     return build(geometry, options);
-}
-
-World world_of(mir::Mesh mesh) {
-    mir::Scene scene;
-    mesh.material = scene.add(mir::lambertian("grey", {0.5f, 0.5f, 0.5f}));
-    scene.place(std::move(mesh));
-    return World(std::move(scene));
-}
-
-/// Triangles with one corner far from the two others, which are 1 / aspect as far apart.
-World needles(std::uint32_t count, float aspect, std::uint64_t index) {
-    mir::Random random = test_random(index);
-    mir::Mesh mesh;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Vec3 a = point_in_cube(random);
-        const Vec3 along = direction(random);
-        const Vec3 side = glm::normalize(glm::cross(along, direction(random)));
-        mesh.positions.push_back(a);
-        mesh.positions.push_back(a + along);
-        mesh.positions.push_back(a + side / aspect);
-        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    }
-    return world_of(std::move(mesh));
-}
-
-/// A square of `side` x `side` cells of two triangles, flat in the axis of `normal`.
-World flat_grid(std::uint32_t side, int normal) {
-    mir::Mesh mesh;
-    const auto at = [&](std::uint32_t i, std::uint32_t j) {
-        Vec3 p(0.25f);
-        p[(normal + 1) % 3] = static_cast<float>(i);
-        p[(normal + 2) % 3] = static_cast<float>(j);
-        return p;
-    };
-    for (std::uint32_t i = 0; i <= side; ++i)
-        for (std::uint32_t j = 0; j <= side; ++j) mesh.positions.push_back(at(i, j));
-    for (std::uint32_t i = 0; i < side; ++i)
-        for (std::uint32_t j = 0; j < side; ++j) {
-            const std::uint32_t v = i * (side + 1) + j;
-            mesh.triangles.push_back({v, v + 1, v + side + 1});
-            mesh.triangles.push_back({v + 1, v + side + 2, v + side + 1});
-        }
-    return world_of(std::move(mesh));
-}
-
-/// The same triangle `count` times.
-World coincident(std::uint32_t count) {
-    mir::Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0.5f, 0}, {0.25f, 1, 1}};
-    mesh.triangles.assign(count, {0, 1, 2});
-    return world_of(std::move(mesh));
-}
-
-/// Runs bodies on threads of its own, each taking every `threads`-th index, the last ones first.
-struct BackwardsExecutor {
-    std::size_t threads = 1;
-
-    template <class Body>
-    void for_each(std::size_t n, Body&& body) {
-        std::vector<std::thread> workers;
-        for (std::size_t w = 0; w < threads; ++w)
-            workers.emplace_back([&, w] {
-                for (std::size_t i = n; i-- > 0;)
-                    if (i % threads == w) body(i);
-            });
-        for (std::thread& worker : workers) worker.join();
-    }
-    [[nodiscard]] std::size_t concurrency() const { return threads; }
-};
-
-template <class T>
-bool equal_bytes(std::span<const T> a, std::span<const T> b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
 }
 
 double volume_of(const mir::KdTree& tree) {
@@ -261,15 +185,7 @@ TEST_CASE("Coordinates near the end of single precision are refused with a reaso
 }
 
 TEST_CASE("A tree never becomes deeper than it may") {
-    // Triangles that halve in size towards the origin: every level of a tree parts off one.
-    mir::Mesh mesh;
-    for (std::uint32_t i = 0; i < 100; ++i) {
-        const float s = std::ldexp(1.0f, -static_cast<int>(i) / 6);
-        for (Vec3 p : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
-            mesh.positions.push_back(s * p);
-        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    }
-    const World world = world_of(std::move(mesh));
+    const World world = nested_triangles(100, 6);
     mir::KdTreeOptions options;
     options.traversal_cost = 0.01f;
     options.max_depth = GENERATE(1u, 5u, 64u);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "mir/accel/kd_traverse.hpp"
 
-#include "accel/brute_force_rows.hpp"
-#include "accel/hard_segments.hpp"
+#include "accel/against_brute_force.hpp"
 #include "accel/simple_kd_tree.hpp"
 #include "conformance/worlds.hpp"
 #include "mir/accel/kd_packet.hpp"
 #include "support/catch.hpp"
-
-#include <bit>
 
 namespace {
 
@@ -17,61 +14,14 @@ using mirtest::HardSegments;
 using mirtest::SimpleKdTree;
 using mirtest::World;
 
-/// Answers of the tree that differ from asking every triangle.
-struct Differences {
-    std::size_t asked = 0;
-    std::size_t hidden = 0;
-    std::size_t wrong = 0;
-    std::size_t wrong_backwards = 0;
-};
-
-Differences compare(const World& world, const SimpleKdTree& tree, std::size_t count,
-                    std::uint64_t index) {
-    HardSegments segments(world.geometry, tree.nodes(), index);
-    Differences d;
-    for (std::size_t i = 0; i < count; ++i) {
-        const HardSegment s = segments.next();
-        const auto view = tree.view();
-        const bool truth = mirtest::hidden_by_any(tree.triangles(), view.reach, s.from, s.to);
-        ++d.asked;
-        d.hidden += truth ? 1 : 0;
-        if (mir::is_hidden(view, s.from, s.to) != truth) ++d.wrong;
-        if (mir::is_hidden(view, s.to, s.from) != truth) ++d.wrong_backwards;
-    }
-    return d;
-}
-
 void check_equal_bits(const World& world, std::uint64_t index, std::size_t count = 20000) {
     const SimpleKdTree tree(world.geometry);
-    const Differences d = compare(world, tree, count, index);
-    INFO(d.hidden << " of " << d.asked << " hidden");
-    CHECK(d.hidden > d.asked / 20);
-    CHECK(d.hidden < d.asked);
-    CHECK(d.wrong == 0);
-    CHECK(d.wrong_backwards == 0);
+    mirtest::check_equal_bits(mirtest::compare(world, tree.view(), tree.nodes(), count, index));
 }
 
-bool same_bits(const mir::TriangleHit& a, const mir::TriangleHit& b) {
-    const auto same = [](float x, float y) {
-        return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
-    };
-    return a.triangle == b.triangle && same(a.t, b.t) && same(a.barycentrics.x, b.barycentrics.x) &&
-           same(a.barycentrics.y, b.barycentrics.y);
-}
-
-/// Number of rays whose first triangle is not the one found by asking all, to the last bit.
-std::size_t wrong_rays(const World& world, const SimpleKdTree& tree, std::size_t count,
-                       std::uint64_t index) {
-    HardSegments segments(world.geometry, tree.nodes(), index);
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const HardSegment s = segments.next();
-        if (s.from == s.to) continue;
-        const mir::Ray ray{s.from, glm::normalize(s.to - s.from)};
-        const auto truth = mirtest::first_of_all(tree.triangles(), tree.view().reach, ray);
-        if (!same_bits(mir::first_hit(tree.view(), ray), truth)) ++wrong;
-    }
-    return wrong;
+std::size_t wrong_rays(const World& world, std::uint64_t index) {
+    const SimpleKdTree tree(world.geometry);
+    return mirtest::wrong_rays(world, tree.view(), tree.nodes(), 20000, index);
 }
 
 mir::WorldGeometry stacked_squares() {
@@ -102,6 +52,14 @@ TEST_CASE("A kd-tree hides exactly what asking every triangle hides") {
         check_equal_bits(mirtest::needle_soup(150, 3, scale, {x, 0.3f * x, -x}), 4);
     }
     SECTION("where walls lie along the axes") { check_equal_bits(mirtest::sphere_in_box(), 5); }
+}
+
+TEST_CASE("Segments along axes are answered by a kd-tree in scenes of any size") {
+    const float scale = GENERATE(1e-3f, 1.0f, 1e13f, 1e18f);
+    INFO("scale " << scale);
+    const World world = mirtest::triangle_soup(150, 19, scale);
+    const SimpleKdTree tree(world.geometry);
+    mirtest::check_equal_bits(mirtest::compare_along_axes(world, tree.view(), 5000, 20));
 }
 
 TEST_CASE("A kd-tree over the exact boxes of triangles would lose hits") {
@@ -151,15 +109,15 @@ TEST_CASE("A kd-tree finds the first triangle that asking every triangle finds")
             table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e4f, 0.0f}, {1.0f, 1000.0f}}));
         INFO("scale " << scale << ", moved by " << x);
         const World world = mirtest::triangle_soup(150, 11, scale, {x, 0.3f * x, -x});
-        CHECK(wrong_rays(world, SimpleKdTree(world.geometry), 20000, 12) == 0);
+        CHECK(wrong_rays(world, 12) == 0);
     }
     SECTION("among needles") {
         const World world = mirtest::needle_soup(150, 13);
-        CHECK(wrong_rays(world, SimpleKdTree(world.geometry), 20000, 14) == 0);
+        CHECK(wrong_rays(world, 14) == 0);
     }
     SECTION("where walls lie along the axes") {
         const World world = mirtest::sphere_in_box();
-        CHECK(wrong_rays(world, SimpleKdTree(world.geometry), 20000, 15) == 0);
+        CHECK(wrong_rays(world, 15) == 0);
     }
 }
 

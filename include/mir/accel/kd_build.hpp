@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/detail/construction.hpp"
 #include "mir/accel/detail/kd_assemble.hpp"
 #include "mir/accel/detail/kd_grow.hpp"
 #include "mir/accel/detail/kd_prepare.hpp"
 #include "mir/accel/detail/kd_top.hpp"
 #include "mir/accel/kd_tree.hpp"
-#include "mir/runtime/stopwatch.hpp"
 
 #include <cmath>
 
@@ -20,32 +20,10 @@ inline std::uint32_t kd_depth(const KdTreeOptions& options, std::size_t triangle
     return std::min(KdTreeOptions::depth_limit, static_cast<std::uint32_t>(depth));
 }
 
-/// Scale at which half the surface of a cell is 1.
-inline float kd_area_scale(const KdCell& cell) {
-    const Float4 extent = cell.high - cell.low;
-    const float widest = larger(extent[0], larger(extent[1], extent[2]));
-    return widest > 0.0f ? 1.0f / (widest * std::sqrt(half_area(cell, 1.0f / widest))) : 1.0f;
-}
-
 /// Size of a subtree that one thread grows: enough of them for many threads, each large enough to
 /// pay for itself. Must not depend on the number of threads, for the tree's bytes do on it.
 inline std::size_t kd_subtree_size(std::size_t triangles) {
     return std::max<std::size_t>(4096, triangles / 64);
-}
-
-/// Sizes and areas of such scenes, and the margins around them, stay finite.
-inline void check_kd_coordinates(const WorldGeometry& geometry) {
-    if (magnitude_of(geometry.bounds()) <= 1e36f) return;
-    throw Error(ErrorCode::invalid_input,
-                "the scene has a coordinate beyond 1e36 metres (sizes of boxes around it would "
-                "not be finite numbers); scale the scene");
-}
-
-/// Runs a stage and adds the time it took.
-template <class Stage>
-void timed(double& seconds, const Stage& stage) {
-    const Stopwatch watch(seconds);
-    stage();
 }
 
 }  // namespace detail
@@ -53,13 +31,13 @@ void timed(double& seconds, const Stage& stage) {
 template <Executor E>
 KdTree::KdTree(const WorldGeometry& geometry, const KdTreeOptions& options, E& executor) {
     check(options);
-    detail::check_kd_coordinates(geometry);
+    detail::check_coordinates(geometry);
     const std::size_t count = geometry.triangles().size();
     detail::KdPrepared prepared;
     detail::timed(statistics_.prepare_seconds,
                   [&] { prepared = detail::prepare(geometry, triangles_, executor); });
     const detail::KdPlan plan{options, prepared.triangles.data(), detail::kd_depth(options, count),
-                              detail::kd_area_scale(prepared.cell)};
+                              detail::area_scale({prepared.cell.low, prepared.cell.high})};
     detail::KdGrowerPool pool(plan);
     detail::KdTop top;
     detail::timed(statistics_.top_seconds, [&] {

@@ -47,10 +47,11 @@ class PacketWalk {
     PacketWalk(const KdTreeView<Space::host>& tree, Vec3 origin, const PointPacket& points,
                std::uint32_t active)
         : tree_(tree), origin_(origin), points_(points), open_(active) {
+        const float shortest = shortest_step(tree.reach);
         for (std::uint32_t k = 0; k < packet_lanes; ++k) {
-            inverse_[0].at[k] = loose::reciprocal(never_zero(points.x[k] - origin.x));
-            inverse_[1].at[k] = loose::reciprocal(never_zero(points.y[k] - origin.y));
-            inverse_[2].at[k] = loose::reciprocal(never_zero(points.z[k] - origin.z));
+            inverse_[0].at[k] = inverse_step(points.x[k] - origin.x, shortest);
+            inverse_[1].at[k] = inverse_step(points.y[k] - origin.y, shortest);
+            inverse_[2].at[k] = inverse_step(points.z[k] - origin.z, shortest);
         }
     }
 

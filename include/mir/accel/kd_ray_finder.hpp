@@ -11,8 +11,9 @@ namespace mir {
 template <Space S>
 struct KdRayFinder {
     static constexpr Space space = S;
+    using View = KdTreeView<S>;
 
-    KdTreeView<S> tree;
+    View tree;
 
     [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray) const { return first_hit(tree, ray); }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/detail/axis_step.hpp"
 #include "mir/accel/kd_tree_view.hpp"
 #include "mir/accel/reach.hpp"
 
@@ -18,27 +19,11 @@ namespace mir {
 //   |t d - (split - origin)| <= 3 e |split - origin| + e |split| + e |origin| <= 12 e M  (host)
 //                            <= 4 e |split - origin| + e |origin|             <= 14 e M  (device),
 // because X, and so the plane, lies within 1.5 M; that is what sigma() leaves over. It needs no
-// case for segments along an axis, in a plane or from a plane: a component of zero becomes 2^-90 m,
-// whose t compare like infinities. Intervals are closed, a tie may go either way.
+// case for segments along an axis, in a plane or from a plane: a component of zero becomes
+// shortest_step(), far below those errors, whose t compare like infinities. Intervals are closed, a
+// tie may go either way.
 
 namespace detail {
-
-/// t of a plane on one axis is split * inverse - offset. Aligned so that a walk, which looks a step
-/// up by axis, fetches it as one word.
-struct alignas(8) AxisStep {
-    float inverse = 0.0f;
-    float offset = 0.0f;
-};
-
-/// Keeps reciprocals finite: zero becomes a step so short that it moves nothing (far below the
-/// rounding of coordinates in scenes larger than 1e-15 m), and times which no coordinate up to
-/// 1e11 m overflows.
-MIR_HD inline float never_zero(float x) { return copysignf(larger(fabsf(x), 0x1p-90f), x); }
-
-MIR_HD inline AxisStep axis_step(float from, float to) {
-    const float inverse = loose::reciprocal(never_zero(strict::sub(to, from)));
-    return {inverse, strict::mul(from, inverse)};
-}
 
 /// A cell that waits on the stack. Its part of the segment begins where the last one visited ended.
 /// Without defaults, which would clear the whole stack for every segment.
@@ -51,8 +36,9 @@ struct WaitingCell {
 /// the walk then returns. `end` is the fraction of the segment at which the leaf's cell ends.
 template <Space S, class Leaf>
 MIR_HD bool walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to, Leaf& leaf) {
-    const AxisStep steps[3] = {axis_step(from.x, to.x), axis_step(from.y, to.y),
-                               axis_step(from.z, to.z)};
+    const float shortest = shortest_step(tree.reach);
+    const AxisStep steps[3] = {axis_step(from.x, to.x, shortest), axis_step(from.y, to.y, shortest),
+                               axis_step(from.z, to.z, shortest)};
     WaitingCell stack[KdTreeView<S>::max_depth];
     std::uint32_t waiting = 0;
     KdNode node = tree.nodes[KdTreeView<S>::root];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/detail/construction.hpp"
 #include "mir/accel/detail/kd_bins.hpp"
-#include "mir/concepts/executor.hpp"
 
 #include <vector>
 
@@ -14,13 +14,6 @@ struct KdPrepared {
     RawArray<KdFragment> fragments;
     KdCell cell;  ///< around all of them
 };
-
-/// Calls body(first, last) for the parts of [0, n), at the same time.
-template <Executor E, class Body>
-void for_each_part(std::size_t n, std::size_t part, E& executor, const Body& body) {
-    executor.for_each((n + part - 1) / part,
-                      [&](std::size_t i) { body(i * part, std::min(n, (i + 1) * part)); });
-}
 
 /// Fills `rows` and makes a fragment of each triangle.
 template <Executor E>

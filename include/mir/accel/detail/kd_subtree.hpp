@@ -4,6 +4,7 @@
 #include "mir/accel/detail/kd_bins.hpp"
 #include "mir/accel/detail/kd_partition.hpp"
 #include "mir/accel/detail/kd_sweep.hpp"
+#include "mir/accel/detail/lane_box.hpp"
 #include "mir/accel/kd_node.hpp"
 #include "mir/accel/kd_statistics.hpp"
 #include "mir/core/limits.hpp"
@@ -58,9 +59,7 @@ inline void check_kd_size(std::uint64_t nodes, std::uint64_t references,
 
 /// Half the surface of a cell, with lengths multiplied by `scale` so that nothing overflows.
 inline float half_area(const KdCell& cell, float scale) {
-    const Float4 w = (cell.high - cell.low) * all_lanes(scale);
-    const Float4 sides = w * next_axes(w);
-    return sides[0] + sides[1] + sides[2];
+    return half_area(LaneBox{cell.low, cell.high}, scale);
 }
 
 /// Adds what visiting a node costs a line that meets the root: its share of the area.

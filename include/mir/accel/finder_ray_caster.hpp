@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/ray_caster.hpp"
+#include "mir/concepts/ray_finder.hpp"
+#include "mir/scene/world_geometry.hpp"
+
+namespace mir {
+
+/// Asks a ray finder what a ray sees first, and the geometry what that is. Model of PointFinder
+/// and, on the host, of RayCaster. Same bits as asking every triangle, on the host and on the
+/// device, if the finder has them. Geometry and what the finder reads must outlive it. Thread-safe.
+template <RayFinder F>
+class FinderRayCaster {
+ public:
+    static constexpr Space space = F::space;
+
+    /// `view` is what the finder reads: a tree.
+    MIR_HD FinderRayCaster(const GeometryView<space>& geometry, const typename F::View& view)
+        : geometry_(geometry), finder_{view} {}
+    FinderRayCaster(const WorldGeometry& geometry,
+                    const typename F::View& view) requires(space == Space::host)
+        : FinderRayCaster(geometry.view(), view) {}
+
+    /// Writes the first surface along the ray to `point`; false when there is none.
+    [[nodiscard]] MIR_HD bool find_point(const Ray& ray, SurfacePoint& point) const {
+        const TriangleHit hit = finder_.closest(ray);
+        if (hit.triangle == TriangleHit::none) return false;
+        point = geometry_.surface_point(hit.triangle, hit.barycentrics, ray.direction);
+        return true;
+    }
+    [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const
+        requires(space == Space::host) {
+        SurfacePoint point;
+        if (!find_point(ray, point)) return std::nullopt;
+        return point;
+    }
+
+ private:
+    GeometryView<space> geometry_;
+    F finder_;
+};
+
+}  // namespace mir

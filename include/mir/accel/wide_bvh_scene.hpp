@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/wide_build.hpp"
+#include "mir/accel/wide_bvh_visibility.hpp"
+#include "mir/accel/wide_ray_caster.hpp"
+
+namespace mir {
+
+/// A scene to trace rays through by way of a wide bounding volume hierarchy: owns it, hands out the
+/// ray caster and the visibility that read it. The geometry must outlive it. Const use from any
+/// thread.
+class WideBvhScene {
+ public:
+    /// @throws Error what WideBvh throws.
+    template <Executor E>
+    WideBvhScene(const WorldGeometry& geometry, E& executor, const WideBvhOptions& options = {})
+        : geometry_(&geometry), bvh_(geometry, options, executor) {}
+
+    /// Builds on the calling thread.
+    explicit WideBvhScene(const WorldGeometry& geometry)
+        : geometry_(&geometry), bvh_([&] {
+              InlineExecutor executor;
+              return WideBvh(geometry, {}, executor);
+          }()) {}
+
+    [[nodiscard]] WideBvhVisibility<Space::host> visibility() const { return {bvh_.view()}; }
+    [[nodiscard]] WideRayCaster<Space::host> ray_caster() const {
+        return {*geometry_, bvh_.view()};
+    }
+    [[nodiscard]] const WideBvh& bvh() const { return bvh_; }
+
+ private:
+    const WorldGeometry* geometry_;
+    WideBvh bvh_;
+};
+
+}  // namespace mir

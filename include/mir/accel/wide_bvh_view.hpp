@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/triangle_rows.hpp"
+#include "mir/accel/wide_node.hpp"
+#include "mir/accel/wide_options.hpp"
+#include "mir/core/space.hpp"
+
+namespace mir {
+
+/// What traversal reads of a wide bounding volume hierarchy. Every box holds the accept boxes
+/// (accept_box.hpp) of all triangles below it. There is always a root, even without triangles.
+template <Space S>
+struct WideBvhView {
+    static constexpr Space space = S;
+
+    /// Largest number of nodes on the way to a triangle. Traversal keeps a stack of this size.
+    static constexpr std::uint32_t max_depth = WideBvhOptions::depth_limit;
+
+    /// Index of the first node.
+    static constexpr std::uint32_t root = 0;
+
+    const WideNode* nodes = nullptr;          ///< aligned to 64 bytes
+    const TriangleRows* triangles = nullptr;  ///< leaf by leaf
+    const std::uint32_t* indices = nullptr;   ///< of the same triangles in WorldGeometry
+    float reach = 0.0f;  ///< metres: reach_of(magnitude_of(bounds of the scene)), accept_box.hpp
+};
+
+}  // namespace mir

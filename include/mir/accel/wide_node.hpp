@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/hd.hpp"
+
+#include <cstdint>
+
+namespace mir {
+
+/// One node of a wide bounding volume hierarchy, 256 bytes: the boxes of up to eight children, side
+/// by side so that one vector instruction reads a plane of all of them, and what they are. A
+/// trivially copyable value, the same on host and device.
+struct alignas(64) WideNode {
+    static constexpr std::uint32_t width = 8;
+    static constexpr std::int32_t inner = 0;   ///< count of a child that is a node
+    static constexpr std::int32_t empty = -1;  ///< count of a slot without a child
+
+    /// Planes that bound the children, metres: low x, high x, low y, high y, low z, high z. Those
+    /// of empty slots lie so that no segment within the reach of the scene meets them.
+    float planes[6][width];
+    std::uint32_t ref[width];   ///< node, or first triangle of a leaf
+    std::int32_t count[width];  ///< triangles of a leaf, `inner` or `empty`
+
+    [[nodiscard]] MIR_HD float low(int axis, std::uint32_t slot) const {
+        return planes[2 * axis][slot];
+    }
+    [[nodiscard]] MIR_HD float high(int axis, std::uint32_t slot) const {
+        return planes[2 * axis + 1][slot];
+    }
+    [[nodiscard]] MIR_HD bool is_inner(std::uint32_t slot) const { return count[slot] == inner; }
+    [[nodiscard]] MIR_HD bool is_leaf(std::uint32_t slot) const { return count[slot] > 0; }
+};
+
+static_assert(sizeof(WideNode) == 256);
+
+}  // namespace mir

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "accel/meets_box.hpp"
+#include "accel/wide_nodes.hpp"
+#include "conformance/worlds.hpp"
+#include "mir/accel/wide_traverse.hpp"
+#include "support/catch.hpp"
+#include "support/segment_ends.hpp"
+
+namespace {
+
+using mir::Bounds;
+using mir::Vec3;
+using mirtest::SegmentEnds;
+
+/// Makes boxes in [-scale, scale]^3, and segments in 1.5 times that cube, mostly aimed at the
+/// faces, edges and corners of a box.
+class HardBoxes {
+ public:
+    HardBoxes(float scale, std::uint64_t index)
+        : scale_(scale), random_(mirtest::test_random(index)) {}
+
+    mir::WideNode node() {
+        mir::WideNode node{};
+        for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
+            const Vec3 a = point();
+            Vec3 b = random_.next() < 0.5f ? point() : a + 0.01f * point();
+            if (random_.next() < 0.2f) b[axis()] = a[0];
+            for (int k = 0; k < 3; ++k) {
+                node.planes[2 * k][slot] = std::max(std::min(a[k], b[k]), -scale_);
+                node.planes[2 * k + 1][slot] = std::min(std::max(a[k], b[k]), scale_);
+            }
+        }
+        return node;
+    }
+
+    SegmentEnds segment(const Bounds& box) {
+        const Vec3 at = on(box);
+        SegmentEnds s{1.5f * point(), 1.5f * point()};
+        switch (kind_++ % 6) {
+            case 0:
+                return s;
+            case 1:  // through a face, an edge or a corner
+                s.to = s.from + (1.0f + random_.next()) * (at - s.from);
+                return kept(s);
+            case 2:  // ends there
+                s.to = at;
+                return s;
+            case 3:  // along an axis
+                s.from = at;
+                s.to = at;
+                s.to[axis()] = 1.5f * scale_ * (2.0f * random_.next() - 1.0f);
+                return s;
+            case 4:  // almost along an axis
+                s.from = at;
+                s.to = at + scale_ * 0x1p-40f * mirtest::point_in_cube(random_);
+                s.to[axis()] = 1.5f * scale_ * (2.0f * random_.next() - 1.0f);
+                return s;
+            default:  // from one such place to another
+                s.from = at;
+                s.to = on(box);
+                return s;
+        }
+    }
+
+ private:
+    Vec3 point() { return scale_ * mirtest::point_in_cube(random_); }
+    int axis() { return std::min(2, static_cast<int>(3.0f * random_.next())); }
+    SegmentEnds kept(SegmentEnds s) const {
+        s.to = glm::clamp(s.to, Vec3(-1.5f * scale_), Vec3(1.5f * scale_));
+        return s;
+    }
+
+    /// On a face, edge or corner but for some units in the last place.
+    Vec3 on(const Bounds& box) {
+        Vec3 p = box.low + random_.next() * (box.high - box.low);
+        for (int k = 0; k < 3; ++k) {
+            const float choice = random_.next();
+            if (choice < 0.3f) p[k] = box.low[k];
+            if (choice > 0.7f) p[k] = box.high[k];
+        }
+        p += 8.0f * 0x1p-24f * scale_ * mirtest::point_in_cube(random_);
+        return glm::clamp(p, Vec3(-1.5f * scale_), Vec3(1.5f * scale_));
+    }
+
+    float scale_;
+    mir::Random random_;
+    std::uint32_t kind_ = 0;
+};
+
+struct Verdicts {
+    std::size_t met = 0;            ///< boxes met by the segment
+    std::size_t culled_inside = 0;  ///< although met by more than is reserved
+    std::size_t culled_met = 0;     ///< although met
+    std::size_t kept_outside = 0;   ///< although missed by more than is reserved
+};
+
+Verdicts judge(float scale, std::size_t nodes, std::uint64_t index) {
+    const long double reserved = 14.0L * 0x1p-24L * scale;
+    HardBoxes boxes(scale, index);
+    Verdicts verdicts;
+    for (std::size_t i = 0; i < nodes; ++i) {
+        const mir::WideNode node = boxes.node();
+        for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
+            const Bounds box = mirtest::child_of(node, slot).box;
+            const SegmentEnds s = boxes.segment(box);
+            const mir::detail::SlabSegment segment(s.from, s.to, mir::reach_of(scale));
+            const auto found = mir::detail::met_children(node, segment, 1.0f);
+            const bool kept = (found.mask >> slot & 1u) != 0;
+            const bool met = mirtest::meets(box, 0, s.from, s.to);
+            verdicts.met += met ? 1 : 0;
+            verdicts.culled_met += met && !kept ? 1 : 0;
+            if (!kept && mirtest::meets(box, -reserved, s.from, s.to)) ++verdicts.culled_inside;
+            if (kept && !mirtest::meets(box, reserved, s.from, s.to)) ++verdicts.kept_outside;
+        }
+    }
+    return verdicts;
+}
+
+}  // namespace
+
+TEST_CASE("A box is kept when a segment meets it by more than is reserved, else it may be culled") {
+    const float scale = GENERATE(1e-3f, 1.0f, 24.0f, 1e3f, 1e12f, 1e36f);
+    const Verdicts verdicts = judge(scale, 100000, 1);
+    INFO("scale " << scale << ", " << verdicts.met << " met");
+    CHECK(verdicts.met > 200000);
+    CHECK(verdicts.met < 600000);
+    CHECK(verdicts.culled_inside == 0);
+    CHECK(verdicts.kept_outside == 0);
+    // Without the slack that accept boxes bring along, boxes that are met would be lost.
+    CHECK(verdicts.culled_met > 0);
+}
+
+TEST_CASE("A child begins where the segment enters it, and none is met behind the end") {
+    mir::WideNode node{};
+    for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
+        const auto low = static_cast<float>(slot);
+        const float planes[6] = {low, low + 0.5f, -1, 1, -1, 1};
+        for (int k = 0; k < 6; ++k) node.planes[k][slot] = planes[k];
+    }
+    const mir::detail::SlabSegment segment({-1, 0, 0}, {9, 0, 0}, 15.0f);
+    const auto all = mir::detail::met_children(node, segment, 1.0f);
+    CHECK(all.mask == 0xFF);
+    for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot)
+        CHECK(all.begin[slot] == mirtest::Approx((slot + 1.0) / 10.0));
+    CHECK(mir::detail::met_children(node, segment, 0.45f).mask == 0x0F);
+    const mir::detail::SlabSegment back({9, 0, 0}, {-1, 0, 0}, 15.0f);
+    CHECK(mir::detail::met_children(node, back, 0.47f).mask == 0xF0);
+}
+
+TEST_CASE("Children leave their queue in the order of distance, equal ones in that of insertion") {
+    const float begin[8] = {0.5f, 0.25f, 0.75f, 0.25f, 0.0f, 1.0f, 0.5f, 0.125f};
+    mir::detail::ChildQueue queue{0};
+    CHECK(queue.empty());
+    for (std::uint32_t slot = 0; slot < 8; ++slot) queue.insert(slot, begin);
+    for (std::uint32_t slot : {4u, 7u, 1u, 3u, 0u, 6u, 2u, 5u}) {
+        CHECK_FALSE(queue.empty());
+        CHECK(queue.pop() == slot);
+    }
+    CHECK(queue.empty());
+}
