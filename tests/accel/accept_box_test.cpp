@@ -4,30 +4,12 @@
 #include "accel/hard_segments.hpp"
 #include "conformance/worlds.hpp"
 #include "support/catch.hpp"
+#include "support/segment_box.hpp"
 
 namespace {
 
 using mir::Bounds;
 using mir::Vec3;
-
-/// Whether the closed segment and the box grown by `grow` share a point, in long arithmetic.
-bool meets(const Bounds& box, long double grow, Vec3 from, Vec3 to) {
-    long double begin = 0;
-    long double end = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-        const long double origin = from[axis];
-        const long double way = static_cast<long double>(to[axis]) - origin;
-        const long double low = box.low[axis] - grow - origin;
-        const long double high = box.high[axis] + grow - origin;
-        if (way == 0) {
-            if (low > 0 || high < 0) return false;
-            continue;
-        }
-        begin = std::max(begin, std::min(low / way, high / way));
-        end = std::min(end, std::max(low / way, high / way));
-    }
-    return begin <= end;
-}
 
 Bounds exact_box(const mir::WorldGeometry& g, std::uint32_t t) {
     Bounds box;
@@ -58,8 +40,8 @@ Misses count_misses(const mir::WorldGeometry& g, std::size_t count, std::uint64_
             if (!mir::hits_segment(mir::make_triangle_rows(a, b, c), s.from, s.to)) continue;
             ++misses.accepted;
             const Bounds box = mir::accept_box(a, b, c, magnitude);
-            if (!meets(box, -reserved, s.from, s.to)) ++misses.accept_box;
-            if (!meets(exact_box(g, t), 0, s.from, s.to)) ++misses.exact_box;
+            if (!mirtest::meets(box, -reserved, s.from, s.to)) ++misses.accept_box;
+            if (!mirtest::meets(exact_box(g, t), 0, s.from, s.to)) ++misses.exact_box;
         }
     }
     return misses;
