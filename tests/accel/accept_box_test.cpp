@@ -5,6 +5,7 @@
 #include "accel/meets_box.hpp"
 #include "conformance/worlds.hpp"
 #include "support/catch.hpp"
+#include "support/segment_box.hpp"
 
 namespace {
 

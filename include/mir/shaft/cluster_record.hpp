@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/reach.hpp"
+#include "mir/accel/triangle_rows.hpp"
+#include "mir/data/luxel.hpp"
+#include "mir/data/soa.hpp"
+
+namespace mir {
+
+/// What shafts know about a cluster, a run of luxels that lie close together: a box and a
+/// half-space that hold all of its luxels but the empty ones. Aligned so that the device fetches it
+/// in three words.
+struct alignas(16) ClusterRecord {
+    AffineRow front{0, 0, 0, 1};  ///< at least 2 sigma at every luxel, up to rounding; metres
+    Vec3 low{0};                  ///< of the luxels' box grown by sigma, metres
+    Vec3 high{0};
+    std::uint32_t luxels = 0;  ///< that are not empty; the box says nothing when there are none
+};
+
+/// True when the proofs of docs/shafts.md hold for the cluster's luxels: segments to others may be
+/// cut (reach.hpp), and are then none of the shaft's.
+[[nodiscard]] MIR_HD inline bool within_reach(const ClusterRecord& cluster, float reach) {
+    return within_reach(cluster.low, reach) && within_reach(cluster.high, reach);
+}
+
+namespace detail {
+
+/// Box, sum of normals and number of the luxels of a run that are not empty.
+struct ClusterSum {
+    Vec3 low{0};
+    Vec3 high{0};
+    Vec3 normals{0};
+    std::uint32_t luxels = 0;
+
+    MIR_HD void add(const Hit& hit) {
+        const Vec3 p = hit.position;
+        low = luxels == 0 ? p : glm::min(low, p);
+        high = luxels == 0 ? p : glm::max(high, p);
+        normals += hit.normal;
+        ++luxels;
+    }
+};
+
+MIR_HD inline ClusterSum sum_of_cluster(const SoaView<const Hit>& hits, std::uint32_t first,
+                                        std::uint32_t count) {
+    ClusterSum sum;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        const Hit hit = hits.load(i);
+        if (!is_empty(hit)) sum.add(hit);
+    }
+    return sum;
+}
+
+/// The direction of `v` as gradient of a row through the origin, zero when `v` is next to nothing:
+/// normals that cancel leave a rest without a meaning.
+MIR_HD inline AffineRow direction_row(Vec3 v) {
+    const float length = sqrtf(row_at({v.x, v.y, v.z, 0.0f}, v));
+    if (!(length > 1e-4f)) return {};
+    return {strict::div(v.x, length), strict::div(v.y, length), strict::div(v.z, length), 0.0f};
+}
+
+/// Smallest value of a row at the luxels of a run that are not empty; 0 if all are.
+MIR_HD inline float least_at(AffineRow row, const SoaView<const Hit>& hits, std::uint32_t first,
+                             std::uint32_t count) {
+    bool found = false;
+    float least = 0.0f;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        const Hit hit = hits.load(i);
+        if (is_empty(hit)) continue;
+        const float value = row_at(row, hit.position);
+        least = found ? smaller(least, value) : value;
+        found = true;
+    }
+    return least;
+}
+
+}  // namespace detail
+
+/// Record of the luxels first .. first + count - 1. `sigma` is sigma_of() the scene's magnitude,
+/// metres.
+[[nodiscard]] MIR_HD inline ClusterRecord cluster_record(const SoaView<const Hit>& hits,
+                                                         std::uint32_t first, std::uint32_t count,
+                                                         float sigma) {
+    const detail::ClusterSum sum = detail::sum_of_cluster(hits, first, count);
+    if (sum.luxels == 0) return {};
+    ClusterRecord cluster;
+    cluster.low = sum.low - sigma;
+    cluster.high = sum.high + sigma;
+    cluster.luxels = sum.luxels;
+    cluster.front = detail::direction_row(sum.normals);
+    cluster.front.w =
+        strict::sub(2.0f * sigma, detail::least_at(cluster.front, hits, first, count));
+    return cluster;
+}
+
+/// One run of luxels, one record: kernel over all clusters of one size. Luxels beyond the last one
+/// are padding, that is empty, and are there to be read.
+struct ClusterRecords {
+    SoaView<const Hit> hits;  ///< in cluster order
+    std::uint32_t run = 32;   ///< luxels of a cluster
+    float sigma = 0.0f;       ///< of the scene, metres
+    ClusterRecord* records = nullptr;
+
+    MIR_HD void operator()(std::uint32_t i) const {
+        records[i] = cluster_record(hits, i * run, run, sigma);
+    }
+};
+
+}  // namespace mir

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/shaft/cluster_record.hpp"
+
+namespace mir {
+
+/// What one triangle does to the segments between a VPL and the points of a cluster's box, as
+/// hits_segment() computes it.
+enum class Occlusion : std::uint8_t {
+    none,     ///< it hits none of them
+    partial,  ///< neither is shown
+    full      ///< it hits all of them
+};
+
+/// A VPL and the box of a cluster, as triangles are tested against them.
+struct Pyramid {
+    Vec3 apex{0};         ///< the VPL, metres
+    Vec3 centre{0};       ///< of the box, up to rounding
+    Vec3 half{0};         ///< the box keeps within centre -+ half
+    float spread = 0.0f;  ///< no coordinate of a point of the box is farther from the VPL's, metres
+    float sigma = 0.0f;   ///< of the scene, metres
+};
+
+/// Pyramid of a cluster that has luxels and a VPL at `apex`, metres. `sigma` as for the cluster.
+[[nodiscard]] MIR_HD inline Pyramid make_pyramid(const ClusterRecord& cluster, Vec3 apex,
+                                                 float sigma) {
+    Pyramid p;
+    p.apex = apex;
+    p.centre = 0.5f * (cluster.low + cluster.high);
+    p.half = glm::max(cluster.high - p.centre, p.centre - cluster.low);
+    p.spread = larger(max_abs(cluster.low - apex), max_abs(cluster.high - apex));
+    p.sigma = sigma;
+    return p;
+}
+
+/// How far from 0 a bound must be for hits_segment() to compute numbers of its sign, in units of
+/// sigma for the plane and of sigma (1 + |u| + |v| at the apex + gradients times lengths) for the
+/// edges. docs/shafts.md derives 1.31 and 3.69 of them.
+struct OcclusionMargins {
+    static constexpr float plane = 2.0f;
+    static constexpr float edge = 4.0f;
+};
+
+namespace detail {
+
+/// An affine function over a box: value in the centre and gradient.
+struct AffineForm {
+    float value = 0.0f;
+    Vec3 slope{0};
+
+    /// Largest difference from `value` in a box of half edges `half`.
+    [[nodiscard]] MIR_HD float extent(Vec3 half) const {
+        return row_at({fabsf(slope.x), fabsf(slope.y), fabsf(slope.z), 0.0f}, half);
+    }
+};
+
+MIR_HD inline AffineForm affine_form(AffineRow row, Vec3 centre) {
+    return {row_at(row, centre), {row.x, row.y, row.z}};
+}
+
+MIR_HD inline AffineRow negated(AffineRow row) { return {-row.x, -row.y, -row.z, -row.w}; }
+
+/// a f + b g
+MIR_HD inline AffineForm combine(float a, const AffineForm& f, float b, const AffineForm& g) {
+    const auto mix = [a, b](float x, float y) {
+        return strict::add(strict::mul(a, x), strict::mul(b, y));
+    };
+    return {mix(f.value, g.value),
+            {mix(f.slope.x, g.slope.x), mix(f.slope.y, g.slope.y), mix(f.slope.z, g.slope.z)}};
+}
+
+/// Where an affine function keeps its sign: never above -margin, never below margin.
+struct SureSign {
+    bool negative = false;
+    bool positive = false;
+};
+
+MIR_HD inline SureSign sure_sign(const AffineForm& f, Vec3 half, float margin) {
+    const float extent = f.extent(half);
+    return {strict::add(f.value, extent) < -margin, strict::sub(f.value, extent) > margin};
+}
+
+MIR_HD inline float l1_of_gradient(AffineRow row) {
+    return strict::add(strict::add(fabsf(row.x), fabsf(row.y)), fabsf(row.z));
+}
+
+/// The VPL as a triangle's rows see it.
+struct ApexRows {
+    float u = 0.0f;
+    float v = 0.0f;
+    float depth = 0.0f;  ///< distance from the plane, metres
+};
+
+/// Margin of the three forms below, metres.
+MIR_HD inline float edge_margin(const TriangleRows& rows, const Pyramid& p, const ApexRows& apex,
+                                float sigmas) {
+    const float gradients = strict::add(l1_of_gradient(rows.u), l1_of_gradient(rows.v));
+    const float varied = strict::mul(gradients, strict::add(p.spread, apex.depth));
+    const float at_apex = strict::add(fabsf(apex.u), fabsf(apex.v));
+    return strict::mul(sigmas * p.sigma, strict::add(1.0f, strict::add(at_apex, varied)));
+}
+
+/// Whether all segments that cross a plane do so outside of the same edge (negative) or inside all
+/// edges (positive). S is the VPL's depth, s'(p) the distance of p beyond the plane. With
+///   U(p) = u(q) s'(p) + S u(p), V(p) = v(q) s'(p) + S v(p), W(p) = s'(p) + S - U(p) - V(p)
+/// the segment to p crosses inside when none is negative. They are affine in p, so their ranges
+/// over a box are known.
+MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
+                                  const AffineForm& beyond, const ApexRows& apex, float margin) {
+    constexpr SureSign outside{true, false};
+    const AffineForm u = combine(apex.u, beyond, apex.depth, affine_form(rows.u, p.centre));
+    const SureSign edge_u = sure_sign(u, p.half, margin);
+    if (edge_u.negative) return outside;
+
+    const AffineForm v = combine(apex.v, beyond, apex.depth, affine_form(rows.v, p.centre));
+    const SureSign edge_v = sure_sign(v, p.half, margin);
+    if (edge_v.negative) return outside;
+
+    const AffineForm d{strict::add(beyond.value, apex.depth), beyond.slope};
+    const AffineForm w = combine(1.0f, combine(1.0f, d, -1.0f, u), -1.0f, v);
+    const SureSign edge_w = sure_sign(w, p.half, margin);
+    if (edge_w.negative) return outside;
+    return {false, edge_u.positive && edge_v.positive && edge_w.positive};
+}
+
+}  // namespace detail
+
+/// Tests one triangle against all segments from the pyramid's apex to its box, in about 80
+/// operations without a division. Partial when the apex lies within sigma of the triangle's plane.
+/// Source: Reshetov, "Faster ray packets - triangle intersection through vertex culling", 2007,
+/// turned round: affine functions of the triangle over the base in place of planes over vertices.
+template <class Margins = OcclusionMargins>
+[[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p) {
+    const float s = row_at(rows.s, p.apex);
+    const float depth = fabsf(s);
+    if (!(depth > p.sigma)) return Occlusion::partial;
+
+    const detail::AffineForm beyond =
+        detail::affine_form(s > 0.0f ? detail::negated(rows.s) : rows.s, p.centre);
+    const detail::SureSign plane = detail::sure_sign(beyond, p.half, Margins::plane * p.sigma);
+    if (plane.negative) return Occlusion::none;
+
+    const detail::ApexRows apex{row_at(rows.u, p.apex), row_at(rows.v, p.apex), depth};
+    const float margin = detail::edge_margin(rows, p, apex, Margins::edge);
+    const detail::SureSign edges = detail::sure_edges(rows, p, beyond, apex, margin);
+    if (edges.negative) return Occlusion::none;
+    return plane.positive && edges.positive ? Occlusion::full : Occlusion::partial;
+}
+
+}  // namespace mir

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "conformance/worlds.hpp"
+#include "mir/accel/accept_box.hpp"
+#include "mir/shaft/cluster_record.hpp"
+
+namespace mirtest {
+
+inline bool chance(mir::Random& random, float share) { return random.next() < share; }
+
+/// The float nearest to 32 roundings of coordinates up to `magnitude`.
+inline float float_sigma(float magnitude) { return static_cast<float>(mir::sigma_of(magnitude)); }
+
+/// A box of a cluster as it comes, from flat or a single point to a third of the scene, within
+/// [-scale, scale]^3. Not grown and without a half-space: tests ask for segments to its very faces.
+inline mir::ClusterRecord random_cluster_box(mir::Random& random, float scale) {
+    const mir::Vec3 middle = 0.6f * point_in_cube(random);
+    const float size = 0.3f * std::pow(10.0f, -4.0f * random.next());
+    mir::ClusterRecord record;
+    record.luxels = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float half = chance(random, 0.25f) ? 0.0f : size * random.next();
+        record.low[axis] = scale * (middle[axis] - half);
+        record.high[axis] = scale * (middle[axis] + half);
+    }
+    return record;
+}
+
+/// A VPL anywhere, in the box, or on a face, an edge or a corner of it.
+inline mir::Vec3 random_apex(mir::Random& random, const mir::ClusterRecord& record, float scale) {
+    mir::Vec3 apex = scale * point_in_cube(random);
+    if (chance(random, 0.2f)) {
+        const mir::Vec3 share = 0.5f + 0.5f * point_in_cube(random);
+        apex = record.low + share * (record.high - record.low);
+    }
+    const float touching = chance(random, 0.5f) ? 0.5f : 0.0f;
+    for (int axis = 0; axis < 3; ++axis)
+        if (chance(random, touching))
+            apex[axis] = chance(random, 0.5f) ? record.low[axis] : record.high[axis];
+    return apex;
+}
+
+/// A point of the box, most often on its faces.
+inline mir::Vec3 random_luxel(mir::Random& random, const mir::ClusterRecord& record) {
+    mir::Vec3 p;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float x = record.low[axis] + random.next() * (record.high[axis] - record.low[axis]);
+        const bool inside = chance(random, 0.2f) && x <= record.high[axis];
+        p[axis] = inside ? x : chance(random, 0.5f) ? record.low[axis] : record.high[axis];
+    }
+    return p;
+}
+
+}  // namespace mirtest
