@@ -65,7 +65,7 @@ void check_whole(const mir::WorldGeometry& geometry, const mir::WideBvh& bvh) {
         const std::uint32_t t = bvh.indices()[i];
         const mir::TriangleRows rows = mir::make_triangle_rows(
             geometry.corner(t, 0), geometry.corner(t, 1), geometry.corner(t, 2));
-        wrong_rows += std::memcmp(&rows, &bvh.triangles()[i], sizeof rows) != 0 ? 1 : 0;
+        wrong_rows += equal_bytes<mir::TriangleRows>({&rows, 1}, {&bvh.triangles()[i], 1}) ? 0 : 1;
     }
     CHECK(wrong_rows == 0);
 }
