@@ -129,7 +129,7 @@ TEST_CASE("Segments along axes are answered by a wide tree in scenes of any size
     mirtest::check_equal_bits(mirtest::compare_along_axes(world, bvh.view(), 5000, 20));
 }
 
-TEST_CASE("A tree as deep as its stack is walked in full") {
+TEST_CASE("A deep and lopsided wide tree is walked in full") {
     const World world = mirtest::nested_triangles(3000, 30);
     mir::WideBvhOptions options;
     options.leaf_size = 1;
