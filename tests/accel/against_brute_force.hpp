@@ -21,6 +21,27 @@ inline std::vector<mir::TriangleRows> all_rows(const mir::WorldGeometry& geometr
     return rows;
 }
 
+/// Random triangles at one of several scales and distances from the origin, by a generator of
+/// Catch.
+inline World soup_anywhere(std::uint64_t index) {
+    const auto [scale, x] = GENERATE(table<float, float>({{1.0f, 0.0f},
+                                                          {1e-3f, 0.0f},
+                                                          {1e4f, 0.0f},
+                                                          {1.0f, 1000.0f},
+                                                          {0.01f, 50.0f},
+                                                          {1e-3f, 1e-2f}}));
+    UNSCOPED_INFO("scale " << scale << ", moved by " << x);
+    return triangle_soup(150, index, scale, {x, 0.3f * x, -x});
+}
+
+/// The same with needles.
+inline World needles_anywhere(std::uint64_t index) {
+    const auto [scale, x] =
+        GENERATE(table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e4f, 0.0f}, {1.0f, 100.0f}}));
+    UNSCOPED_INFO("scale " << scale << ", moved by " << x);
+    return needle_soup(150, index, scale, {x, 0.3f * x, -x});
+}
+
 /// Answers of a tree that differ from asking every triangle.
 struct Differences {
     std::size_t asked = 0;

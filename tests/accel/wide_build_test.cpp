@@ -2,103 +2,12 @@
 #include "mir/accel/wide_build.hpp"
 
 #include "accel/build_worlds.hpp"
-#include "accel/wide_nodes.hpp"
+#include "accel/wide_checks.hpp"
 #include "mir/accel/wide_traverse.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;
 using mir::Vec3;
-
-namespace {
-
-bool holds(const mir::Bounds& outer, const mir::Bounds& inner) {
-    return glm::all(glm::lessThanEqual(outer.low, inner.low)) &&
-           glm::all(glm::lessThanEqual(inner.high, outer.high));
-}
-
-/// Box around the boxes of all children of a node.
-mir::Bounds box_of(const mir::WideNode& node) {
-    mir::Bounds box;
-    for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
-        if (node.count[slot] == mir::WideNode::empty) continue;
-        box.add(child_of(node, slot).box.low);
-        box.add(child_of(node, slot).box.high);
-    }
-    return box;
-}
-
-bool holds_accept_boxes(const mir::WorldGeometry& geometry, const mir::WideBvh& bvh,
-                        const WideChild& leaf) {
-    const float magnitude = mir::magnitude_of(geometry.bounds());
-    for (std::uint32_t i = leaf.ref; i < leaf.ref + static_cast<std::uint32_t>(leaf.count); ++i) {
-        const std::uint32_t t = bvh.indices()[i];
-        if (!holds(leaf.box, mir::accept_box(geometry.corner(t, 0), geometry.corner(t, 1),
-                                             geometry.corner(t, 2), magnitude)))
-            return false;
-    }
-    return true;
-}
-
-/// Every triangle lies in one leaf, all boxes hold what is below them, and rows are those of the
-/// triangles named beside them.
-void check_whole(const mir::WorldGeometry& geometry, const mir::WideBvh& bvh) {
-    const std::size_t n = geometry.triangles().size();
-    std::vector<int> listed(n);
-    std::size_t small_boxes = 0;
-    std::size_t visited = 1;
-    walk_wide(bvh, [&](const WideChild& child) {
-        if (child.count == mir::WideNode::inner) {
-            ++visited;
-            if (!holds(child.box, box_of(bvh.nodes()[child.ref]))) ++small_boxes;
-        } else if (child.count > 0) {
-            if (!holds_accept_boxes(geometry, bvh, child)) ++small_boxes;
-            for (std::int32_t i = 0; i < child.count; ++i)
-                ++listed.at(bvh.indices()[child.ref + static_cast<std::uint32_t>(i)]);
-        }
-    });
-    CHECK(visited == bvh.nodes().size());
-    CHECK(small_boxes == 0);
-    CHECK(std::count(listed.begin(), listed.end(), 1) == static_cast<std::ptrdiff_t>(n));
-    REQUIRE(bvh.triangles().size() == n);
-    std::size_t wrong_rows = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::uint32_t t = bvh.indices()[i];
-        const mir::TriangleRows rows = mir::make_triangle_rows(
-            geometry.corner(t, 0), geometry.corner(t, 1), geometry.corner(t, 2));
-        wrong_rows += std::memcmp(&rows, &bvh.triangles()[i], sizeof rows) != 0 ? 1 : 0;
-    }
-    CHECK(wrong_rows == 0);
-}
-
-/// What walking the tree counts.
-struct WideCount {
-    std::uint64_t leaves = 0;
-    std::uint32_t depth = 1;
-    std::uint32_t largest_leaf = 0;
-    double nodes_area = 1.0;
-    double tests_area = 0.0;
-};
-
-double half_area(const mir::Bounds& box) {
-    const auto e = mir::detail::Double3(box.high) - mir::detail::Double3(box.low);
-    return e.x * e.y + e.y * e.z + e.z * e.x;
-}
-
-WideCount count(const mir::WideBvh& bvh) {
-    WideCount c;
-    const double root = half_area(box_of(bvh.nodes()[0]));
-    walk_wide(bvh, [&](const WideChild& child) {
-        c.depth = std::max(c.depth, child.depth);
-        if (child.count == mir::WideNode::inner) c.nodes_area += half_area(child.box) / root;
-        if (child.count <= 0) return;
-        ++c.leaves;
-        c.largest_leaf = std::max(c.largest_leaf, static_cast<std::uint32_t>(child.count));
-        c.tests_area += child.count * half_area(child.box) / root;
-    });
-    return c;
-}
-
-}  // namespace
 
 TEST_CASE("A wide tree lists every triangle once, in boxes that hold its accept box") {
     const float scale = GENERATE(1e-3f, 1.0f, 1e3f);
@@ -161,7 +70,7 @@ TEST_CASE("The statistics of a wide tree are what walking it counts") {
     const World world = triangle_soup(9000, 6);
     const mir::WideBvh bvh = build_wide(world.geometry);
     const mir::WideBvhStatistics& s = bvh.statistics();
-    const WideCount c = count(bvh);
+    const WideCount c = count_wide(bvh);
     CHECK(s.triangles == 9000);
     CHECK(s.nodes == bvh.nodes().size());
     CHECK(s.leaves == c.leaves);
@@ -193,7 +102,7 @@ TEST_CASE("A wide tree never becomes deeper than it may") {
     const mir::WideBvh bvh = build_wide(world.geometry, options);
     // 8 * 8 * 8 * 4 triangles fit below three nodes, 8 * 2048 below four.
     const std::uint32_t balanced = 4;
-    CHECK(count(bvh).depth <= std::max(options.max_depth, balanced));
+    CHECK(count_wide(bvh).depth <= std::max(options.max_depth, balanced));
     check_whole(world.geometry, bvh);
 }
 

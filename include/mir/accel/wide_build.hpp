@@ -68,11 +68,11 @@ void copy_triangles(const WorldGeometry& geometry, std::span<const WideItem> ite
 }  // namespace detail
 
 template <Executor E>
-WideBvh::WideBvh(const WorldGeometry& geometry, const WideBvhOptions& options, E& executor) {
+WideBvh::WideBvh(const WorldGeometry& geometry, const WideBvhOptions& options, E& executor)
+    : reach_(reach_of(magnitude_of(geometry.bounds()))) {
     check(options);
     detail::check_coordinates(geometry);
     const std::size_t count = geometry.triangles().size();
-    reach_ = reach_of(magnitude_of(geometry.bounds()));
     detail::RawArray<detail::WideItem> items;
     detail::RawArray<detail::WideItem> spare(count);
     detail::WideRange all;
