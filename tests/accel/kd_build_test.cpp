@@ -4,10 +4,10 @@
 #include "accel/kd_cells.hpp"
 #include "conformance/worlds.hpp"
 #include "mir/accel/kd_traverse.hpp"
+#include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
 
 #include <cstring>
-#include <thread>
 
 using namespace mirtest;
 using mir::Vec3;
@@ -76,23 +76,6 @@ World coincident(std::uint32_t count) {
     mesh.triangles.assign(count, {0, 1, 2});
     return world_of(std::move(mesh));
 }
-
-/// Runs bodies on threads of its own, each taking every `threads`-th index, the last ones first.
-struct BackwardsExecutor {
-    std::size_t threads = 1;
-
-    template <class Body>
-    void for_each(std::size_t n, Body&& body) {
-        std::vector<std::thread> workers;
-        for (std::size_t w = 0; w < threads; ++w)
-            workers.emplace_back([&, w] {
-                for (std::size_t i = n; i-- > 0;)
-                    if (i % threads == w) body(i);
-            });
-        for (std::thread& worker : workers) worker.join();
-    }
-    [[nodiscard]] std::size_t concurrency() const { return threads; }
-};
 
 template <class T>
 bool equal_bytes(std::span<const T> a, std::span<const T> b) {
@@ -168,7 +151,7 @@ TEST_CASE("The kd-tree has the same bytes for any number of threads and any orde
     const World world = triangle_soup(40000, 7, 1.0f, {0.25f, 0, 0});
     const mir::KdTree one = build(world.geometry);
     for (std::size_t threads : {1u, 2u, 3u}) {
-        BackwardsExecutor executor{threads};
+        mirtest::BackwardsExecutor executor{threads};
         const mir::KdTree other(world.geometry, {}, executor);
         CHECK(equal_bytes(one.nodes(), other.nodes()));
         CHECK(equal_bytes(one.references(), other.references()));
