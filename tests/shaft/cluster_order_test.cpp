@@ -53,7 +53,7 @@ class SplitTree {
         const std::uint32_t n = used(hits_);
         for (std::uint32_t size = 32; size <= n; size *= 2)
             for (std::uint32_t first = 0; first + size <= n; first += size)
-                if (parts_.count({first, size}) == 0) return false;
+                if (!parts_.contains({first, size})) return false;
         return true;
     }
 
