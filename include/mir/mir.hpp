@@ -193,6 +193,7 @@
 #include "mir/shading/surface_table.hpp"
 #include "mir/shading/surface_table_view.hpp"
 #include "mir/shading/vpl_shading.hpp"
+#include "mir/shaft/cluster_order.hpp"
 #include "mir/shaft/cluster_record.hpp"
 #include "mir/shaft/occlusion.hpp"
 #include "mir/shaft/shaft.hpp"

@@ -2,7 +2,6 @@
 #include "mir/accel/accept_box.hpp"
 
 #include "accel/hard_segments.hpp"
-#include "accel/meets_box.hpp"
 #include "conformance/worlds.hpp"
 #include "support/catch.hpp"
 #include "support/segment_box.hpp"

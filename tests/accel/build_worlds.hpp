@@ -2,10 +2,10 @@
 #pragma once
 
 #include "conformance/worlds.hpp"
+#include "support/backwards_executor.hpp"
 
 #include <cstring>
 #include <span>
-#include <thread>
 #include <vector>
 
 // Scenes that are hard to build trees over, and what tests of builders share.
@@ -75,23 +75,6 @@ inline World nested_triangles(std::uint32_t count, int per_octave) {
     }
     return world_of(std::move(mesh));
 }
-
-/// Runs bodies on threads of its own, each taking every `threads`-th index, the last ones first.
-struct BackwardsExecutor {
-    std::size_t threads = 1;
-
-    template <class Body>
-    void for_each(std::size_t n, Body&& body) {
-        std::vector<std::thread> workers;
-        for (std::size_t w = 0; w < threads; ++w)
-            workers.emplace_back([&, w] {
-                for (std::size_t i = n; i-- > 0;)
-                    if (i % threads == w) body(i);
-            });
-        for (std::thread& worker : workers) worker.join();
-    }
-    [[nodiscard]] std::size_t concurrency() const { return threads; }
-};
 
 template <class T>
 bool equal_bytes(std::span<const T> a, std::span<const T> b) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "accel/meets_box.hpp"
 #include "accel/wide_nodes.hpp"
 #include "conformance/worlds.hpp"
 #include "mir/accel/wide_traverse.hpp"
 #include "support/catch.hpp"
+#include "support/segment_box.hpp"
 #include "support/segment_ends.hpp"
 
 namespace {

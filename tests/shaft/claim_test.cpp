@@ -69,6 +69,32 @@ struct Answers {
     std::size_t wrong = 0;
 };
 
+/// What is said of the segments between a VPL and a cluster.
+struct Pair {
+    mir::Shaft shaft;
+    mir::Pyramid pyramid;
+};
+
+/// Asks about one triangle, and all luxels whether it is true.
+void ask(const Pair& pair, const mir::TriangleRows& rows, const mir::Bounds& box,
+         const std::vector<Hit>& hits, Answers& answers) {
+    const bool refused = !mir::meets_box(pair.shaft, box.low, box.high);
+    const mir::Occlusion found = mir::occlusion(rows, pair.pyramid);
+    const auto is_hit = [&](const Hit& h) {
+        return mir::hits_segment(rows, h.position, pair.pyramid.apex);
+    };
+    const bool any = std::any_of(hits.begin(), hits.end(),
+                                 [&](const Hit& h) { return !is_empty(h) && is_hit(h); });
+    const bool all = std::all_of(hits.begin(), hits.end(),
+                                 [&](const Hit& h) { return is_empty(h) || is_hit(h); });
+    const bool none = found == mir::Occlusion::none;
+    const bool full = found == mir::Occlusion::full;
+    answers.refused += refused ? 1 : 0;
+    answers.none += none ? 1 : 0;
+    answers.full += full ? 1 : 0;
+    answers.wrong += ((refused || none) && any) || (full && !all) ? 1 : 0;
+}
+
 /// `recorded` luxels of each cluster are in its record; all of them should be.
 Answers ask(const mirtest::World& world, std::uint32_t recorded, int pairs) {
     const mir::WorldGeometry& g = world.geometry;
@@ -81,25 +107,10 @@ Answers ask(const mirtest::World& world, std::uint32_t recorded, int pairs) {
             mir::cluster_record(mirtest::HitRun(hits).view(), 0, recorded, triangles.sigma);
         if (cluster.luxels == 0) continue;
         const Vec3 q = random_vpl(g, random, hits);
-        const mir::Shaft shaft = mir::make_shaft(cluster, q, triangles.sigma);
-        const mir::Pyramid pyramid = mir::make_pyramid(cluster, q, triangles.sigma);
-        for (std::size_t t = 0; t < triangles.rows.size(); ++t) {
-            const bool refused =
-                !mir::meets_box(shaft, triangles.boxes[t].low, triangles.boxes[t].high);
-            const mir::Occlusion found = mir::occlusion(triangles.rows[t], pyramid);
-            std::size_t luxels = 0;
-            std::size_t hit = 0;
-            for (const Hit& h : hits) {
-                if (is_empty(h)) continue;
-                ++luxels;
-                if (mir::hits_segment(triangles.rows[t], h.position, q)) ++hit;
-            }
-            if (refused) ++answers.refused;
-            if (found == mir::Occlusion::none) ++answers.none;
-            if (found == mir::Occlusion::full) ++answers.full;
-            if ((refused || found == mir::Occlusion::none) && hit > 0) ++answers.wrong;
-            if (found == mir::Occlusion::full && hit < luxels) ++answers.wrong;
-        }
+        const Pair pair{mir::make_shaft(cluster, q, triangles.sigma),
+                        mir::make_pyramid(cluster, q, triangles.sigma)};
+        for (std::size_t t = 0; t < triangles.rows.size(); ++t)
+            ask(pair, triangles.rows[t], triangles.boxes[t], hits, answers);
     }
     return answers;
 }

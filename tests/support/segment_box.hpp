@@ -16,6 +16,7 @@ inline bool meets(const mir::Bounds& box, long double grow, mir::Vec3 from, mir:
         const long double way = static_cast<long double>(to[axis]) - origin;
         const long double low = box.low[axis] - grow - origin;
         const long double high = box.high[axis] + grow - origin;
+        if (low > high) return false;
         if (way == 0) {
             if (low > 0 || high < 0) return false;
             continue;
