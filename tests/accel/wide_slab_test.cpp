@@ -25,10 +25,9 @@ class HardBoxes {
             const Vec3 a = point();
             Vec3 b = random_.next() < 0.5f ? point() : a + 0.01f * point();
             if (random_.next() < 0.2f) b[axis()] = a[0];
-            for (int k = 0; k < 3; ++k) {
-                node.planes[2 * k][slot] = std::max(std::min(a[k], b[k]), -scale_);
-                node.planes[2 * k + 1][slot] = std::min(std::max(a[k], b[k]), scale_);
-            }
+            for (int k = 0; k < 3; ++k)
+                node.set_bounds(k, slot, std::max(std::min(a[k], b[k]), -scale_),
+                                std::min(std::max(a[k], b[k]), scale_));
         }
         return node;
     }

@@ -39,10 +39,8 @@ std::vector<mir::WideNode> with_exact_leaves(const mir::WorldGeometry& geometry,
                 for (std::uint32_t k = 0; k < 3; ++k)
                     box.add(geometry.corner(
                         bvh.indices()[node.ref[slot] + static_cast<std::uint32_t>(i)], k));
-            for (int axis = 0; axis < 3; ++axis) {
-                node.planes[2 * axis][slot] = box.low[axis];
-                node.planes[2 * axis + 1][slot] = box.high[axis];
-            }
+            for (int axis = 0; axis < 3; ++axis)
+                node.set_bounds(axis, slot, box.low[axis], box.high[axis]);
         }
     return nodes;
 }

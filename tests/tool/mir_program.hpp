@@ -22,7 +22,7 @@ inline Words mir_command(const Words& arguments) { return Words{MIR_TOOL} + argu
 
 /// Runs `mir ARGUMENTS` to its end. A check that fails next shows what a failed run said.
 inline Outcome run_mir(const Words& arguments, const std::filesystem::path& folder = ".") {
-    const Outcome outcome = RunningProgram(mir_command(arguments), folder).wait();
+    Outcome outcome = RunningProgram(mir_command(arguments), folder).wait();
     if (outcome.exit_code != 0) UNSCOPED_INFO("stderr: " << outcome.err);
     return outcome;
 }

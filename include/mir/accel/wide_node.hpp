@@ -3,6 +3,7 @@
 
 #include "mir/core/hd.hpp"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace mir {
@@ -22,13 +23,22 @@ struct alignas(64) WideNode {
     std::int32_t count[width];  ///< triangles of a leaf, `inner` or `empty`
 
     [[nodiscard]] MIR_HD float low(int axis, std::uint32_t slot) const {
-        return planes[2 * axis][slot];
+        return planes[low_plane(axis)][slot];
     }
     [[nodiscard]] MIR_HD float high(int axis, std::uint32_t slot) const {
-        return planes[2 * axis + 1][slot];
+        return planes[low_plane(axis) + 1][slot];
+    }
+    MIR_HD void set_bounds(int axis, std::uint32_t slot, float low, float high) {
+        planes[low_plane(axis)][slot] = low;
+        planes[low_plane(axis) + 1][slot] = high;
     }
     [[nodiscard]] MIR_HD bool is_inner(std::uint32_t slot) const { return count[slot] == inner; }
     [[nodiscard]] MIR_HD bool is_leaf(std::uint32_t slot) const { return count[slot] > 0; }
+
+ private:
+    [[nodiscard]] MIR_HD static std::size_t low_plane(int axis) {
+        return 2 * static_cast<std::size_t>(axis);
+    }
 };
 
 static_assert(sizeof(WideNode) == 256);

@@ -154,10 +154,9 @@ class WideGrower {
     void set_child(const WideRange& range, std::uint32_t depth, std::uint32_t index,
                    std::uint32_t slot) {
         WideNode& node = nodes_[index];
-        for (int axis = 0; axis < 3; ++axis) {
-            node.planes[2 * axis][slot] = range.content.box.low[axis];
-            node.planes[2 * axis + 1][slot] = range.content.box.high[axis];
-        }
+        const LaneBox& box = range.content.box;
+        for (int axis = 0; axis < 3; ++axis)
+            node.set_bounds(axis, slot, box.low[axis], box.high[axis]);
         if (range.count() <= plan_.options.leaf_size) {
             node.ref[slot] = static_cast<std::uint32_t>(range.first);
             node.count[slot] = static_cast<std::int32_t>(range.count());
@@ -170,10 +169,7 @@ class WideGrower {
     }
 
     void set_empty(WideNode& node, std::uint32_t slot) const {
-        for (int axis = 0; axis < 3; ++axis) {
-            node.planes[2 * axis][slot] = plan_.reach;
-            node.planes[2 * axis + 1][slot] = -plan_.reach;
-        }
+        for (int axis = 0; axis < 3; ++axis) node.set_bounds(axis, slot, plan_.reach, -plan_.reach);
         node.ref[slot] = 0;
         node.count[slot] = WideNode::empty;
     }
