@@ -14,7 +14,7 @@ mir_packages() {
     test | check) echo "catch2 libbenchmark-dev" ;;
     esac
     case ${MIR_WANT:-render} in
-    check) echo "git clang clang-format clang-tidy python3" ;;
+    check) echo "git clang libclang-rt-dev clang-format clang-tidy python3" ;;
     esac
 }
 
