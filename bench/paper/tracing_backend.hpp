@@ -104,6 +104,9 @@ class TracingQueue {
     void download(const auto& from, const auto& to) {
         trace_->run(Work::download, queue_, [&] { queue_.download(from, to); });
     }
+    void clear(auto& buffer) {
+        trace_->run(Work::other, queue_, [&] { queue_.clear(buffer); });
+    }
     template <class Kernel>
     void for_each(std::uint32_t n, const Kernel& kernel) {
         trace_->run(work_of<Kernel>, queue_, [&] { queue_.for_each(n, kernel); });

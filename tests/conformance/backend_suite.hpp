@@ -88,6 +88,18 @@ class BackendExperiments {
         return differences(home, wanted) + differences(copy_of(pinned), wanted);
     }
 
+    /// Axiom 3, the second half: zeros everywhere.
+    [[nodiscard]] std::size_t wrong_after_clear(std::uint32_t n) const {
+        Words words = numbers(n);
+        auto there = backend_.template buffer<std::uint32_t>(n);
+        auto queue = backend_.queue();
+        queue.upload(std::span<const std::uint32_t>(words), there);
+        queue.clear(there);
+        queue.download(there, std::span<std::uint32_t>(words));
+        queue.record().sync();
+        return differences(words, Words(n, 0u));
+    }
+
     /// Axiom 4, for_each: two visits of each index below n, none behind.
     [[nodiscard]] std::size_t wrong_visits(std::uint32_t n) const {
         const std::uint32_t behind = 300;
@@ -231,6 +243,7 @@ std::vector<Finding> examine_backend(const B& backend) {
     };
     for (std::uint32_t n : {0u, 1u, 31u, 1000u, 1u << 20}) {
         named("upload, then download", n, experiments.wrong_after_round_trip(n));
+        named("clear, then download", n, experiments.wrong_after_clear(n));
         named("visits of for_each", n, experiments.wrong_visits(n));
     }
     for (std::uint32_t rows : {0u, 32u, 256u, 1056u})

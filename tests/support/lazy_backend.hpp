@@ -95,6 +95,12 @@ class LazyBackend {
         void download(const Buffer<T>& from, std::span<T> to) {
             later([in = from.data(), to] { std::copy_n(in, to.size(), to.data()); });
         }
+        template <class T>
+        void clear(Buffer<T>& buffer) {
+            later([out = static_cast<void*>(buffer.data()), bytes = buffer.size() * sizeof(T)] {
+                if (bytes > 0) std::memset(out, 0, bytes);
+            });
+        }
         template <class Kernel>
         void for_each(std::uint32_t n, const Kernel& kernel) {
             later([n, kernel] { at_once().for_each(n, kernel); });

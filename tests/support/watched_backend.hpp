@@ -62,6 +62,11 @@ class WatchedBackend {
             watch_->bytes_downloaded += to.size_bytes();
             LazyBackend::Queue::download(from, to);
         }
+        template <class T>
+        void clear(Buffer<T>& buffer) {
+            count();
+            LazyBackend::Queue::clear(buffer);
+        }
         template <class Kernel>
         void for_each(std::uint32_t n, const Kernel& kernel) {
             count();

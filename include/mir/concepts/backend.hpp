@@ -26,10 +26,11 @@ struct NoBitKernel {
 };
 
 /// What reads and writes memory and runs kernels in order. `upload` copies all of `from` to the
-/// front of a buffer; `download` fills `to` from the front of one; `for_each(n, kernel)` calls
-/// kernel(i) once for each i in [0, n), in any order; `fill_bits(rows, columns, kernel, words)`
-/// sets bit i % 32 of words[(i / 32) columns + j] to kernel(kernel.row(i), j), where rows is a
-/// multiple of 32. Each may return before it is done; what it reads must live until then.
+/// front of a buffer; `download` fills `to` from the front of one; `clear` sets every byte of a
+/// buffer to zero; `for_each(n, kernel)` calls kernel(i) once for each i in [0, n), in any order;
+/// `fill_bits(rows, columns, kernel, words)` sets bit i % 32 of words[(i / 32) columns + j] to
+/// kernel(kernel.row(i), j), where rows is a multiple of 32. Each may return before it is done;
+/// what it reads must live until then.
 template <class Q, class B>
 concept BackendQueue = requires(Q q, const typename B::Event done,
                                 typename B::template Buffer<std::uint32_t> buffer,
@@ -37,6 +38,7 @@ concept BackendQueue = requires(Q q, const typename B::Event done,
                                 std::uint32_t n, std::uint32_t* words) {
     q.upload(from, buffer);
     q.download(buffer, to);
+    q.clear(buffer);
     q.for_each(n, NoOpKernel{});
     q.fill_bits(n, n, NoBitKernel{}, words);
     { q.record() } -> std::same_as<typename B::Event>;
@@ -51,7 +53,7 @@ concept BackendQueue = requires(Q q, const typename B::Event done,
 ///  1. the work of one queue happens in the order in which it was given;
 ///  2. queue.wait(event) holds back what follows until the event has passed; event.sync() holds
 ///     back the caller;
-///  3. upload, then download, is the identity;
+///  3. upload, then download, is the identity; clear, then download, brings zeros;
 ///  4. for_each visits each index once, fill_bits writes each word once;
 ///  5. a queue that ends waits for its work.
 template <class B>

@@ -136,6 +136,7 @@ const {
     std::vector<ChainRun> runs(chains);
     const UploadedArray<B, std::uint32_t> starts_there(backend_, queue, starts);
     const WaitAtEnd wait(queue);
+    batch.clear(queue);
     ChainSlices<Walk> slices{{generator_, suffix_, {}, options_, chains}, portions_.mutations};
     slices.starts = starts_there.data();
     for (slices.first = 0; slices.first < chains; slices.first += slices.count) {

@@ -37,6 +37,14 @@ class ChainBatch {
         return static_cast<std::uint32_t>(reports_here_.size());
     }
 
+    /// Sets to zero what chains may leave empty in a slice and what lies between members, which
+    /// bring_home() copies too. Before the first kernel.
+    void clear(typename B::Queue& queue) {
+        queue.clear(reports_);
+        queue.clear(records_);
+        queue.clear(samples_);
+    }
+
     /// Lets a kernel of at most chains() chains use the memory.
     template <class Walk>
     void lend(ChainSlices<Walk>& slices) {

@@ -5,6 +5,7 @@
 #include "mir/concepts/executor.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -48,6 +49,11 @@ class Queue {
     void download(const Buffer<T>& from, std::span<T> to) {
         expects(to.size() <= from.size(), "a copy is larger than the buffer it comes from");
         std::copy_n(from.data(), to.size(), to.data());
+    }
+    template <class T>
+    void clear(Buffer<T>& buffer) {
+        if (buffer.size() == 0) return;
+        std::memset(static_cast<void*>(buffer.data()), 0, buffer.size() * sizeof(T));
     }
     template <class Kernel>
     void for_each(std::uint32_t n, const Kernel& kernel) {

@@ -58,6 +58,16 @@ class Queue {
              "a copy from the GPU");
     }
 
+    /// Sets every byte of `buffer` to zero.
+    /// @throws Error(device)
+    template <class T>
+    void clear(Buffer<T>& buffer) {
+        if (buffer.size() == 0) return;
+        const ActiveDevice active(device_);
+        check(cudaMemsetAsync(buffer.data(), 0, buffer.size() * sizeof(T), stream_),
+              "clearing memory of the GPU");
+    }
+
     /// Calls kernel(i) on the device, once for each i in [0, n); 256 neighbouring i are one thread
     /// block. Defined in mir/cuda/launch.cuh, for files that nvcc compiles.
     /// @throws Error(device) when the kernel cannot be started.
