@@ -169,13 +169,15 @@ TEST_CASE("limits are checked before anything is placed") {
 
 TEST_CASE("the ray offset grows with the scene and with its distance from the origin") {
     const float one = WorldGeometry(with(ball())).ray_offset();
-    CHECK(one == Approx(16 * 0x1p-24));
+    CHECK(one == Approx(0x1p-16));
     for (float s : {1e-3f, 1e3f}) {
         const WorldGeometry scaled(with(ball(), columns({s, 0, 0}, {0, s, 0}, {0, 0, s})));
         CHECK(scaled.ray_offset() == Approx(s * one));
     }
     const WorldGeometry far(with(ball(), columns({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -999, 0})));
-    CHECK(far.ray_offset() == Approx(1000 * one));
+    CHECK(far.ray_offset() == Approx(1000 * 0x1p-20));
+    const WorldGeometry near(with(ball(), columns({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -9, 0})));
+    CHECK(near.ray_offset() == Approx(2 * 0x1p-14));
     // Lifting moves a point off its surface even where coordinates are largest.
     for (std::uint32_t t = 0; t < far.triangles().size(); ++t) {
         const SurfacePoint p = middle(far, t);

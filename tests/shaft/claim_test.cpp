@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "accel/hard_segments.hpp"
 #include "mir/accel/accept_box.hpp"
-#include "mir/core/ray.hpp"
 #include "mir/shaft/occlusion.hpp"
 #include "mir/shaft/shaft.hpp"
 #include "shaft/cluster_draws.hpp"
@@ -37,14 +36,9 @@ struct Triangles {
     }
 };
 
-Hit random_hit(const mir::WorldGeometry& g, mir::Random& random) {
-    const mir::SurfacePoint p = mirtest::random_surface_point(g, random);
-    return {mir::lift(p.position, p.geometric_normal, g.ray_offset()), p.geometric_normal};
-}
-
 /// Luxels on one triangle and around it, some of them empty.
 std::vector<Hit> random_luxels(const mir::WorldGeometry& g, mir::Random& random) {
-    const Hit centre = random_hit(g, random);
+    const Hit centre = mirtest::random_hit(g, random);
     const float size = 0.05f * g.bounds().diagonal() * random.next() * random.next();
     std::vector<Hit> hits(cluster_size);
     for (Hit& h : hits) {
@@ -59,7 +53,7 @@ std::vector<Hit> random_luxels(const mir::WorldGeometry& g, mir::Random& random)
 /// On a surface, or one of the luxels.
 Vec3 random_vpl(const mir::WorldGeometry& g, mir::Random& random, const std::vector<Hit>& hits) {
     if (mirtest::chance(random, 0.1f)) return hits[0].position;
-    return random_hit(g, random).position;
+    return mirtest::random_hit(g, random).position;
 }
 
 struct Answers {

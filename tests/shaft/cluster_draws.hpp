@@ -3,6 +3,7 @@
 
 #include "conformance/worlds.hpp"
 #include "mir/accel/accept_box.hpp"
+#include "mir/core/ray.hpp"
 #include "mir/shaft/cluster_record.hpp"
 
 namespace mirtest {
@@ -11,6 +12,12 @@ inline bool chance(mir::Random& random, float share) { return random.next() < sh
 
 /// The float nearest to 32 roundings of coordinates up to `magnitude`.
 inline float float_sigma(float magnitude) { return static_cast<float>(mir::sigma_of(magnitude)); }
+
+/// A luxel on a random triangle.
+inline mir::Hit random_hit(const mir::WorldGeometry& g, mir::Random& random) {
+    const mir::SurfacePoint p = random_surface_point(g, random);
+    return {mir::lift(p.position, p.geometric_normal, g.ray_offset()), p.geometric_normal};
+}
 
 /// A box of a cluster as it comes, from flat or a single point to a third of the scene, within
 /// [-scale, scale]^3. Not grown and without a half-space: tests ask for segments to its very faces.

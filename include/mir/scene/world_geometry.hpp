@@ -72,9 +72,11 @@ class WorldGeometry {
         return view().surface_point(triangle, barycentrics, direction);
     }
 
-    /// Distance by which points are lifted off surfaces, metres: sixteen units in the last place of
-    /// the largest coordinate, which covers the rounding of hit points and of traversal at any
-    /// scale and any distance from the origin.
+    /// Distance by which points are lifted off surfaces, metres: 2^-16 of the largest coordinate,
+    /// eight times the sigma of accept_box.hpp, so that shafts see that a surface does not hide its
+    /// own points (docs/shafts.md). Less where that would show, in scenes that lie far from the
+    /// origin, but never less than 2^-20 of the largest coordinate: that covers the rounding of hit
+    /// points and of traversal at any scale and distance.
     [[nodiscard]] float ray_offset() const { return ray_offset_; }
 
  private:
@@ -92,6 +94,13 @@ class WorldGeometry {
 };
 
 namespace detail {
+
+inline float ray_offset_of(const Bounds& bounds) {
+    if (bounds.empty()) return 0.0f;
+    const float magnitude = larger(max_abs(bounds.low), max_abs(bounds.high));
+    const float unseen = max_abs(bounds.high - bounds.low) * 0x1p-14f;
+    return larger(magnitude * 0x1p-20f, smaller(magnitude * 0x1p-16f, unseen));
+}
 
 inline void check_mesh(const Scene& scene, const Mesh& mesh) {
     const auto fail = [&](const std::string& what) {
@@ -136,9 +145,8 @@ inline WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits) {
     for (const Mesh& mesh : scene.meshes) detail::check_mesh(scene, mesh);
     detail::check_instances(scene, limits);
     for (const Instance& instance : scene.instances) place(scene, instance);
-    const float magnitude =
-        bounds_.empty() ? 0.0f : larger(max_abs(bounds_.low), max_abs(bounds_.high));
-    ray_offset_ = magnitude * 16.0f * 0x1p-24f;
+    const Bounds& all = bounds_;
+    ray_offset_ = detail::ray_offset_of(all);
 }
 
 inline void WorldGeometry::place(const Scene& scene, const Instance& instance) {

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/wide_traverse.hpp"
+#include "mir/concepts/vpl_set.hpp"
+#include "mir/shading/contribution.hpp"
+#include "mir/shaft/pair_search.hpp"
+
+namespace mir {
+
+/// What the searches of the cascade may cost.
+struct ShaftLimits {
+    SearchLimits block{48, 48};    ///< for 256 luxels and a VPL
+    SearchLimits cluster{96, 24};  ///< for 32 luxels and a VPL
+};
+
+/// Nobody is told what became of pairs.
+struct UnwatchedPairs {
+    MIR_HD void block(PairState) const {}
+    MIR_HD void cluster(PairState) const {}
+};
+
+/// Which luxels face and see which VPL, by shafts: kernel over blocks times VPLs; index i is VPL
+/// i % vpls.size() and the 256 luxels of block i / vpls.size(). Each call writes the eight words of
+/// its pair as VisibilityWords lays them out, with the bits of VisibilityPass over the same
+/// hierarchy: no order of luxels and no limit changes one. `watch` is told what became of each pair
+/// that was searched, block(state) and cluster(state), from whatever thread.
+///
+/// First the 256 luxels at once; then, unless that settles it, each 32 of them, by the triangles
+/// that were found if they are all that there are; then the luxels one by one, by the triangles
+/// that are left or through the hierarchy.
+template <Space S, VplSet P, class Watch = UnwatchedPairs>
+struct ShaftPass {
+    static constexpr std::uint32_t word_luxels = 32;
+    static constexpr std::uint32_t block_luxels = 256;
+    static constexpr std::uint32_t block_words = block_luxels / word_luxels;
+
+    SoaView<const Hit> hits;  ///< in cluster order, padded to whole blocks with empty luxels
+    const ClusterRecord* blocks = nullptr;    ///< of 256 luxels
+    const ClusterRecord* clusters = nullptr;  ///< of 32 luxels
+    P vpls;
+    WideBvhView<S> bvh;
+    float sigma = 0.0f;  ///< of the scene, metres, as for the records
+    ShaftLimits limits;
+    std::uint32_t* words = nullptr;
+    Watch watch;
+
+    MIR_HD void operator()(std::uint32_t i) const {
+        const std::uint32_t block = i / vpls.size();
+        const VplIndex j = i % vpls.size();
+        const Vpl vpl = vpls[j];
+        BlockWords mask = facing(block, vpl);
+        if (mask.any()) decide_block(block, vpl.position, mask);
+        for (std::uint32_t k = 0; k < block_words; ++k)
+            words[(std::size_t{block} * block_words + k) * vpls.size() + j] = mask.word[k];
+    }
+
+ private:
+    struct BlockWords {
+        std::uint32_t word[block_words] = {};
+
+        [[nodiscard]] MIR_HD bool any() const {
+            std::uint32_t bits = 0;
+            for (const std::uint32_t w : word) bits |= w;
+            return bits != 0;
+        }
+    };
+
+    /// Bits of the luxels of a word for which `keep` is true, among those set in `word`.
+    template <class Keep>
+    [[nodiscard]] MIR_HD std::uint32_t filter(std::uint32_t word, std::uint32_t cluster,
+                                              const Keep& keep) const {
+        std::uint32_t kept = 0;
+        for (std::uint32_t k = 0; k < word_luxels; ++k)
+            if ((word >> k & 1u) != 0 && keep(hits.load(cluster * word_luxels + k)))
+                kept |= 1u << k;
+        return kept;
+    }
+
+    [[nodiscard]] MIR_HD BlockWords facing(std::uint32_t block, const Vpl& vpl) const {
+        BlockWords mask;
+        for (std::uint32_t k = 0; k < block_words; ++k)
+            mask.word[k] = filter(~0u, block * block_words + k,
+                                  [&](const Hit& hit) { return faces(hit, vpl); });
+        return mask;
+    }
+
+    MIR_HD void decide_block(std::uint32_t block, Vec3 apex, BlockWords& mask) const {
+        PairTriangles list;
+        const PairState state = search_pair(bvh, blocks[block], apex, sigma, limits.block, list);
+        watch.block(state);
+        if (state == PairState::clear) return;
+        for (std::uint32_t k = 0; k < block_words; ++k) {
+            if (state == PairState::covered) mask.word[k] = 0;
+            if (mask.word[k] == 0) continue;
+            const std::uint32_t cluster = block * block_words + k;
+            mask.word[k] = state == PairState::listed
+                               ? decide_listed(cluster, apex, mask.word[k], list)
+                               : decide_unknown(cluster, apex, mask.word[k]);
+        }
+    }
+
+    [[nodiscard]] MIR_HD std::uint32_t decide_listed(std::uint32_t cluster, Vec3 apex,
+                                                     std::uint32_t word,
+                                                     const PairTriangles& known) const {
+        PairTriangles list;
+        return decide(narrow_pair(bvh, clusters[cluster], apex, sigma, known, list), cluster, apex,
+                      word, list);
+    }
+
+    [[nodiscard]] MIR_HD std::uint32_t decide_unknown(std::uint32_t cluster, Vec3 apex,
+                                                      std::uint32_t word) const {
+        PairTriangles list;
+        return decide(search_pair(bvh, clusters[cluster], apex, sigma, limits.cluster, list),
+                      cluster, apex, word, list);
+    }
+
+    [[nodiscard]] MIR_HD std::uint32_t decide(PairState state, std::uint32_t cluster, Vec3 apex,
+                                              std::uint32_t word, const PairTriangles& list) const {
+        watch.cluster(state);
+        if (state == PairState::clear) return word;
+        if (state == PairState::covered) return 0;
+        if (state == PairState::listed)
+            return filter(word, cluster,
+                          [&](const Hit& hit) { return !is_hit_by(list, apex, hit.position); });
+        return filter(word, cluster,
+                      [&](const Hit& hit) { return !is_hidden(bvh, apex, hit.position); });
+    }
+
+    [[nodiscard]] MIR_HD bool is_hit_by(const PairTriangles& list, Vec3 apex, Vec3 luxel) const {
+        for (std::uint32_t i = 0; i < list.size; ++i)
+            if (hits_segment(bvh.triangles[list.triangle[i]], apex, luxel)) return true;
+        return false;
+    }
+};
+
+}  // namespace mir

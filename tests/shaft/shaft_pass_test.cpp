@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "mir/shaft/shaft_pass.hpp"
+
+#include "accel/hard_segments.hpp"
+#include "shaft/shaft_stage.hpp"
+#include "support/catch.hpp"
+
+// Words by shafts against every triangle asked, bit for bit: docs/shafts.md.
+
+namespace {
+
+using mir::PairState;
+using mirtest::different_bits;
+using mirtest::Lit;
+using mirtest::ShaftStage;
+
+mirtest::World soup(bool needles, float scale, float x) {
+    const mir::Vec3 move(x, 0.3f * x, -x);
+    return needles ? mirtest::needle_soup(60, 17, scale, move)
+                   : mirtest::triangle_soup(60, 18, scale, move);
+}
+
+ShaftStage stage_of(const mirtest::World& world, std::uint32_t luxels, std::uint32_t vpls,
+                    std::uint64_t seed = 19) {
+    const Lit lit = mirtest::random_lit(world.geometry, luxels, vpls, mirtest::test_random(seed));
+    return {world.geometry, mirtest::clustered(lit)};
+}
+
+mirtest::PairCounts counted(const ShaftStage& stage) {
+    mirtest::PairCounts counts;
+    static_cast<void>(stage.by_shafts({}, &counts));
+    return counts;
+}
+
+}  // namespace
+
+TEST_CASE("Shafts give the bits of every triangle asked") {
+    const auto [scale, x] =
+        GENERATE(table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}}));
+    const bool needles = GENERATE(false, true);
+    INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
+    const mirtest::World world = soup(needles, scale, x);
+    const ShaftStage stage = stage_of(world, 2000, 40);
+    CHECK(different_bits(stage.by_shafts(), stage.by_brute_force()) == 0);
+}
+
+TEST_CASE("All that may become of a pair does") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 30000, 30);
+    const mirtest::PairCounts counts = counted(stage);
+    for (PairState s : {PairState::clear, PairState::covered, PairState::listed}) {
+        CAPTURE(static_cast<int>(s));
+        CHECK(counts.block(s) > 0);
+        CHECK(counts.cluster(s) > 100);
+    }
+    mirtest::PairCounts few;
+    static_cast<void>(stage.by_shafts({{2, 4}, {3, 2}}, &few));
+    CHECK(few.block(PairState::unknown) > 100);
+    CHECK(few.cluster(PairState::unknown) > 100);
+}
+
+TEST_CASE("No limit of a search changes a bit") {
+    const mirtest::World world = soup(GENERATE(false, true), 1.0f, 0.0f);
+    const ShaftStage stage = stage_of(world, 700, 30);
+    const std::vector<std::uint32_t> truth = stage.by_brute_force();
+    for (std::uint32_t nodes : {0u, 1u, 2u, 3u, 5u, 8u, 1000u})
+        for (std::uint32_t triangles : {0u, 1u, 2u, 7u, 64u, 1000u}) {
+            CAPTURE(nodes, triangles);
+            const mir::SearchLimits some{nodes, triangles};
+            CHECK(different_bits(stage.by_shafts({some, {}}), truth) == 0);
+            CHECK(different_bits(stage.by_shafts({{0, 0}, some}), truth) == 0);
+        }
+}
+
+TEST_CASE("No order of luxels changes a bit") {
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const Lit lit = mirtest::random_lit(world.geometry, 700, 30, mirtest::test_random(20));
+    Lit reversed = lit;
+    std::reverse(reversed.luxels.begin(), reversed.luxels.end());
+    Lit dealt = lit;
+    for (std::size_t i = 0; i < dealt.luxels.size(); ++i)
+        dealt.luxels[i] = lit.luxels[i * 353 % lit.luxels.size()];
+    for (const Lit& order : {lit, reversed, dealt, mirtest::clustered(lit)}) {
+        const ShaftStage stage(world.geometry, order);
+        CHECK(different_bits(stage.by_shafts(), stage.by_brute_force()) == 0);
+    }
+}
+
+TEST_CASE("Any number of luxels and of VPLs is right") {
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    for (std::uint32_t luxels : {0u, 1u, 31u, 32u, 33u, 256u, 511u, 513u})
+        for (std::uint32_t vpls : {0u, 1u, 31u, 33u}) {
+            CAPTURE(luxels, vpls);
+            const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
+            CHECK(different_bits(stage.by_shafts(), stage.by_brute_force()) == 0);
+        }
+}
+
+TEST_CASE("Closed boxes, flat to shared edges and to the axes, give the same bits") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 2000, 60);
+    CHECK(different_bits(stage.by_shafts(), stage.by_brute_force()) == 0);
+}
+
+TEST_CASE("Luxels and VPLs beyond reach are asked one by one") {
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    Lit lit = mirtest::random_lit(world.geometry, 500, 40, mirtest::test_random(22));
+    for (std::size_t i = 0; i < lit.luxels.size(); i += 5) lit.luxels[i].position *= 40.0f;
+    for (std::size_t j = 0; j < lit.vpls.size(); j += 3) lit.vpls[j].position *= 1e4f;
+    const ShaftStage stage(world.geometry, mirtest::clustered(lit));
+    CHECK(different_bits(stage.by_shafts(), stage.by_segments()) == 0);
+    CHECK(counted(stage).block(PairState::unknown) > 10);
+}
+
+TEST_CASE("A world without triangles hides nothing") {
+    const mirtest::World world{mir::Scene{}};
+    Lit lit;
+    lit.luxels.assign(40, {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}});
+    lit.vpls.push_back({{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}, {1.0f, 1.0f, 1.0f}});
+    const ShaftStage stage(world.geometry, lit);
+    CHECK(stage.by_shafts() == std::vector<std::uint32_t>{~0u, 0xFFu, 0, 0, 0, 0, 0, 0});
+}

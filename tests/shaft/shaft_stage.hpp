@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "conformance/worlds.hpp"
+#include "mir/accel/wide_build.hpp"
+#include "mir/data/visibility_words.hpp"
+#include "mir/data/vpl_list.hpp"
+#include "mir/shaft/cluster_order.hpp"
+#include "mir/shaft/shaft_pass.hpp"
+#include "shaft/cluster_draws.hpp"
+#include "shaft/hit_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace mirtest {
+
+/// How often each PairState came up.
+struct PairCounts {
+    std::array<std::size_t, 4> blocks{};
+    std::array<std::size_t, 4> clusters{};
+
+    [[nodiscard]] std::size_t block(mir::PairState s) const {
+        return blocks[static_cast<std::size_t>(s)];
+    }
+    [[nodiscard]] std::size_t cluster(mir::PairState s) const {
+        return clusters[static_cast<std::size_t>(s)];
+    }
+};
+
+/// Counts what becomes of pairs; one thread.
+struct CountPairs {
+    PairCounts* counts = nullptr;
+
+    void block(mir::PairState s) const { ++counts->blocks[static_cast<std::size_t>(s)]; }
+    void cluster(mir::PairState s) const { ++counts->clusters[static_cast<std::size_t>(s)]; }
+};
+
+/// Luxels and VPLs of a world.
+struct Lit {
+    std::vector<mir::Hit> luxels;
+    std::vector<mir::Vpl> vpls;
+};
+
+inline std::vector<mir::Vpl> random_vpls(const mir::WorldGeometry& g, std::uint32_t count,
+                                         mir::Random& random) {
+    std::vector<mir::Vpl> vpls;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const mir::Hit h = random_hit(g, random);
+        vpls.push_back({h.position, h.normal, {1.0f, 1.0f, 1.0f}});
+    }
+    return vpls;
+}
+
+/// Luxels in patches on triangles, some of them empty, and VPLs on triangles too, some of them
+/// where a luxel is.
+inline Lit random_lit(const mir::WorldGeometry& g, std::uint32_t luxels, std::uint32_t vpls,
+                      mir::Random random) {
+    Lit lit;
+    while (lit.luxels.size() < luxels) {
+        const mir::Hit centre = random_hit(g, random);
+        const float size = 0.1f * g.bounds().diagonal() * random.next() * random.next();
+        for (std::uint32_t i = 0; i < 100 && lit.luxels.size() < luxels; ++i) {
+            const mir::Vec3 aside = size * point_in_cube(random);
+            const mir::Vec3 flat = aside - glm::dot(aside, centre.normal) * centre.normal;
+            lit.luxels.push_back(chance(random, 0.05f)
+                                     ? mir::Hit{}
+                                     : mir::Hit{centre.position + flat, centre.normal});
+        }
+    }
+    lit.vpls = random_vpls(g, vpls, random);
+    for (std::size_t j = 0; j < lit.vpls.size(); j += 7)
+        if (!lit.luxels.empty()) lit.vpls[j].position = lit.luxels[j % luxels].position;
+    return lit;
+}
+
+/// A world with its hierarchy, luxels and VPLs, ready for ShaftPass.
+class ShaftStage {
+ public:
+    /// Luxels in the order in which they are given, padded with empty ones.
+    ShaftStage(const mir::WorldGeometry& geometry, Lit lit, const mir::WideBvhOptions& options = {})
+        : bvh_(geometry, options, executor_),
+          sigma_(float_sigma(mir::magnitude_of(geometry.bounds()))),
+          lit_(std::move(lit)) {
+        lit_.luxels.resize((lit_.luxels.size() + 255) / 256 * 256);
+        hits_ = HitRun(lit_.luxels);
+        make_records(256, blocks_);
+        make_records(32, clusters_);
+    }
+
+    /// Words by shafts. `words` start as ones, which no forgotten word may keep.
+    [[nodiscard]] std::vector<std::uint32_t> by_shafts(const mir::ShaftLimits& limits = {},
+                                                       PairCounts* counts = nullptr) const {
+        PairCounts unread;
+        std::vector<std::uint32_t> words(word_count(), ~0u);
+        const mir::ShaftPass<mir::Space::host, mir::VplSpan<mir::Space::host>, CountPairs> pass{
+            hits_.view(),
+            blocks_.data(),
+            clusters_.data(),
+            mir::span_of(lit_.vpls),
+            bvh_.view(),
+            sigma_,
+            limits,
+            words.data(),
+            {counts != nullptr ? counts : &unread}};
+        for (std::uint32_t i = 0; i < blocks_.size() * lit_.vpls.size(); ++i) pass(i);
+        return words;
+    }
+
+    /// Words luxel by luxel: `hidden(vpl, luxel)` is asked for all that face each other.
+    template <class Hidden>
+    [[nodiscard]] std::vector<std::uint32_t> one_by_one(const Hidden& hidden) const {
+        std::vector<std::uint32_t> words(word_count(), 0u);
+        for (std::size_t i = 0; i < lit_.luxels.size(); ++i)
+            for (std::size_t j = 0; j < lit_.vpls.size(); ++j) {
+                const mir::Hit& hit = lit_.luxels[i];
+                const mir::Vpl& vpl = lit_.vpls[j];
+                if (mir::faces(hit, vpl) && !hidden(vpl.position, hit.position))
+                    words[i / 32 * lit_.vpls.size() + j] |= 1u << (i % 32);
+            }
+        return words;
+    }
+
+    /// The truth: every triangle is asked.
+    [[nodiscard]] std::vector<std::uint32_t> by_brute_force() const {
+        return one_by_one([&](mir::Vec3 q, mir::Vec3 p) {
+            return std::any_of(bvh_.triangles().begin(), bvh_.triangles().end(),
+                               [&](const auto& rows) { return mir::hits_segment(rows, q, p); });
+        });
+    }
+
+    /// Segment by segment through the same hierarchy.
+    [[nodiscard]] std::vector<std::uint32_t> by_segments() const {
+        return one_by_one([&](mir::Vec3 q, mir::Vec3 p) { return is_hidden(bvh_.view(), q, p); });
+    }
+
+    [[nodiscard]] const mir::WideBvh& bvh() const { return bvh_; }
+    [[nodiscard]] float sigma() const { return sigma_; }
+    [[nodiscard]] const Lit& lit() const { return lit_; }
+    [[nodiscard]] const std::vector<mir::ClusterRecord>& clusters() const { return clusters_; }
+
+ private:
+    [[nodiscard]] std::size_t word_count() const {
+        return lit_.luxels.size() / 32 * lit_.vpls.size();
+    }
+    void make_records(std::uint32_t run, std::vector<mir::ClusterRecord>& records) const {
+        records.resize(lit_.luxels.size() / run);
+        const mir::ClusterRecords kernel{hits_.view(), run, sigma_, records.data()};
+        for (std::uint32_t i = 0; i < records.size(); ++i) kernel(i);
+    }
+
+    mir::InlineExecutor executor_;
+    mir::WideBvh bvh_;
+    float sigma_ = 0.0f;
+    Lit lit_;
+    HitRun hits_{{}};
+    std::vector<mir::ClusterRecord> blocks_;
+    std::vector<mir::ClusterRecord> clusters_;
+};
+
+/// Bits that differ.
+inline std::size_t different_bits(const std::vector<std::uint32_t>& a,
+                                  const std::vector<std::uint32_t>& b) {
+    std::size_t bits = a.size() == b.size() ? 0 : 32;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        bits += static_cast<std::size_t>(std::popcount(a[i] ^ b[i]));
+    return bits;
+}
+
+/// Luxels moved into cluster order.
+inline Lit clustered(const Lit& lit) {
+    mir::InlineExecutor executor;
+    const HitRun run(lit.luxels);
+    Lit moved{{}, lit.vpls};
+    for (const std::uint32_t i : mir::cluster_order(run.view(), {}, executor))
+        moved.luxels.push_back(lit.luxels[i]);
+    return moved;
+}
+
+}  // namespace mirtest
