@@ -6,13 +6,11 @@
 #include "mir/data/visibility_words.hpp"
 #include "mir/runtime/stopwatch.hpp"
 #include "mir/shaft/cluster_order.hpp"
+#include "mir/shaft/pair_tally.hpp"
 #include "mir/shaft/shaft_pass.hpp"
 #include "support/bench_runs.hpp"
 
 #include <benchmark/benchmark.h>
-
-#include <array>
-#include <atomic>
 
 namespace {
 
@@ -31,7 +29,8 @@ struct Clusters {
     std::vector<mir::ClusterRecord> clusters;
 
     Clusters(const GBuffer& gbuffer, float sigma, mir::cpu::TbbExecutor& executor)
-        : luxels((gbuffer.view(0).size() + 255) / 256 * 256),
+        : luxels((gbuffer.view(0).size() + mir::block_luxels - 1) / mir::block_luxels *
+                 mir::block_luxels),
           planes(std::size_t{luxels} * mir::SoaView<mir::Hit>::words) {
         const auto view = gbuffer.view(0);
         std::vector<std::uint32_t> unordered(planes.size());
@@ -40,8 +39,8 @@ struct Clusters {
         const auto order = mir::cluster_order({unordered.data(), luxels}, {}, executor);
         const mir::SoaView<mir::Hit> ordered{planes.data(), luxels};
         for (std::uint32_t i = 0; i < luxels; ++i) ordered.store(i, given.load(order[i]));
-        record(blocks, 256, sigma, executor);
-        record(clusters, 32, sigma, executor);
+        record(blocks, mir::block_luxels, sigma, executor);
+        record(clusters, mir::cluster_luxels, sigma, executor);
     }
 
     [[nodiscard]] mir::SoaView<const mir::Hit> hits() const { return {planes.data(), luxels}; }
@@ -54,19 +53,6 @@ struct Clusters {
         executor.for_each(records.size(),
                           [&](std::size_t i) { kernel(static_cast<std::uint32_t>(i)); });
     }
-};
-
-/// How often each PairState came up, from any thread.
-struct Counts {
-    std::array<std::atomic<std::uint64_t>, 4> blocks{};
-    std::array<std::atomic<std::uint64_t>, 4> clusters{};
-};
-
-struct CountPairs {
-    Counts* counts = nullptr;
-
-    void block(mir::PairState s) const { ++counts->blocks[static_cast<std::size_t>(s)]; }
-    void cluster(mir::PairState s) const { ++counts->clusters[static_cast<std::size_t>(s)]; }
 };
 
 /// A scene, its clusters and VPLs.
@@ -92,7 +78,7 @@ class Bench {
                                                                     {},
                                                                     words_.data(),
                                                                     watch};
-        executor_.for_each(clusters_.luxels / 256, [&](std::size_t b) {
+        executor_.for_each(clusters_.luxels / mir::block_luxels, [&](std::size_t b) {
             const auto first = static_cast<std::uint32_t>(b) * vpls_.size();
             for (std::uint32_t j = 0; j < vpls_.size(); ++j) pass(first + j);
         });
@@ -101,7 +87,7 @@ class Bench {
     /// Every segment that faces, by itself.
     void by_segments() {
         const auto hits = clusters_.hits();
-        executor_.for_each(clusters_.luxels / 32, [&](std::size_t c) {
+        executor_.for_each(clusters_.luxels / mir::cluster_luxels, [&](std::size_t c) {
             for (std::uint32_t j = 0; j < vpls_.size(); ++j)
                 words_[c * vpls_.size() + j] =
                     word_of(hits, static_cast<std::uint32_t>(c), vpls_.span()[j]);
@@ -109,16 +95,14 @@ class Bench {
     }
 
     [[nodiscard]] const std::vector<std::uint32_t>& words() const { return words_; }
-    [[nodiscard]] double pairs() const {
-        return static_cast<double>(clusters_.luxels) * vpls_.size();
-    }
+    [[nodiscard]] double pairs() const { return static_cast<double>(image.area()) * vpls_.size(); }
 
  private:
     [[nodiscard]] std::uint32_t word_of(const mir::SoaView<const mir::Hit>& hits, std::uint32_t c,
                                         const mir::Vpl& vpl) const {
         std::uint32_t word = 0;
-        for (std::uint32_t k = 0; k < 32; ++k) {
-            const mir::Hit hit = hits.load(c * 32 + k);
+        for (std::uint32_t k = 0; k < mir::cluster_luxels; ++k) {
+            const mir::Hit hit = hits.load(c * mir::cluster_luxels + k);
             if (mir::faces(hit, vpl) && !is_hidden(wide_.bvh().view(), vpl.position, hit.position))
                 word |= 1u << k;
         }
@@ -134,7 +118,7 @@ class Bench {
 };
 
 void report_shares(benchmark::State& state, const std::string& of,
-                   const std::array<std::atomic<std::uint64_t>, 4>& counts) {
+                   const mir::PairTally::Counts& counts) {
     double all = 0.0;
     for (const auto& c : counts) all += static_cast<double>(c);
     const char* const names[] = {"_clear", "_covered", "_listed", "_unknown"};
@@ -162,8 +146,8 @@ void visibility(benchmark::State& state, const std::string& name) {
         state.SetIterationTime(shafts - before);
     }
     if (bench.words() != truth) state.SkipWithError("shafts changed a bit");
-    Counts counts;
-    bench.by_shafts(CountPairs{&counts});
+    mir::PairTally counts;
+    bench.by_shafts(mir::TallyPairs{&counts});
     report_shares(state, "block", counts.blocks);
     report_shares(state, "cluster", counts.clusters);
     state.counters["shafts_over_segments"] = shafts / segments;

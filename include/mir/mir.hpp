@@ -197,6 +197,7 @@
 #include "mir/shaft/cluster_record.hpp"
 #include "mir/shaft/occlusion.hpp"
 #include "mir/shaft/pair_search.hpp"
+#include "mir/shaft/pair_tally.hpp"
 #include "mir/shaft/shaft.hpp"
 #include "mir/shaft/shaft_pass.hpp"
 #include "mir/shaft/shaft_walk.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "conformance/worlds.hpp"
+#include "mir/accel/accept_box.hpp"
 #include "mir/accel/kd_tree.hpp"
 #include "support/scene_places.hpp"
 #include "support/segment_ends.hpp"
@@ -104,7 +105,9 @@ class HardSegments {
     HardSegment nearly_on_edge() {
         HardSegment s = in_plane();
         const mir::Vec3 at = on_edge();
-        const mir::Vec3 aside = 4.0f * places_.geometry().ray_offset() * point_in_cube(random_);
+        const float magnitude = mir::magnitude_of(places_.geometry().bounds());
+        const auto units = static_cast<float>(2.0 * mir::sigma_of(magnitude));
+        const mir::Vec3 aside = units * point_in_cube(random_);
         s.from = at + 0.1f * (s.from - at) + aside;
         s.to = at - random_.next() * (s.from - at) + 0.1f * aside;
         return s;

@@ -15,7 +15,7 @@ namespace {
 using mir::Hit;
 using mir::Vec3;
 
-constexpr std::uint32_t cluster_size = 32;
+constexpr std::uint32_t cluster_size = mir::cluster_luxels;
 
 /// Triangles of a scene as structures and tests know them.
 struct Triangles {
@@ -36,16 +36,15 @@ struct Triangles {
     }
 };
 
-/// Luxels on one triangle and around it, some of them empty.
+/// Luxels on one triangle and around it, some of them empty, lifted by up to eight sigma: surfaces
+/// within the margins of rounding are among what is drawn.
 std::vector<Hit> random_luxels(const mir::WorldGeometry& g, mir::Random& random) {
-    const Hit centre = mirtest::random_hit(g, random);
+    const Hit centre = mirtest::random_hit(g, random, random.next());
     const float size = 0.05f * g.bounds().diagonal() * random.next() * random.next();
     std::vector<Hit> hits(cluster_size);
     for (Hit& h : hits) {
         if (mirtest::chance(random, 0.1f)) continue;
-        const Vec3 aside = size * mirtest::point_in_cube(random);
-        h = {centre.position + aside - glm::dot(aside, centre.normal) * centre.normal,
-             centre.normal};
+        h = mirtest::hit_beside(centre, size, random);
     }
     return hits;
 }

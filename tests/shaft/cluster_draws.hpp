@@ -13,10 +13,16 @@ inline bool chance(mir::Random& random, float share) { return random.next() < sh
 /// The float nearest to 32 roundings of coordinates up to `magnitude`.
 inline float float_sigma(float magnitude) { return static_cast<float>(mir::sigma_of(magnitude)); }
 
-/// A luxel on a random triangle.
-inline mir::Hit random_hit(const mir::WorldGeometry& g, mir::Random& random) {
+/// A luxel on a random triangle, lifted by that share of what luxels are.
+inline mir::Hit random_hit(const mir::WorldGeometry& g, mir::Random& random, float share = 1.0f) {
     const mir::SurfacePoint p = random_surface_point(g, random);
-    return {mir::lift(p.position, p.geometric_normal, g.ray_offset()), p.geometric_normal};
+    return {mir::lift(p.position, p.geometric_normal, share * g.ray_offset()), p.geometric_normal};
+}
+
+/// Another one in the plane of `hit`, at most `size` away along each axis before it is put there.
+inline mir::Hit hit_beside(const mir::Hit& hit, float size, mir::Random& random) {
+    const mir::Vec3 aside = size * point_in_cube(random);
+    return {hit.position + aside - glm::dot(aside, hit.normal) * hit.normal, hit.normal};
 }
 
 /// A box of a cluster as it comes, from flat or a single point to a third of the scene, within

@@ -8,11 +8,9 @@
 
 namespace {
 
+using mir::CandidateList;
 using mir::PairState;
-using mir::PairTriangles;
 using mirtest::ShaftStage;
-
-constexpr std::uint32_t cluster_luxels = 32;
 
 ShaftStage soup_stage() {
     const mirtest::World world = mirtest::triangle_soup(60, 41);
@@ -27,25 +25,25 @@ ShaftStage soup_stage() {
 struct Wrong {
     std::size_t missed = 0;   ///< pairs whose list lacks a triangle that hits a segment
     std::size_t covered = 0;  ///< pairs said to be covered, one of whose segments is free
-    std::size_t listed = 0;   ///< pairs that were asked
+    std::size_t listed = 0;   ///< pairs whose list is said to be complete, empty or not
 };
 
 /// Luxels of a cluster that are not empty.
 std::vector<mir::Vec3> luxels_of(const ShaftStage& stage, std::size_t cluster) {
     std::vector<mir::Vec3> found;
-    for (std::size_t i = 0; i < cluster_luxels; ++i) {
-        const mir::Hit& hit = stage.lit().luxels[cluster * cluster_luxels + i];
+    for (std::size_t i = 0; i < mir::cluster_luxels; ++i) {
+        const mir::Hit& hit = stage.lit().luxels[cluster * mir::cluster_luxels + i];
         if (!is_empty(hit)) found.push_back(hit.position);
     }
     return found;
 }
 
-bool is_in(const PairTriangles& list, std::uint32_t t) {
+bool is_in(const CandidateList& list, std::uint32_t t) {
     return std::find(list.triangle, list.triangle + list.size, t) != list.triangle + list.size;
 }
 
 void judge(const ShaftStage& stage, const std::vector<mir::Vec3>& luxels, mir::Vec3 apex,
-           PairState state, const PairTriangles& list, Wrong& wrong) {
+           PairState state, const CandidateList& list, Wrong& wrong) {
     bool missed = false;
     bool all_hit_by_one = false;
     for (std::uint32_t t = 0; t < stage.bvh().triangles().size(); ++t) {
@@ -69,7 +67,7 @@ Wrong judge_all(const ShaftStage& stage, const Search& search) {
         if (stage.clusters()[c].luxels == 0) continue;
         const std::vector<mir::Vec3> luxels = luxels_of(stage, c);
         for (const mir::Vpl& vpl : stage.lit().vpls) {
-            PairTriangles list;
+            CandidateList list;
             const PairState state = search(stage.clusters()[c], vpl.position, list);
             judge(stage, luxels, vpl.position, state, list, wrong);
         }
@@ -81,7 +79,7 @@ Wrong judge_all(const ShaftStage& stage, const Search& search) {
 
 TEST_CASE("A complete list of a pair holds every triangle that hits one of its segments") {
     const ShaftStage stage = soup_stage();
-    const mir::SearchLimits limits = GENERATE(mir::SearchLimits{}, mir::SearchLimits{3, 4});
+    const mir::SearchLimits limits = GENERATE(mir::ShaftLimits{}.cluster, mir::SearchLimits{3, 4});
     const Wrong wrong = judge_all(stage, [&](const auto& cluster, mir::Vec3 apex, auto& list) {
         return mir::search_pair(stage.bvh().view(), cluster, apex, stage.sigma(), limits, list);
     });
@@ -103,8 +101,8 @@ TEST_CASE("A search that calls its list complete when it gave up is noticed") {
 TEST_CASE("A search that takes two triangles for one that covers is noticed") {
     const ShaftStage stage = soup_stage();
     const Wrong wrong = judge_all(stage, [&](const auto& cluster, mir::Vec3 apex, auto& list) {
-        const PairState state =
-            mir::search_pair(stage.bvh().view(), cluster, apex, stage.sigma(), {}, list);
+        const PairState state = mir::search_pair(stage.bvh().view(), cluster, apex, stage.sigma(),
+                                                 mir::ShaftLimits{}.cluster, list);
         return state == PairState::listed && list.size > 1 ? PairState::covered : state;
     });
     CHECK(wrong.covered > 30);
@@ -119,7 +117,7 @@ TEST_CASE("A list narrowed to a part of the cluster is complete for the part") {
             whole.low -= 0.1f;
             whole.high += 0.1f;
             whole.front = {0, 0, 0, 1};
-            PairTriangles known;
+            CandidateList known;
             const PairState state =
                 mir::search_pair(stage.bvh().view(), whole, apex, stage.sigma(), {1000, 64}, known);
             if (state != PairState::listed) return PairState::unknown;

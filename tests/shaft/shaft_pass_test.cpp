@@ -5,6 +5,8 @@
 #include "shaft/shaft_stage.hpp"
 #include "support/catch.hpp"
 
+#include <limits>
+
 // Words by shafts against every triangle asked, bit for bit: docs/shafts.md.
 
 namespace {
@@ -26,10 +28,11 @@ ShaftStage stage_of(const mirtest::World& world, std::uint32_t luxels, std::uint
     return {world.geometry, mirtest::clustered(lit)};
 }
 
-mirtest::PairCounts counted(const ShaftStage& stage) {
-    mirtest::PairCounts counts;
-    static_cast<void>(stage.by_shafts({}, &counts));
-    return counts;
+/// Blocks and VPLs that a ShaftPass did not search.
+std::uint64_t unknown_blocks(const ShaftStage& stage) {
+    mir::PairTally tally;
+    static_cast<void>(stage.by_shafts({}, tally));
+    return tally.block(PairState::unknown);
 }
 
 }  // namespace
@@ -47,14 +50,15 @@ TEST_CASE("Shafts give the bits of every triangle asked") {
 TEST_CASE("All that may become of a pair does") {
     const mirtest::World world = mirtest::sphere_in_box();
     const ShaftStage stage = stage_of(world, 30000, 30);
-    const mirtest::PairCounts counts = counted(stage);
+    mir::PairTally counts;
+    static_cast<void>(stage.by_shafts({}, counts));
     for (PairState s : {PairState::clear, PairState::covered, PairState::listed}) {
         CAPTURE(static_cast<int>(s));
         CHECK(counts.block(s) > 0);
         CHECK(counts.cluster(s) > 100);
     }
-    mirtest::PairCounts few;
-    static_cast<void>(stage.by_shafts({{2, 4}, {3, 2}}, &few));
+    mir::PairTally few;
+    static_cast<void>(stage.by_shafts({{2, 4}, {3, 2}}, few));
     CHECK(few.block(PairState::unknown) > 100);
     CHECK(few.cluster(PairState::unknown) > 100);
 }
@@ -67,7 +71,7 @@ TEST_CASE("No limit of a search changes a bit") {
         for (std::uint32_t triangles : {0u, 1u, 2u, 7u, 64u, 1000u}) {
             CAPTURE(nodes, triangles);
             const mir::SearchLimits some{nodes, triangles};
-            CHECK(different_bits(stage.by_shafts({some, {}}), truth) == 0);
+            CHECK(different_bits(stage.by_shafts({some, {96, 24}}), truth) == 0);
             CHECK(different_bits(stage.by_shafts({{0, 0}, some}), truth) == 0);
         }
 }
@@ -105,11 +109,44 @@ TEST_CASE("Closed boxes, flat to shared edges and to the axes, give the same bit
 TEST_CASE("Luxels and VPLs beyond reach are asked one by one") {
     const mirtest::World world = soup(false, 1.0f, 0.0f);
     Lit lit = mirtest::random_lit(world.geometry, 500, 40, mirtest::test_random(22));
+    const std::uint64_t before =
+        unknown_blocks(ShaftStage(world.geometry, mirtest::clustered(lit)));
     for (std::size_t i = 0; i < lit.luxels.size(); i += 5) lit.luxels[i].position *= 40.0f;
     for (std::size_t j = 0; j < lit.vpls.size(); j += 3) lit.vpls[j].position *= 1e4f;
     const ShaftStage stage(world.geometry, mirtest::clustered(lit));
     CHECK(different_bits(stage.by_shafts(), stage.by_segments()) == 0);
-    CHECK(counted(stage).block(PairState::unknown) > 10);
+    CHECK(unknown_blocks(stage) > before + 10);
+}
+
+TEST_CASE("Scenes larger than the proofs reach are asked one by one") {
+    constexpr float scale = 2e18f;
+    const mirtest::World small = soup(false, 1.0f, 0.0f);
+    const mirtest::World world = soup(false, scale, 0.0f);
+    Lit lit = mirtest::random_lit(small.geometry, 500, 20, mirtest::test_random(24));
+    for (mir::Hit& hit : lit.luxels) hit.position *= scale;
+    for (mir::Vpl& vpl : lit.vpls) vpl.position *= scale;
+    const ShaftStage stage(world.geometry, mirtest::clustered(lit));
+    CHECK(different_bits(stage.by_shafts(), stage.by_segments()) == 0);
+    mir::PairTally tally;
+    static_cast<void>(stage.by_shafts({}, tally));
+    CHECK(tally.block(PairState::unknown) > 10);
+    CHECK(tally.block(PairState::covered) + tally.block(PairState::clear) == 0);
+}
+
+TEST_CASE("A luxel that is not a number changes no bit of its neighbours") {
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const Lit lit =
+        mirtest::clustered(mirtest::random_lit(world.geometry, 512, 30, mirtest::test_random(23)));
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t first : {0u, 1u, 40u})
+        for (int axis = 0; axis < 3; ++axis) {
+            CAPTURE(first, axis);
+            Lit broken = lit;
+            for (std::size_t i = first; i < broken.luxels.size(); i += 64)
+                broken.luxels[i].position[axis] = nan;
+            const ShaftStage stage(world.geometry, broken);
+            CHECK(different_bits(stage.by_shafts(), stage.by_segments()) == 0);
+        }
 }
 
 TEST_CASE("A world without triangles hides nothing") {

@@ -6,36 +6,15 @@
 #include "mir/data/visibility_words.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/shaft/cluster_order.hpp"
+#include "mir/shaft/pair_tally.hpp"
 #include "mir/shaft/shaft_pass.hpp"
 #include "shaft/cluster_draws.hpp"
 #include "shaft/hit_run.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 namespace mirtest {
-
-/// How often each PairState came up.
-struct PairCounts {
-    std::array<std::size_t, 4> blocks{};
-    std::array<std::size_t, 4> clusters{};
-
-    [[nodiscard]] std::size_t block(mir::PairState s) const {
-        return blocks[static_cast<std::size_t>(s)];
-    }
-    [[nodiscard]] std::size_t cluster(mir::PairState s) const {
-        return clusters[static_cast<std::size_t>(s)];
-    }
-};
-
-/// Counts what becomes of pairs; one thread.
-struct CountPairs {
-    PairCounts* counts = nullptr;
-
-    void block(mir::PairState s) const { ++counts->blocks[static_cast<std::size_t>(s)]; }
-    void cluster(mir::PairState s) const { ++counts->clusters[static_cast<std::size_t>(s)]; }
-};
 
 /// Luxels and VPLs of a world.
 struct Lit {
@@ -61,13 +40,9 @@ inline Lit random_lit(const mir::WorldGeometry& g, std::uint32_t luxels, std::ui
     while (lit.luxels.size() < luxels) {
         const mir::Hit centre = random_hit(g, random);
         const float size = 0.1f * g.bounds().diagonal() * random.next() * random.next();
-        for (std::uint32_t i = 0; i < 100 && lit.luxels.size() < luxels; ++i) {
-            const mir::Vec3 aside = size * point_in_cube(random);
-            const mir::Vec3 flat = aside - glm::dot(aside, centre.normal) * centre.normal;
-            lit.luxels.push_back(chance(random, 0.05f)
-                                     ? mir::Hit{}
-                                     : mir::Hit{centre.position + flat, centre.normal});
-        }
+        for (std::uint32_t i = 0; i < mir::block_luxels && lit.luxels.size() < luxels; ++i)
+            lit.luxels.push_back(chance(random, 0.05f) ? mir::Hit{}
+                                                       : hit_beside(centre, size, random));
     }
     lit.vpls = random_vpls(g, vpls, random);
     for (std::size_t j = 0; j < lit.vpls.size(); j += 7)
@@ -83,29 +58,20 @@ class ShaftStage {
         : bvh_(geometry, options, executor_),
           sigma_(float_sigma(mir::magnitude_of(geometry.bounds()))),
           lit_(std::move(lit)) {
-        lit_.luxels.resize((lit_.luxels.size() + 255) / 256 * 256);
+        const std::size_t blocks = (lit_.luxels.size() + mir::block_luxels - 1) / mir::block_luxels;
+        lit_.luxels.resize(blocks * mir::block_luxels);
         hits_ = HitRun(lit_.luxels);
-        make_records(256, blocks_);
-        make_records(32, clusters_);
+        make_records(mir::block_luxels, blocks_);
+        make_records(mir::cluster_luxels, clusters_);
     }
 
-    /// Words by shafts. `words` start as ones, which no forgotten word may keep.
-    [[nodiscard]] std::vector<std::uint32_t> by_shafts(const mir::ShaftLimits& limits = {},
-                                                       PairCounts* counts = nullptr) const {
-        PairCounts unread;
-        std::vector<std::uint32_t> words(word_count(), ~0u);
-        const mir::ShaftPass<mir::Space::host, mir::VplSpan<mir::Space::host>, CountPairs> pass{
-            hits_.view(),
-            blocks_.data(),
-            clusters_.data(),
-            mir::span_of(lit_.vpls),
-            bvh_.view(),
-            sigma_,
-            limits,
-            words.data(),
-            {counts != nullptr ? counts : &unread}};
-        for (std::uint32_t i = 0; i < blocks_.size() * lit_.vpls.size(); ++i) pass(i);
-        return words;
+    /// Words by shafts. They start as ones, which no forgotten word may keep.
+    [[nodiscard]] std::vector<std::uint32_t> by_shafts(const mir::ShaftLimits& limits = {}) const {
+        return run(limits, mir::UnwatchedPairs{});
+    }
+    [[nodiscard]] std::vector<std::uint32_t> by_shafts(const mir::ShaftLimits& limits,
+                                                       mir::PairTally& tally) const {
+        return run(limits, mir::TallyPairs{&tally});
     }
 
     /// Words luxel by luxel: `hidden(vpl, luxel)` is asked for all that face each other.
@@ -141,8 +107,22 @@ class ShaftStage {
     [[nodiscard]] const std::vector<mir::ClusterRecord>& clusters() const { return clusters_; }
 
  private:
+    using Vpls = mir::VplSpan<mir::Space::host>;
+    static_assert(mir::DeviceCopyable<mir::ShaftPass<mir::Space::host, Vpls>>);
+
+    template <class Watch>
+    [[nodiscard]] std::vector<std::uint32_t> run(const mir::ShaftLimits& limits,
+                                                 Watch watch) const {
+        std::vector<std::uint32_t> words(word_count(), ~0u);
+        const mir::ShaftPass<mir::Space::host, Vpls, Watch> pass{
+            hits_.view(), blocks_.data(), clusters_.data(), mir::span_of(lit_.vpls),
+            bvh_.view(),  sigma_,         limits,           words.data(),
+            watch};
+        for (std::uint32_t i = 0; i < blocks_.size() * lit_.vpls.size(); ++i) pass(i);
+        return words;
+    }
     [[nodiscard]] std::size_t word_count() const {
-        return lit_.luxels.size() / 32 * lit_.vpls.size();
+        return lit_.luxels.size() / mir::cluster_luxels * lit_.vpls.size();
     }
     void make_records(std::uint32_t run, std::vector<mir::ClusterRecord>& records) const {
         records.resize(lit_.luxels.size() / run);

@@ -8,6 +8,10 @@
 
 namespace mir {
 
+/// Luxels of a cluster, a word of visibility, and of a block, which is eight of them.
+inline constexpr std::uint32_t cluster_luxels = 32;
+inline constexpr std::uint32_t block_luxels = 256;
+
 /// What shafts know about a cluster, a run of luxels that lie close together: a box and a
 /// half-space that hold all of its luxels but the empty ones. Aligned so that the device fetches it
 /// in three words.
@@ -19,9 +23,12 @@ struct alignas(16) ClusterRecord {
 };
 
 /// True when the proofs of docs/shafts.md hold for the cluster's luxels: segments to others may be
-/// cut (reach.hpp), and are then none of the shaft's.
+/// cut (reach.hpp), and are then none of the shaft's. False when a coordinate is not a number.
 [[nodiscard]] MIR_HD inline bool within_reach(const ClusterRecord& cluster, float reach) {
-    return within_reach(cluster.low, reach) && within_reach(cluster.high, reach);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(fabsf(cluster.low[axis]) <= reach) || !(fabsf(cluster.high[axis]) <= reach))
+            return false;
+    return true;
 }
 
 namespace detail {
@@ -60,7 +67,8 @@ MIR_HD inline AffineRow direction_row(Vec3 v) {
     return {strict::div(v.x, length), strict::div(v.y, length), strict::div(v.z, length), 0.0f};
 }
 
-/// Smallest value of a row at the luxels of a run that are not empty; 0 if all are.
+/// Smallest value of a row at the luxels of a run that are not empty; 0 if all are. Luxels that are
+/// no number count only where they come first: the row then is none either.
 MIR_HD inline float least_at(AffineRow row, const SoaView<const Hit>& hits, std::uint32_t first,
                              std::uint32_t count) {
     bool found = false;
@@ -69,7 +77,7 @@ MIR_HD inline float least_at(AffineRow row, const SoaView<const Hit>& hits, std:
         const Hit hit = hits.load(i);
         if (is_empty(hit)) continue;
         const float value = row_at(row, hit.position);
-        least = found ? smaller(least, value) : value;
+        least = found ? smaller(value, least) : value;
         found = true;
     }
     return least;

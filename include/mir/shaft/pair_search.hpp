@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/accept_box.hpp"
 #include "mir/shaft/occlusion.hpp"
 #include "mir/shaft/shaft_walk.hpp"
 
@@ -11,12 +12,14 @@ enum class PairState : std::uint8_t {
     clear,    ///< no triangle hits any of them
     covered,  ///< one single triangle hits them all
     listed,   ///< a list holds every triangle that hits some of them
-    unknown   ///< the search gave up, or cluster and VPL are not within reach
+    unknown   ///< the search gave up, or the proofs do not hold: not within reach
 };
 
 /// Triangles that may hit some segments of a pair, by their place in the hierarchy. A plain array,
 /// because device code cannot index std::array; not cleared, because most pairs need little of it.
-struct PairTriangles {
+/// Source: Haines and Wallace, "Shaft culling for efficient ray-traced radiosity", Eurographics
+/// Workshop on Rendering 1991.
+struct CandidateList {
     static constexpr std::uint32_t capacity = 64;
 
     std::uint32_t triangle[capacity];
@@ -28,8 +31,8 @@ struct PairTriangles {
 /// What a search for a pair's triangles may cost. Any numbers are right: fewer make it give up more
 /// often.
 struct SearchLimits {
-    std::uint32_t nodes = 48;      ///< visited at most
-    std::uint32_t triangles = 32;  ///< listed at most; no more than PairTriangles::capacity count
+    std::uint32_t nodes;      ///< visited at most
+    std::uint32_t triangles;  ///< listed at most; no more than CandidateList::capacity count
 };
 
 namespace detail {
@@ -39,7 +42,7 @@ template <Space S>
 struct ListPartial {
     const WideBvhView<S>& bvh;
     const Pyramid& pyramid;
-    PairTriangles& list;
+    CandidateList& list;
     std::uint32_t most = 0;
     PairState stopped_by = PairState::unknown;
 
@@ -57,18 +60,23 @@ struct ListPartial {
 
 }  // namespace detail
 
+/// Whether the proofs of docs/shafts.md hold for a scene of that reach: products overflow in larger
+/// ones. Scenes too small for them have no triangles (WorldGeometry drops those without area).
+[[nodiscard]] MIR_HD inline bool is_proved_scale(float reach) { return reach <= reach_of(1e18f); }
+
 /// Looks for the triangles that hit segments between the cluster's luxels and the VPL at `apex`,
 /// metres; they are in the empty `list` if the state is `listed`. `sigma` as for the cluster, which
 /// has luxels. A list is complete only if the walk ended by itself.
 template <Space S>
 [[nodiscard]] MIR_HD PairState search_pair(const WideBvhView<S>& bvh, const ClusterRecord& cluster,
                                            Vec3 apex, float sigma, SearchLimits limits,
-                                           PairTriangles& list) {
-    if (!within_reach(cluster, bvh.reach) || !within_reach(apex, bvh.reach))
+                                           CandidateList& list) {
+    if (!is_proved_scale(bvh.reach) || !within_reach(cluster, bvh.reach) ||
+        !within_reach(apex, bvh.reach))
         return PairState::unknown;
     const Pyramid pyramid = make_pyramid(cluster, apex, sigma);
     const std::uint32_t most =
-        limits.triangles < PairTriangles::capacity ? limits.triangles : PairTriangles::capacity;
+        limits.triangles < CandidateList::capacity ? limits.triangles : CandidateList::capacity;
     detail::ListPartial<S> leaf{bvh, pyramid, list, most};
     const WalkEnd end = walk_shaft(bvh, make_shaft(cluster, apex, sigma), limits.nodes, leaf);
     if (end != WalkEnd::complete) return leaf.stopped_by;
@@ -78,8 +86,8 @@ template <Space S>
 /// The same for a cluster that is a part of another, whose complete list is `known`. Never unknown.
 template <Space S>
 [[nodiscard]] MIR_HD PairState narrow_pair(const WideBvhView<S>& bvh, const ClusterRecord& cluster,
-                                           Vec3 apex, float sigma, const PairTriangles& known,
-                                           PairTriangles& list) {
+                                           Vec3 apex, float sigma, const CandidateList& known,
+                                           CandidateList& list) {
     const Pyramid pyramid = make_pyramid(cluster, apex, sigma);
     for (std::uint32_t i = 0; i < known.size; ++i) {
         const Occlusion found = occlusion(bvh.triangles[known.triangle[i]], pyramid);

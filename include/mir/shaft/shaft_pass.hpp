@@ -21,7 +21,8 @@ struct UnwatchedPairs {
 };
 
 /// Which luxels face and see which VPL, by shafts: kernel over blocks times VPLs; index i is VPL
-/// i % vpls.size() and the 256 luxels of block i / vpls.size(). Each call writes the eight words of
+/// i % vpls.size() and the 256 luxels of block i / vpls.size(), so that blocks times VPLs must fit
+/// into 32 bits. Each call writes the eight words of
 /// its pair as VisibilityWords lays them out, with the bits of VisibilityPass over the same
 /// hierarchy: no order of luxels and no limit changes one. `watch` is told what became of each pair
 /// that was searched, block(state) and cluster(state), from whatever thread.
@@ -31,9 +32,7 @@ struct UnwatchedPairs {
 /// that are left or through the hierarchy.
 template <Space S, VplSet P, class Watch = UnwatchedPairs>
 struct ShaftPass {
-    static constexpr std::uint32_t word_luxels = 32;
-    static constexpr std::uint32_t block_luxels = 256;
-    static constexpr std::uint32_t block_words = block_luxels / word_luxels;
+    static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
 
     SoaView<const Hit> hits;  ///< in cluster order, padded to whole blocks with empty luxels
     const ClusterRecord* blocks = nullptr;    ///< of 256 luxels
@@ -71,8 +70,8 @@ struct ShaftPass {
     [[nodiscard]] MIR_HD std::uint32_t filter(std::uint32_t word, std::uint32_t cluster,
                                               const Keep& keep) const {
         std::uint32_t kept = 0;
-        for (std::uint32_t k = 0; k < word_luxels; ++k)
-            if ((word >> k & 1u) != 0 && keep(hits.load(cluster * word_luxels + k)))
+        for (std::uint32_t k = 0; k < cluster_luxels; ++k)
+            if ((word >> k & 1u) != 0 && keep(hits.load(cluster * cluster_luxels + k)))
                 kept |= 1u << k;
         return kept;
     }
@@ -86,7 +85,7 @@ struct ShaftPass {
     }
 
     MIR_HD void decide_block(std::uint32_t block, Vec3 apex, BlockWords& mask) const {
-        PairTriangles list;
+        CandidateList list;
         const PairState state = search_pair(bvh, blocks[block], apex, sigma, limits.block, list);
         watch.block(state);
         if (state == PairState::clear) return;
@@ -102,21 +101,21 @@ struct ShaftPass {
 
     [[nodiscard]] MIR_HD std::uint32_t decide_listed(std::uint32_t cluster, Vec3 apex,
                                                      std::uint32_t word,
-                                                     const PairTriangles& known) const {
-        PairTriangles list;
+                                                     const CandidateList& known) const {
+        CandidateList list;
         return decide(narrow_pair(bvh, clusters[cluster], apex, sigma, known, list), cluster, apex,
                       word, list);
     }
 
     [[nodiscard]] MIR_HD std::uint32_t decide_unknown(std::uint32_t cluster, Vec3 apex,
                                                       std::uint32_t word) const {
-        PairTriangles list;
+        CandidateList list;
         return decide(search_pair(bvh, clusters[cluster], apex, sigma, limits.cluster, list),
                       cluster, apex, word, list);
     }
 
     [[nodiscard]] MIR_HD std::uint32_t decide(PairState state, std::uint32_t cluster, Vec3 apex,
-                                              std::uint32_t word, const PairTriangles& list) const {
+                                              std::uint32_t word, const CandidateList& list) const {
         watch.cluster(state);
         if (state == PairState::clear) return word;
         if (state == PairState::covered) return 0;
@@ -127,7 +126,7 @@ struct ShaftPass {
                       [&](const Hit& hit) { return !is_hidden(bvh, apex, hit.position); });
     }
 
-    [[nodiscard]] MIR_HD bool is_hit_by(const PairTriangles& list, Vec3 apex, Vec3 luxel) const {
+    [[nodiscard]] MIR_HD bool is_hit_by(const CandidateList& list, Vec3 apex, Vec3 luxel) const {
         for (std::uint32_t i = 0; i < list.size; ++i)
             if (hits_segment(bvh.triangles[list.triangle[i]], apex, luxel)) return true;
         return false;

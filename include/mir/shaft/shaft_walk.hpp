@@ -15,8 +15,8 @@ enum class WalkEnd : std::uint8_t {
 
 namespace detail {
 
-/// Slots of a node whose boxes the shaft meets, bit k for slot k. Boxes of empty slots lie beyond
-/// reach, where the shaft is not.
+/// Slots of a node whose boxes the shaft meets, bit k for slot k; what it says of empty slots means
+/// nothing.
 MIR_HD inline std::uint32_t met_slots(const WideNode& node, const Shaft& shaft) {
     std::uint32_t mask = 0;
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {
@@ -57,8 +57,9 @@ MIR_HD inline std::uint32_t pop_slot(std::uint32_t& slots) {
 }  // namespace detail
 
 /// Calls `leaf(first, count)` for the leaves whose boxes a shaft meets, until one call returns true
-/// or more than `most_nodes` nodes would be visited. All triangles that hits_segment() accepts for
-/// some segment of the shaft lie in those leaves. A node is on the stack only while one of its
+/// or more than `most_nodes` nodes would be visited. If the walk is complete, and cluster and VPL
+/// lie within reach, those leaves hold all triangles that hits_segment() accepts for some segment
+/// of the shaft. A node is on the stack only while one of its
 /// children is visited, so that the stack holds nodes of one path alone.
 template <Space S, class Leaf>
 [[nodiscard]] MIR_HD WalkEnd walk_shaft(const WideBvhView<S>& bvh, const Shaft& shaft,
