@@ -216,7 +216,7 @@ TEST_CASE("threads, tiles and scheduler change no bit of any layer") {
     settings.threads = 1;
     const auto reference = render(scene, settings);
     for (unsigned threads : {1u, 2u})
-        for (std::uint32_t tile : {16u, 64u, 256u})
+        for (std::uint32_t tile : {16u, 64u, 80u})
             for (const char* scheduler : {"cpu", "cpu-blocks"}) {
                 settings.threads = threads;
                 settings.tile = {tile, tile};

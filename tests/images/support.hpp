@@ -24,7 +24,7 @@ inline mir::RenderSettings small_settings(std::uint32_t side, std::uint32_t vpls
     s.vpls = vpls;
     s.bound.kind = mir::BoundPolicy::Kind::none;
     s.filter = mir::default_filter(mir::FilterKind::box);
-    s.tile = {32, 32};
+    s.tile = {16, 16};
     return s;
 }
 

@@ -99,6 +99,21 @@ TEST_CASE("a tile is two positive numbers and nothing more") {
     }
 }
 
+TEST_CASE("a tile larger than the image of luxels is refused, one as large as it is not") {
+    const TemporaryFolder folder("tool_tile");
+    for (const char* tile : {"81x32", "16x177", "256x256"}) {
+        INFO(tile);
+        const Outcome outcome = run_mir(small_render(folder / "a.exr", "builtin:sphere", 70, 50) +
+                                        Words{"--luxels", "3", "--tile", tile});
+        CHECK(outcome.exit_code == 2);
+        CHECK(has(outcome.err, "larger than the image, which has 70x150; use 80x160"));
+        CHECK_FALSE(std::filesystem::exists(folder / "a.exr"));
+    }
+    const Outcome whole = run_mir(small_render(folder / "a.exr", "builtin:sphere", 70, 50) +
+                                  Words{"--luxels", "3", "--tile", "80x160"});
+    CHECK(whole.exit_code == 0);
+}
+
 TEST_CASE("unknown choices are refused with the list of known ones") {
     check_failing_render({"builtin:sphere", "--sampler", "bdpt"}, 2, "keller");
     check_failing_render({"builtin:sphere", "--sequence", "sobol"}, 2, "halton");

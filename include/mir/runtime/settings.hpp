@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/limits.hpp"
+#include "mir/data/blocked_layout.hpp"
 #include "mir/film/filter.hpp"
 #include "mir/film/luxel_grid.hpp"
 #include "mir/metropolis/metropolis_options.hpp"
@@ -87,8 +88,10 @@ struct RenderSettings {
     unsigned threads = 0;  ///< 0: every core
     BackendKind backend = BackendKind::automatic;
     Acceleration acceleration = Acceleration::automatic;
-    std::string scheduler;        ///< name in the Registry; empty: the backend's default
-    std::optional<Extent> tile;   ///< luxels scheduled together; none: the backend's choice
+    std::string scheduler;  ///< name in the Registry; empty: the backend's default
+    /// Luxels scheduled together, rounded up to whole blocks of 16 x 16, not larger than the image
+    /// of luxels rounded likewise; none: the backend's choice.
+    std::optional<Extent> tile;
     bool bounce_layers = false;   ///< one image per bounce besides the sum
     bool allow_no_light = false;  ///< a scene without light gives black, not an error
     Limits limits;
@@ -101,6 +104,23 @@ struct RenderSettings {
         return (direct_samples + luxels_per_pixel - 1) / luxels_per_pixel;
     }
 };
+
+namespace detail {
+
+/// A tile may fill the last blocks of the image, but no more.
+inline void check_tile(const std::optional<Extent>& tile, Extent luxels) {
+    const Extent most = whole_blocks(luxels);
+    if (!tile || (tile->width <= most.width && tile->height <= most.height)) return;
+    const auto text = [](Extent e) {
+        return std::to_string(e.width) + "x" + std::to_string(e.height);
+    };
+    throw Error(ErrorCode::invalid_argument,
+                "a tile of " + text(*tile) + " luxels is larger than the image, which has " +
+                    text(luxels) + "; use " + text(most) +
+                    " for one tile, or leave the choice to the backend");
+}
+
+}  // namespace detail
 
 inline void RenderSettings::validate() const {
     expects(image.width > 0 && image.height > 0,
@@ -129,6 +149,7 @@ inline void RenderSettings::validate() const {
     expects(max_bounce >= 1 && max_bounce < 255, "the largest bounce must be 1 to 254");
     expects(!tile || (tile->width > 0 && tile->height > 0),
             "a tile of zero luxels was asked for (a tile must hold at least one); use 256x256");
+    detail::check_tile(tile, luxel_grid(image, luxels_per_pixel, limits).luxels());
     expects(bound.kind != BoundPolicy::Kind::fixed ||
                 (bound.value > 0.0f && std::isfinite(bound.value)),
             "the bound of the geometry term must be positive and finite (per square metre); use "

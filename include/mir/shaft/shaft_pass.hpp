@@ -22,10 +22,10 @@ struct UnwatchedPairs {
 
 /// Which luxels face and see which VPL, by shafts: kernel over blocks times VPLs; index i is VPL
 /// i % vpls.size() and the 256 luxels of block i / vpls.size(), so that blocks times VPLs must fit
-/// into 32 bits. Each call writes the eight words of
-/// its pair as VisibilityWords lays them out, with the bits of VisibilityPass over the same
-/// hierarchy: no order of luxels and no limit changes one. `watch` is told what became of each pair
-/// that was searched, block(state) and cluster(state), from whatever thread.
+/// into 32 bits. Each call writes the eight words of its pair as VisibilityWords lays them out,
+/// with the bits of VisibilityPass over the same hierarchy: no order of luxels and no limit changes
+/// one. `watch` is told what became of each pair with a luxel to decide, block(state) and
+/// cluster(state), from whatever thread.
 ///
 /// First the 256 luxels at once; then, unless that settles it, each 32 of them, by the triangles
 /// that were found if they are all that there are; then the luxels one by one, by the triangles
