@@ -50,8 +50,11 @@ class BackendMachine final : public Machine {
 
     std::vector<KernelRun> kernels(const KernelChoice& choice, unsigned repeat) override {
         if (choice.start == RayStart::luxel)
-            return kernels_with(choice, FromLuxel<Rays>{there_->visibility()}, repeat);
-        return kernels_with(choice, there_->visibility(), repeat);
+            return kernels_with(choice, there_->with_shafts(FromLuxel<Rays>{there_->visibility()}),
+                                repeat);
+        if (choice.engine == RayEngine::wide_bvh)
+            return kernels_with(choice, there_->with_shafts(there_->wide_visibility()), repeat);
+        return kernels_with(choice, there_->with_shafts(there_->visibility()), repeat);
     }
 
     std::vector<LuxelRun> luxels(mir::Extent tile, unsigned repeat) override {
@@ -134,6 +137,10 @@ class BackendMachine final : public Machine {
         return run;
     }
 
+    [[nodiscard]] static bool needs_bits(KernelForm form) {
+        return form == KernelForm::split || form == KernelForm::shafts;
+    }
+
     [[nodiscard]] std::vector<mir::Vpl> vpls_in(VplOrder order, std::uint32_t count) {
         const auto sorted = scene_->vpls(count).vpls();
         std::vector<mir::Vpl> vpls(sorted.begin(), sorted.end());
@@ -149,10 +156,14 @@ class BackendMachine final : public Machine {
     std::vector<KernelRun> kernels_with(const KernelChoice& choice, const V& visibility,
                                         unsigned repeat) {
         const std::vector<mir::Vpl> vpls = vpls_in(choice.vpl_order, choice.vpls);
-        KernelBench<B, V> bench(backend_, luxels_in(choice.luxels, scene_->luxels()), vpls,
-                                visibility, scene_->shading(choice.vpls),
-                                choice.form == KernelForm::split);
+        KernelBench<B, V> bench(backend_, luxels_in(choice.luxels, scene_->luxels(), executor_),
+                                vpls, visibility, scene_->shading(choice.vpls),
+                                needs_bits(choice.form));
         bench.run(choice.form);
+        if (choice.form == KernelForm::shafts && bench.wrong_bits() != 0)
+            throw mir::Error(mir::ErrorCode::internal,
+                             "shafts changed " + std::to_string(bench.wrong_bits()) +
+                                 " bits in the scene '" + scene_->name() + "'");
         std::vector<KernelRun> runs;
         for (unsigned i = 0; i < repeat; ++i) runs.push_back(bench.run(choice.form));
         const double mean =

@@ -2,10 +2,13 @@
 #pragma once
 
 #include "mir/accel/kd_ray_finder.hpp"
+#include "mir/accel/wide_bvh_visibility.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_kd_tree.hpp"
 #include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/uploaded_wide_bvh.hpp"
+#include "mir/shaft/cluster_visibility.hpp"
 #include "paper_scene.hpp"
 
 namespace mirpaper {
@@ -17,6 +20,8 @@ class SceneOnBackend {
     SceneOnBackend(const B& backend, const PaperScene& scene)
         : queue_(backend.queue()),
           tree_(backend, queue_, scene.tree()),
+          bvh_(backend, queue_, scene.bvh()),
+          sigma_(scene.sigma()),
           geometry_(backend, queue_, scene.geometry()),
           surfaces_(backend, queue_, scene.surfaces()),
           rays_(scene.camera_rays().luxel_rays()) {
@@ -25,6 +30,13 @@ class SceneOnBackend {
 
     /// Valid as long as this object.
     [[nodiscard]] mir::KdTreeVisibility<B::space> visibility() const { return {tree_.view()}; }
+
+    [[nodiscard]] mir::WideBvhVisibility<B::space> wide_visibility() const { return {bvh_.view()}; }
+    /// Shafts that leave segments to `rays`.
+    template <mir::Visibility V>
+    [[nodiscard]] mir::ClusterVisibility<V> with_shafts(const V& rays) const {
+        return {bvh_.view(), sigma_, rays};
+    }
 
     /// Starts to trace all luxels on `queue`.
     void trace(typename B::Queue& queue, mir::BackendGBuffer<B, Bsdf::Params>& luxels) const {
@@ -36,6 +48,8 @@ class SceneOnBackend {
  private:
     typename B::Queue queue_;
     mir::UploadedKdTree<B> tree_;
+    mir::UploadedWideBvh<B> bvh_;
+    float sigma_;
     mir::UploadedGeometry<B> geometry_;
     mir::UploadedSurfaces<B, Bsdf> surfaces_;
     mir::LuxelRays rays_;

@@ -121,6 +121,7 @@ Row kernels_alone(Lab& lab, Machine& machine, PaperScene& scene, const Figure& f
         spread_of(runs, [](const KernelRun& r) { return r.visibility; }).median;
     row.shading_seconds = spread_of(runs, [](const KernelRun& r) { return r.shading; }).median;
     row.mean_luminance = runs.back().mean_luminance;
+    row.stages = runs[runs.size() / 2].stages;
     return row;
 }
 
@@ -205,6 +206,27 @@ void kernel_figure(Lab& lab, PaperScene& scene, const Figure& figure) {
             }
 }
 
+/// Shafts against rays of the same engine, in both orders of luxels.
+void shafts(Lab& lab, PaperScene& scene, const Figure& figure) {
+    KernelChoice choice;
+    for (const std::uint32_t vpls : figure.vpls)
+        for (const auto& machine : lab.machines)
+            for (const LuxelOrder order : {LuxelOrder::squares, LuxelOrder::clusters})
+                for (const RayEngine engine : {RayEngine::kd_tree, RayEngine::wide_bvh})
+                    for (const KernelForm form : {KernelForm::fused, KernelForm::shafts}) {
+                        choice.vpls = vpls;
+                        choice.luxels = order;
+                        choice.engine = engine;
+                        choice.form = form;
+                        Row row = kernels_alone(lab, *machine, scene, figure, choice);
+                        row.algorithm = form_names[static_cast<std::size_t>(form)];
+                        row.variant = std::string("luxels in ") +
+                                      luxel_order_names[static_cast<std::size_t>(order)] + ", " +
+                                      ray_engine_names[static_cast<std::size_t>(engine)];
+                        lab.add(row);
+                    }
+}
+
 void luxels(Lab& lab, PaperScene& scene, const Figure& figure) {
     for (const auto& machine : lab.machines) {
         const unsigned repeat = repeat_of(lab, *machine, Algorithm::rc);
@@ -253,6 +275,7 @@ std::vector<Figure> all_figures() {
         {"stages", four, {256}, stages},
         {"luxels", four, {0}, luxels},
         {"kernels", four, {256}, kernel_figure},
+        {"shafts", four, {256}, shafts},
         {"counters", four, {256}, counters},
     };
 }

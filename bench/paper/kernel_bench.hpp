@@ -7,9 +7,12 @@
 #include "mir/kernels/fused.hpp"
 #include "mir/kernels/shading_pass.hpp"
 #include "mir/kernels/visibility_pass.hpp"
+#include "mir/resident/backend_shafts.hpp"
 #include "tracing_backend.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 
 namespace mirpaper {
 
@@ -47,13 +50,14 @@ template <class G, class P, class V, class F>
 AddOneVpl(G, P, mir::VplIndex, V, F, mir::SoaView<mir::Rgb>) -> AddOneVpl<G, P, V, F>;
 
 /// Kernels on all luxels of a scene, which are in the backend's memory from the beginning.
-template <mir::Backend B, mir::Visibility V>
+template <mir::Backend B, mir::ShaftableVisibility V>
 class KernelBench {
  public:
-    /// `luxels` and `vpls` are copied.
+    /// `luxels` and `vpls` are copied. Rays are visibility.segments alone, shafts all of it.
     KernelBench(const B& backend, const LuxelWords& luxels, std::span<const mir::Vpl> vpls,
                 const V& visibility, const Shading& shading, bool needs_bits)
-        : queue_(backend.queue()),
+        : backend_(backend),
+          queue_(backend.queue()),
           count_(luxels.count),
           hits_(backend.template buffer<std::uint32_t>(luxels.hits.size())),
           surfaces_(backend.template buffer<std::uint32_t>(luxels.surfaces.size())),
@@ -71,19 +75,35 @@ class KernelBench {
 
     KernelRun run(KernelForm form) {
         if (form == KernelForm::split) return run_split();
+        if (form == KernelForm::shafts) return run_shafts();
         const auto begin = Marks<B>::mark(queue_);
         if (form == KernelForm::fused)
-            queue_.for_each(count_,
-                            mir::FusedKernel{view(), vpls(), visibility_, shading_, sums()});
+            queue_.for_each(
+                count_, mir::FusedKernel{view(), vpls(), visibility_.segments, shading_, sums()});
         else
             for (mir::VplIndex j = 0; j < vpls().size(); ++j)
-                queue_.for_each(count_,
-                                AddOneVpl{view(), vpls(), j, visibility_, shading_, sums()});
+                queue_.for_each(
+                    count_, AddOneVpl{view(), vpls(), j, visibility_.segments, shading_, sums()});
         const auto end = Marks<B>::mark(queue_);
         queue_.record().sync();
         KernelRun run;
         run.seconds = Marks<B>::seconds(begin, end);
         return run;
+    }
+
+    /// Bits of the last run that are not those of a ray per pair.
+    [[nodiscard]] std::size_t wrong_bits() {
+        std::vector<std::uint32_t> made(bits_.size());
+        std::vector<std::uint32_t> truth(bits_.size());
+        queue_.download(bits_, std::span<std::uint32_t>(made));
+        queue_.fill_bits(count_, vpls().size(),
+                         mir::VisibilityPass{view(), vpls(), visibility_.segments}, bits_.data());
+        queue_.download(bits_, std::span<std::uint32_t>(truth));
+        queue_.record().sync();
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < made.size(); ++i)
+            wrong += static_cast<std::size_t>(std::popcount(made[i] ^ truth[i]));
+        return wrong;
     }
 
     /// Summed luminance of what the last run left.
@@ -104,8 +124,8 @@ class KernelBench {
 
     KernelRun run_split() {
         const auto begin = Marks<B>::mark(queue_);
-        queue_.fill_bits(count_, vpls().size(), mir::VisibilityPass{view(), vpls(), visibility_},
-                         bits_.data());
+        queue_.fill_bits(count_, vpls().size(),
+                         mir::VisibilityPass{view(), vpls(), visibility_.segments}, bits_.data());
         const auto middle = Marks<B>::mark(queue_);
         queue_.for_each(count_, mir::ShadingPass{view(), vpls(), Bits{bits_.data(), vpls().size()},
                                                  shading_, sums()});
@@ -118,6 +138,24 @@ class KernelBench {
         return run;
     }
 
+    KernelRun run_shafts() {
+        Trace<B> trace(Detail::all);
+        const TracingBackend<B> traced(backend_, trace);
+        if (!shafts_) shafts_.emplace(traced, count_, vpls().size());
+        {
+            auto queue = traced.queue();
+            shafts_->fill(queue, view().hits, vpls(), visibility_, bits_.data());
+            queue.for_each(count_,
+                           mir::ShadingPass{view(), vpls(), Bits{bits_.data(), vpls().size()},
+                                            shading_, sums()});
+            queue.record().sync();
+        }
+        KernelRun run;
+        run.stages = trace.stages();
+        run.seconds = run.stages->span;
+        return run;
+    }
+
     [[nodiscard]] std::size_t radiance_words() const {
         return std::size_t{mir::SoaView<mir::Rgb>::words} * count_;
     }
@@ -127,6 +165,7 @@ class KernelBench {
     }
     [[nodiscard]] mir::SoaView<mir::Rgb> sums() { return {radiance_.data(), count_}; }
 
+    B backend_;
     typename B::Queue queue_;
     std::uint32_t count_;
     typename B::template Buffer<std::uint32_t> hits_;
@@ -136,6 +175,7 @@ class KernelBench {
     typename B::template Buffer<std::uint32_t> bits_;
     V visibility_;
     Shading shading_;
+    std::optional<mir::BackendShafts<TracingBackend<B>>> shafts_;
 };
 
 }  // namespace mirpaper

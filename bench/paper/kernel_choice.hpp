@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "timeline.hpp"
+
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace mirpaper {
 
 /// How rays and shading are cut into kernels.
 enum class KernelForm {
-    fused,   ///< RC: a thread per luxel, a loop over VPLs, rays and shading together
-    split,   ///< RCVP: rays to bits first, then a thread per luxel that shades by the bits
-    per_vpl  ///< a launch per VPL, a thread per luxel: neighbours of a thread never leave its VPL
+    fused,    ///< RC: a thread per luxel, a loop over VPLs, rays and shading together
+    split,    ///< RCVP: rays to bits first, then a thread per luxel that shades by the bits
+    per_vpl,  ///< a launch per VPL, a thread per luxel: neighbours of a thread never leave its VPL
+    shafts    ///< bits by shafts first, then shading by the bits
 };
 
 /// Order of the luxels in memory, 32 of which make a warp.
 enum class LuxelOrder {
     squares,  ///< the library's: 8 x 4 inside blocks of 16 x 16
     rows,     ///< as the image is scanned
-    clusters  ///< halves by position and normal, again and again: compact runs of 32
+    clusters  ///< compact runs of 32 and of 256: mir::cluster_order()
 };
 
 /// Order of the VPLs.
@@ -26,12 +30,16 @@ enum class VplOrder {
     shuffled  ///< none at all
 };
 
+/// What traces rays, those that shafts leave over among them.
+enum class RayEngine { kd_tree, wide_bvh };
+
 /// The end at which a shadow ray starts.
 enum class RayStart { vpl, luxel };
 
-inline constexpr std::array form_names{"fused", "split", "per-vpl"};
+inline constexpr std::array form_names{"fused", "split", "per-vpl", "shafts"};
 inline constexpr std::array luxel_order_names{"squares", "rows", "clusters"};
 inline constexpr std::array vpl_order_names{"morton", "shuffled"};
+inline constexpr std::array ray_engine_names{"kd-tree", "wide BVH"};
 inline constexpr std::array ray_start_names{"vpl", "luxel"};
 
 struct KernelChoice {
@@ -39,6 +47,7 @@ struct KernelChoice {
     LuxelOrder luxels = LuxelOrder::squares;
     VplOrder vpl_order = VplOrder::morton;
     RayStart start = RayStart::vpl;
+    RayEngine engine = RayEngine::kd_tree;
     std::uint32_t vpls = 256;
 };
 
@@ -48,6 +57,7 @@ struct KernelRun {
     double shading = 0.0;     ///< seconds; of KernelForm::split only
     double seconds = 0.0;     ///< all kernels
     double mean_luminance = 0.0;
+    std::optional<StageSeconds> stages;  ///< of KernelForm::shafts
 };
 
 }  // namespace mirpaper

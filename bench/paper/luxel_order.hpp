@@ -16,6 +16,6 @@ struct LuxelWords {
 };
 
 /// The luxels of a scene in the given order, padding last.
-LuxelWords luxels_in(LuxelOrder order, const GBuffer& whole);
+LuxelWords luxels_in(LuxelOrder order, const GBuffer& whole, Executor& executor);
 
 }  // namespace mirpaper

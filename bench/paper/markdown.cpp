@@ -175,6 +175,21 @@ std::string kernel_table(const Rows& rows) {
     return table.markdown();
 }
 
+std::string shaft_table(const Rows& rows) {
+    Table table("scene, kernels");
+    for (const Row& row : rows) {
+        const std::string label =
+            row.scene + ", " + method_of(row) + ", " + row.backend + ", " + vpls_of(row);
+        table.set(label, "contributions/s", rate_text(row.rate()));
+        table.set(label, "all", time_text(row.seconds.median));
+        for (const Work w : {Work::records, Work::facing, Work::blocks, Work::clusters,
+                             Work::segments, Work::shading})
+            table.set(label, work_names[static_cast<std::size_t>(w)],
+                      row.stages ? time_text(row.stages->of[static_cast<std::size_t>(w)]) : "");
+    }
+    return table.markdown();
+}
+
 std::string counter_table(const Rows& rows) {
     Table table("per ray");
     for (const Row& row : rows) {
@@ -196,7 +211,7 @@ struct Section {
     std::string (*table)(const Rows&);
 };
 
-constexpr std::array<Section, 9> sections{{
+constexpr std::array<Section, 10> sections{{
     {"8", "Figure 8: the four algorithms", figure_8},
     {"9", "Figure 9: RC and RCVP on three scenes, direct and indirect", figure_9},
     {"10", "Figure 10: contributions per second against VPLs", peak_rates},
@@ -205,6 +220,7 @@ constexpr std::array<Section, 9> sections{{
     {"stages", "Where the time goes", stage_table},
     {"luxels", "Luxels copied to the backend, and traced there", luxel_table},
     {"kernels", "Kernels alone, one change at a time", kernel_table},
+    {"shafts", "Shafts against rays, kernels alone", shaft_table},
     {"counters", "What a shadow ray does", counter_table},
 }};
 

@@ -13,8 +13,9 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names figure_names{"8", "9", "10", "11", "rates", "stages", "luxels", "kernels", "counters"};
-const Names quick_figures{"8", "stages", "luxels", "kernels", "counters"};
+const Names figure_names{"8",      "9",      "10",      "11",     "rates",
+                         "stages", "luxels", "kernels", "shafts", "counters"};
+const Names quick_figures{"8", "stages", "luxels", "kernels", "shafts", "counters"};
 constexpr std::uint32_t most_vpls = 65536;
 
 /// A value that cannot be used; the message is the line that the user reads.

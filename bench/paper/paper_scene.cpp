@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "paper_scene.hpp"
 
+#include "mir/accel/accept_box.hpp"
 #include "mir/accel/kd_build.hpp"
+#include "mir/accel/wide_build.hpp"
 #include "mir/core/morton.hpp"
 #include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/paths/path_world.hpp"
@@ -46,11 +48,16 @@ PaperScene::PaperScene(const std::string& name, mir::Extent size, const mir::KdT
       hash_(mir::SceneHash(scene_).hex()),
       geometry_(scene_),
       tree_(geometry_, tree, executor),
+      bvh_(geometry_, {}, executor),
       lights_(scene_, geometry_),
       surfaces_(scene_),
       luxels_(size, size) {
     fill_luxels(executor);
     visible_area_ = mir::visible_area(scene_.cameras.front(), aspect(), caster());
+}
+
+float PaperScene::sigma() const {
+    return static_cast<float>(mir::sigma_of(mir::magnitude_of(geometry_.bounds())));
 }
 
 float PaperScene::aspect() const {

@@ -20,8 +20,10 @@ std::string digits_of(double x) {
 /// Names and values of one line, for both formats.
 class Fields {
  public:
-    void add(const char* name, const std::string& text) { fields_.push_back({name, text, true}); }
-    void add(const char* name, double x, bool known = true) {
+    void add(const std::string& name, const std::string& text) {
+        fields_.push_back({name, text, true});
+    }
+    void add(const std::string& name, double x, bool known = true) {
         fields_.push_back({name, known ? digits_of(x) : "", false});
     }
 
@@ -29,14 +31,14 @@ class Fields {
         std::string line;
         for (const Field& f : fields_) {
             if (f.value.empty()) continue;
-            line += (line.empty() ? "{\"" : ", \"") + std::string(f.name) + "\": ";
+            line += (line.empty() ? "{\"" : ", \"") + f.name + "\": ";
             line += f.is_text ? quoted(f.value) : f.value;
         }
         return line + "}";
     }
     [[nodiscard]] std::string csv_header() const {
         std::string line;
-        for (const Field& f : fields_) line += (line.empty() ? "" : ",") + std::string(f.name);
+        for (const Field& f : fields_) line += (line.empty() ? "" : ",") + f.name;
         return line + "\n";
     }
     [[nodiscard]] std::string csv() const {
@@ -57,7 +59,7 @@ class Fields {
 
  private:
     struct Field {
-        const char* name;
+        std::string name;
         std::string value;
         bool is_text;
     };
@@ -81,12 +83,10 @@ void add_times(Fields& f, const Row& row) {
 }
 
 void add_stages(Fields& f, const std::optional<StageSeconds>& measured) {
-    static constexpr std::array names{"upload_seconds",     "download_seconds", "fused_seconds",
-                                      "visibility_seconds", "shading_seconds",  "other_seconds"};
-    static_assert(names.size() == work_names.size());
     const bool known = measured.has_value();
     const StageSeconds s = measured.value_or(StageSeconds{});
-    for (std::size_t i = 0; i < names.size(); ++i) f.add(names[i], s.of[i], known);
+    for (std::size_t i = 0; i < work_names.size(); ++i)
+        f.add(std::string(work_names[i]) + "_seconds", s.of[i], known);
     f.add("busy_seconds", s.busy, known);
     f.add("span_seconds", s.span, known);
     f.add("overlap", s.overlap(), known);

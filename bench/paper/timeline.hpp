@@ -10,10 +10,23 @@ namespace mirpaper {
 
 /// What a queue may be busy with. `fused` is rays and shading in one kernel; `other` belongs to no
 /// scheduler of the library.
-enum class Work { upload, download, fused, visibility, shading, other };
+enum class Work {
+    upload,
+    download,
+    fused,
+    visibility,
+    records,  ///< of clusters, for shafts
+    facing,
+    blocks,    ///< shafts of 256 luxels
+    clusters,  ///< shafts of 32
+    segments,  ///< that no shaft decided
+    shading,
+    other
+};
 
-inline constexpr std::array work_names{"upload",     "download", "fused",
-                                       "visibility", "shading",  "other"};
+inline constexpr std::array work_names{"upload",   "download", "fused",  "visibility",
+                                       "records",  "facing",   "blocks", "clusters",
+                                       "segments", "shading",  "other"};
 
 inline constexpr bool is_transfer(Work w) { return w == Work::upload || w == Work::download; }
 

@@ -5,6 +5,8 @@
 #include "mir/kernels/fused.hpp"
 #include "mir/kernels/shade_one_vpl.hpp"
 #include "mir/kernels/shading_pass.hpp"
+#include "mir/kernels/visibility_pass.hpp"
+#include "mir/resident/backend_shafts.hpp"
 #include "timeline.hpp"
 
 #include <chrono>
@@ -82,7 +84,7 @@ class Trace {
     std::vector<Span> spans_;
 };
 
-/// What a kernel that runs luxel by luxel does.
+/// What a kernel does.
 template <class Kernel>
 inline constexpr Work work_of = Work::other;
 template <class G, class P, class V, class F>
@@ -91,6 +93,18 @@ template <class G, class P, class S, class F>
 inline constexpr Work work_of<mir::ShadingPass<G, P, S, F>> = Work::shading;
 template <class G, class P, class F>
 inline constexpr Work work_of<mir::ShadeOneVpl<G, P, F>> = Work::shading;
+template <class G, class P, class V>
+inline constexpr Work work_of<mir::VisibilityPass<G, P, V>> = Work::visibility;
+template <>
+inline constexpr Work work_of<mir::ClusterRecords> = Work::records;
+template <class P>
+inline constexpr Work work_of<mir::FacingPass<P>> = Work::facing;
+template <mir::Space S, class P>
+inline constexpr Work work_of<mir::BlockShafts<S, P>> = Work::blocks;
+template <mir::Space S, class P>
+inline constexpr Work work_of<mir::ClusterShafts<S, P>> = Work::clusters;
+template <class P, class V>
+inline constexpr Work work_of<mir::OpenSegments<P, V>> = Work::segments;
 
 /// Another backend's queue that notes what it does.
 template <mir::Backend B>
@@ -111,10 +125,15 @@ class TracingQueue {
     void for_each(std::uint32_t n, const Kernel& kernel) {
         trace_->run(work_of<Kernel>, queue_, [&] { queue_.for_each(n, kernel); });
     }
-    void fill_bits(std::uint32_t rows, std::uint32_t columns, const auto& kernel,
+    template <class Kernel>
+    void fill_bits(std::uint32_t rows, std::uint32_t columns, const Kernel& kernel,
                    std::uint32_t* words) {
-        trace_->run(Work::visibility, queue_,
+        trace_->run(work_of<Kernel>, queue_,
                     [&] { queue_.fill_bits(rows, columns, kernel, words); });
+    }
+    template <class Kernel>
+    void for_each_group(std::uint32_t n, const Kernel& kernel) {
+        trace_->run(work_of<Kernel>, queue_, [&] { queue_.for_each_group(n, kernel); });
     }
     [[nodiscard]] typename B::Event record() { return queue_.record(); }
     void wait(const typename B::Event& event) { queue_.wait(event); }

@@ -63,6 +63,45 @@ struct ScrambledBits {
     }
 };
 
+/// Every member of LaneGroup once, with what lanes write to their workspace read by others; adds
+/// what comes out to element i, and the number of lanes to a counter that all groups share.
+struct GroupVisit {
+    struct Workspace {
+        std::uint32_t words[mir::LaneGroup::width];
+    };
+
+    std::uint32_t* out = nullptr;
+    std::uint32_t* lanes = nullptr;
+
+    MIR_HD void operator()(const mir::LaneGroup& group, std::uint32_t i, Workspace& space) const {
+        constexpr std::uint32_t width = mir::LaneGroup::width;
+        mir::LaneGroup::PerLane<std::uint32_t> values;
+        group.each([&](std::uint32_t lane) { space.words[lane] = scrambled(i + lane) % 100; });
+        group.each([&](std::uint32_t lane) { values[lane] = space.words[width - 1 - lane]; });
+        const std::uint32_t odd =
+            group.ballot([&](std::uint32_t lane) { return values[lane] % 2 == 1; });
+        const std::uint32_t sum = group.sums_before(values);
+        const std::uint32_t last = group.broadcast(values, 17);
+        static_cast<void>(group.add(*lanes, mir::LaneGroup::count(mir::LaneGroup::all)));
+        group.each([&](std::uint32_t lane) {
+            if (lane == 0)
+                out[i] += odd + sum + last + (odd != 0 ? mir::LaneGroup::lowest(odd) : 0);
+        });
+    }
+
+    /// What comes out, written without groups.
+    static std::uint32_t expected(std::uint32_t i) {
+        std::uint32_t odd = 0, sum = 0, last = 0, lowest = 0;
+        for (std::uint32_t lane = 32; lane-- > 0;) {
+            const std::uint32_t value = scrambled(i + 31 - lane) % 100;
+            if (value % 2 == 1) odd |= 1u << lane, lowest = lane;
+            sum += value;
+            if (lane < 17) last += value;
+        }
+        return odd + sum + last + lowest;
+    }
+};
+
 /// The experiments, each on new queues and buffers.
 template <mir::Backend B>
 class BackendExperiments {
@@ -127,6 +166,25 @@ class BackendExperiments {
         queue.download(there, std::span<std::uint32_t>(words));
         queue.record().sync();
         return differences(words, expected_words(rows, columns, words.size()));
+    }
+
+    /// Axiom 4, for_each_group: one visit of each index below n with the right result, none behind.
+    [[nodiscard]] std::size_t wrong_groups(std::uint32_t n) const {
+        const std::uint32_t behind = 9;
+        Words words(n + behind, 7u);
+        Words lanes(1, 0u);
+        auto there = backend_.template buffer<std::uint32_t>(words.size());
+        auto counter = backend_.template buffer<std::uint32_t>(1);
+        auto queue = backend_.queue();
+        queue.upload(std::span<const std::uint32_t>(words), there);
+        queue.clear(counter);
+        queue.for_each_group(n, GroupVisit{there.data(), counter.data()});
+        queue.download(there, std::span<std::uint32_t>(words));
+        queue.download(counter, std::span<std::uint32_t>(lanes));
+        queue.record().sync();
+        Words wanted(n + behind, 7u);
+        for (std::uint32_t i = 0; i < n; ++i) wanted[i] += GroupVisit::expected(i);
+        return differences(words, wanted) + differences(lanes, Words(1, 32 * n));
     }
 
     /// Axiom 1: a chain of kernels and copies, each of which needs the one before.
@@ -250,6 +308,8 @@ std::vector<Finding> examine_backend(const B& backend) {
         for (std::uint32_t columns : {0u, 1u, 31u, 32u, 33u, 100u})
             named("words of fill_bits in " + std::to_string(columns) + " columns", rows,
                   experiments.wrong_words(rows, columns));
+    for (std::uint32_t n : {0u, 1u, 3u, 4u, 5u, 1000u})
+        named("visits of for_each_group", n, experiments.wrong_groups(n));
     named("order in one queue", 3000, experiments.wrong_after_chain(3000, 20));
     constexpr std::uint32_t slow = 1u << 14;
     named("queue behind an event", 300, experiments.wrong_after_wait(300, slow));

@@ -102,6 +102,7 @@ class ShaftStage {
     }
 
     [[nodiscard]] const mir::WideBvh& bvh() const { return bvh_; }
+    [[nodiscard]] mir::SoaView<const mir::Hit> hits() const { return hits_.view(); }
     [[nodiscard]] float sigma() const { return sigma_; }
     [[nodiscard]] const Lit& lit() const { return lit_; }
     [[nodiscard]] const std::vector<mir::ClusterRecord>& clusters() const { return clusters_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/shaft.hpp"
 
-#include "shaft/cluster_draws.hpp"
+#include "shaft/shaft_draws.hpp"
 #include "support/catch.hpp"
 #include "support/segment_box.hpp"
 
@@ -9,48 +9,13 @@
 
 namespace {
 
-using mir::Bounds;
 using mir::ClusterRecord;
 using mir::Shaft;
 using mir::Vec3;
+using mirtest::gap;
+using mirtest::ShaftDraw;
 
 using MakeShaft = Shaft (*)(const ClusterRecord&, Vec3, float);
-
-/// A box and a shaft that may meet.
-struct Draw {
-    ClusterRecord cluster;
-    Vec3 apex{0};
-    Vec3 luxel{0};
-    Bounds node;
-};
-
-/// The box holds the point at a random share of the segment, flush with it on half of its sides.
-Bounds box_on_segment(mir::Random& random, Vec3 from, Vec3 to, float scale) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    const float kind = random.next();
-    const float t = kind < 0.1f ? 0.0f : kind < 0.2f ? 1.0f : kind < 0.5f ? 0.5f : random.next();
-    Bounds box;
-    for (int axis = 0; axis < 3; ++axis) {
-        const long double way = static_cast<long double>(to[axis]) - from[axis];
-        const auto x = static_cast<float>(from[axis] + t * way);
-        const long double exact = from[axis] + t * way;
-        const float size = scale * random.next();
-        box.low[axis] = x > exact ? std::nextafter(x, -infinity) : x;
-        box.high[axis] = x < exact ? std::nextafter(x, infinity) : x;
-        if (mirtest::chance(random, 0.3f)) box.low[axis] -= size;
-        if (mirtest::chance(random, 0.3f)) box.high[axis] += size;
-    }
-    return box;
-}
-
-Draw draw(mir::Random& random, float scale) {
-    Draw d;
-    d.cluster = mirtest::random_cluster_box(random, scale);
-    d.apex = mirtest::random_apex(random, d.cluster, scale);
-    d.luxel = mirtest::random_luxel(random, d.cluster);
-    d.node = box_on_segment(random, d.apex, d.luxel, scale);
-    return d;
-}
 
 struct Wrong {
     std::size_t met = 0;
@@ -64,7 +29,7 @@ Wrong refusals(MakeShaft make, int draws) {
     mir::Random random = mirtest::test_random(1);
     for (int i = 0; i < draws; ++i) {
         const float scale = std::pow(10.0f, static_cast<float>(i % 3 - 1) * 3.0f);
-        const Draw d = draw(random, scale);
+        const ShaftDraw d = mirtest::draw_shaft(random, scale);
         if (!mirtest::meets(d.node, 0, d.apex, d.luxel)) continue;
         ++wrong.met;
         const Shaft shaft = make(d.cluster, d.apex, mirtest::float_sigma(scale));
@@ -73,32 +38,12 @@ Wrong refusals(MakeShaft make, int draws) {
     return wrong;
 }
 
-/// By how much of the way the shaft misses the box; negative when it meets it.
-long double gap(const Draw& d) {
-    long double begin = 0;
-    long double end = 1;
-    const auto from = [&](long double t) { begin = std::max(begin, t); };
-    const auto until = [&](long double t) { end = std::min(end, t); };
-    // t slope <= limit
-    const auto require = [&](long double slope, long double limit) {
-        if (slope > 0) until(limit / slope);
-        if (slope < 0) from(limit / slope);
-        if (slope == 0 && limit < 0) from(2);
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-        const long double q = d.apex[axis];
-        require(d.cluster.low[axis] - q, d.node.high[axis] - q);
-        require(q - d.cluster.high[axis], q - d.node.low[axis]);
-    }
-    return begin - end;
-}
-
 /// Boxes accepted although they are 10^-3 of the way apart.
 std::size_t loosely_accepted(MakeShaft make, int draws) {
     std::size_t count = 0;
     mir::Random random = mirtest::test_random(2);
     for (int i = 0; i < draws; ++i) {
-        Draw d = draw(random, 1.0f);
+        ShaftDraw d = mirtest::draw_shaft(random, 1.0f);
         const Vec3 aside = 0.1f * random.next() * mirtest::point_in_cube(random);
         d.node.low += aside;
         d.node.high += aside;
@@ -193,7 +138,7 @@ TEST_CASE("Rates are finite and signed by where the VPL lies, also at a face") {
     mir::Random random = mirtest::test_random(3);
     for (int i = 0; i < 100000; ++i) {
         const float scale = std::pow(10.0f, 6.0f * random.next() - 3.0f);
-        const Draw d = draw(random, scale);
+        const ShaftDraw d = mirtest::draw_shaft(random, scale);
         const Shaft s = mir::make_shaft(d.cluster, d.apex, mirtest::float_sigma(scale));
         REQUIRE((mir::is_finite(s.rises) && mir::is_finite(s.falls) && mir::is_finite(s.leaves)));
         for (int k = 0; k < 3; ++k) {

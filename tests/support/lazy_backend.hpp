@@ -110,6 +110,10 @@ class LazyBackend {
                        std::uint32_t* words) {
             later([=] { at_once().fill_bits(rows, columns, kernel, words); });
         }
+        template <class Kernel>
+        void for_each_group(std::uint32_t n, const Kernel& kernel) {
+            later([n, kernel] { at_once().for_each_group(n, kernel); });
+        }
         [[nodiscard]] Event record() { return {work_, index_, work_->size(index_)}; }
         void wait(const Event& event) {
             later([event] { event.sync(); });

@@ -8,17 +8,28 @@
 
 namespace mir {
 
+/// A number for each of the eight children of a node. Aligned so that the device fetches it as two
+/// words.
+struct alignas(16) ChildRow {
+    static constexpr std::uint32_t width = 8;
+
+    float at[width];
+
+    [[nodiscard]] MIR_HD float operator[](std::size_t k) const { return at[k]; }
+    [[nodiscard]] MIR_HD float& operator[](std::size_t k) { return at[k]; }
+};
+
 /// One node of a wide bounding volume hierarchy, 256 bytes: the boxes of up to eight children, side
 /// by side so that one vector instruction reads a plane of all of them, and what they are. A
 /// trivially copyable value, the same on host and device.
 struct alignas(64) WideNode {
-    static constexpr std::uint32_t width = 8;
+    static constexpr std::uint32_t width = ChildRow::width;
     static constexpr std::int32_t inner = 0;   ///< count of a child that is a node
     static constexpr std::int32_t empty = -1;  ///< count of a slot without a child
 
     /// Planes that bound the children, metres: low x, high x, low y, high y, low z, high z. Those
     /// of empty slots lie so that no segment within the reach of the scene meets them.
-    float planes[6][width];
+    ChildRow planes[6];
     std::uint32_t ref[width];   ///< node, or first triangle of a leaf
     std::int32_t count[width];  ///< triangles of a leaf, `inner` or `empty`
 

@@ -57,12 +57,12 @@ MIR_HD inline MetChildren met_children(const WideNode& node, const SlabSegment& 
     const int back_x = x.inverse < 0.0f ? 1 : 0;
     const int back_y = y.inverse < 0.0f ? 1 : 0;
     const int back_z = z.inverse < 0.0f ? 1 : 0;
-    const float* const near_x = node.planes[back_x];
-    const float* const near_y = node.planes[2 + back_y];
-    const float* const near_z = node.planes[4 + back_z];
-    const float* const far_x = node.planes[1 - back_x];
-    const float* const far_y = node.planes[3 - back_y];
-    const float* const far_z = node.planes[5 - back_z];
+    const ChildRow& near_x = node.planes[back_x];
+    const ChildRow& near_y = node.planes[2 + back_y];
+    const ChildRow& near_z = node.planes[4 + back_z];
+    const ChildRow& far_x = node.planes[1 - back_x];
+    const ChildRow& far_y = node.planes[3 - back_y];
+    const ChildRow& far_z = node.planes[5 - back_z];
     MetChildren met;
     std::uint32_t bits[WideNode::width];
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {

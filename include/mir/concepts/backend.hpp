@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/hd.hpp"
+#include "mir/core/lane_group.hpp"
 #include "mir/core/space.hpp"
 #include "mir/data/tile.hpp"
 
@@ -25,12 +26,20 @@ struct NoBitKernel {
     }
 };
 
+/// The poorest kernel for groups: what Backend::Queue::for_each_group() must accept.
+struct NoOpGroupKernel {
+    struct Workspace {};
+    MIR_HD void operator()(const LaneGroup&, std::uint32_t /*i*/, Workspace&) const {}
+};
+
 /// What reads and writes memory and runs kernels in order. `upload` copies all of `from` to the
 /// front of a buffer; `download` fills `to` from the front of one; `clear` sets every byte of a
 /// buffer to zero; `for_each(n, kernel)` calls kernel(i) once for each i in [0, n), in any order;
 /// `fill_bits(rows, columns, kernel, words)` sets bit i % 32 of words[(i / 32) columns + j] to
-/// kernel(kernel.row(i), j), where rows is a multiple of 32. Each may return before it is done;
-/// what it reads must live until then.
+/// kernel(kernel.row(i), j), where rows is a multiple of 32; `for_each_group(n, kernel)` calls
+/// kernel(group, i, space) once for each i in [0, n), in any order, each by 32 lanes (LaneGroup)
+/// with a Kernel::Workspace of their own in fast memory, whose content is undefined. Each may
+/// return before it is done; what it reads must live until then.
 template <class Q, class B>
 concept BackendQueue = requires(Q q, const typename B::Event done,
                                 typename B::template Buffer<std::uint32_t> buffer,
@@ -41,6 +50,7 @@ concept BackendQueue = requires(Q q, const typename B::Event done,
     q.clear(buffer);
     q.for_each(n, NoOpKernel{});
     q.fill_bits(n, n, NoBitKernel{}, words);
+    q.for_each_group(n, NoOpGroupKernel{});
     { q.record() } -> std::same_as<typename B::Event>;
     q.wait(done);
     done.sync();
@@ -54,7 +64,7 @@ concept BackendQueue = requires(Q q, const typename B::Event done,
 ///  2. queue.wait(event) holds back what follows until the event has passed; event.sync() holds
 ///     back the caller;
 ///  3. upload, then download, is the identity; clear, then download, brings zeros;
-///  4. for_each visits each index once, fill_bits writes each word once;
+///  4. for_each and for_each_group visit each index once, fill_bits writes each word once;
 ///  5. a queue that ends waits for its work.
 template <class B>
 concept Backend = std::copy_constructible<B> && BackendQueue<typename B::Queue, B> &&

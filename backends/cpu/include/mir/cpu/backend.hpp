@@ -78,6 +78,13 @@ class Queue {
             }
         });
     }
+    template <class Kernel>
+    void for_each_group(std::uint32_t n, const Kernel& kernel) {
+        executor_->for_each(n, [&](std::size_t i) {
+            typename Kernel::Workspace space;
+            kernel(LaneGroup{}, static_cast<std::uint32_t>(i), space);
+        });
+    }
     [[nodiscard]] Event record() { return {}; }
     void wait(const Event&) {}
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/lane_group.hpp"
 #include "mir/core/space.hpp"
 #include "mir/cuda/queue.hpp"
 #include "mir/data/blocked_layout.hpp"
@@ -15,9 +16,13 @@ namespace detail {
 /// index of its thread.
 inline constexpr std::uint32_t threads_per_block = BlockedLayout::block_size;
 
-/// Blocks that hold `n` threads.
-constexpr std::uint32_t blocks_for(std::uint32_t n) {
-    return n / threads_per_block + (n % threads_per_block != 0 ? 1 : 0);
+/// Warps of a block that runs groups of lanes: few, because a block keeps its place until its
+/// slowest warp is done.
+inline constexpr std::uint32_t groups_per_block = 4;
+
+/// Blocks of `size` that hold `n`.
+constexpr std::uint32_t blocks_for(std::uint32_t n, std::uint32_t size) {
+    return n / size + (n % size != 0 ? 1 : 0);
 }
 
 /// What a kernel may be, in words.
@@ -71,14 +76,24 @@ __global__ void __launch_bounds__(threads_per_block)
     }
 }
 
-/// Starts a kernel with a thread for each of `n` indices. The status is the launch's own: an error
-/// that the caller's CUDA code left behind is not taken for ours.
+/// A warp per index. Lanes leave together: conditions on `i` are the same for all of them.
+template <class Kernel>
+__global__ void __launch_bounds__(groups_per_block* LaneGroup::width)
+    for_each_group_index(std::uint32_t n, const __grid_constant__ Kernel kernel) {
+    __shared__ typename Kernel::Workspace spaces[groups_per_block];
+    const std::uint32_t warp = threadIdx.x / LaneGroup::width;
+    const std::uint32_t i = blockIdx.x * groups_per_block + warp;
+    if (i < n) kernel(LaneGroup{}, i, spaces[warp]);
+}
+
+/// Starts a kernel in `blocks` blocks of `threads` threads. The status is the launch's own: an
+/// error that the caller's CUDA code left behind is not taken for ours.
 template <class... Expected, class... Given>
-void launch(std::uint32_t n, cudaStream_t stream, void (*kernel)(Expected...),
-            const Given&... arguments) {
+void launch(std::uint32_t blocks, std::uint32_t threads, cudaStream_t stream,
+            void (*kernel)(Expected...), const Given&... arguments) {
     cudaLaunchConfig_t config{};
-    config.gridDim = dim3(blocks_for(n));
-    config.blockDim = dim3(threads_per_block);
+    config.gridDim = dim3(blocks);
+    config.blockDim = dim3(threads);
     config.stream = stream;
     check(cudaLaunchKernelEx(&config, kernel, arguments...), "starting a kernel");
 }
@@ -90,7 +105,8 @@ void Queue::for_each(std::uint32_t n, const Kernel& kernel) {
     detail::check_kernel<Kernel>();
     if (n == 0) return;
     const ActiveDevice active(device_);
-    detail::launch(n, stream_, detail::for_each_index<Kernel>, n, kernel);
+    detail::launch(detail::blocks_for(n, detail::threads_per_block), detail::threads_per_block,
+                   stream_, detail::for_each_index<Kernel>, n, kernel);
 }
 
 template <class Kernel>
@@ -100,7 +116,18 @@ void Queue::fill_bits(std::uint32_t rows, std::uint32_t columns, const Kernel& k
     expects(rows % 32 == 0, "bits are made 32 rows at a time; pad the rows");
     if (rows == 0 || columns == 0) return;
     const ActiveDevice active(device_);
-    detail::launch(rows, stream_, detail::fill_bit_words<Kernel>, rows, columns, kernel, words);
+    detail::launch(detail::blocks_for(rows, detail::threads_per_block), detail::threads_per_block,
+                   stream_, detail::fill_bit_words<Kernel>, rows, columns, kernel, words);
+}
+
+template <class Kernel>
+void Queue::for_each_group(std::uint32_t n, const Kernel& kernel) {
+    detail::check_kernel<Kernel>();
+    if (n == 0) return;
+    const ActiveDevice active(device_);
+    detail::launch(detail::blocks_for(n, detail::groups_per_block),
+                   detail::groups_per_block * LaneGroup::width, stream_,
+                   detail::for_each_group_index<Kernel>, n, kernel);
 }
 
 }  // namespace mir::cuda

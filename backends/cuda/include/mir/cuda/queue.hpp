@@ -81,6 +81,13 @@ class Queue {
     void fill_bits(std::uint32_t rows, std::uint32_t columns, const Kernel& kernel,
                    std::uint32_t* words);
 
+    /// Calls kernel(group, i, space) on the device, once for each i in [0, n), by a warp each, with
+    /// a Kernel::Workspace in shared memory. Defined in mir/cuda/launch.cuh, for files that nvcc
+    /// compiles.
+    /// @throws Error(device) when the kernel cannot be started.
+    template <class Kernel>
+    void for_each_group(std::uint32_t n, const Kernel& kernel);
+
     /// The point behind all work given so far.
     /// @throws Error(device)
     [[nodiscard]] Event record() {

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/hd.hpp"
+
+#include <atomic>
+#include <bit>
+#include <cstdint>
+
+namespace mir {
+
+/// Thirty-two lanes that work in step: a warp of the device, a loop on the host. Kernels of
+/// Backend::Queue::for_each_group() are written for all lanes at once: what differs from lane to
+/// lane is a PerLane, what each lane does a function of the lane's number, and everything else is
+/// the same for all, loops above all. Source, and the results of kernels that only combine lanes
+/// by the members below, are the same on both. (Beside mir/core/strict_float.hpp the one place
+/// where host and device read different lines.)
+///
+/// Every member must be called by all lanes together: never inside of each(), nor behind a
+/// condition that differs between lanes.
+class LaneGroup {
+ public:
+    static constexpr std::uint32_t width = 32;
+    static constexpr std::uint32_t all = 0xFFFFFFFFu;
+
+    /// A value for each lane; a lane may touch its own alone.
+    template <class T>
+    class PerLane {
+     public:
+#if defined(__CUDA_ARCH__)
+        MIR_HD T& operator[](std::uint32_t) { return value_; }
+        MIR_HD const T& operator[](std::uint32_t) const { return value_; }
+
+     private:
+        T value_;
+#else
+        T& operator[](std::uint32_t lane) { return values_[lane]; }
+        const T& operator[](std::uint32_t lane) const { return values_[lane]; }
+
+     private:
+        T values_[width];
+#endif
+    };
+
+    /// Calls f(lane) for every lane. What lanes wrote to memory all lanes may read afterwards.
+    template <class F>
+    MIR_HD void each(const F& f) const {
+#if defined(__CUDA_ARCH__)
+        f(own_lane());
+        __syncwarp();
+#else
+        for (std::uint32_t lane = 0; lane < width; ++lane) f(lane);
+#endif
+    }
+
+    /// Bit k is f(k).
+    template <class F>
+    [[nodiscard]] MIR_HD std::uint32_t ballot(const F& f) const {
+#if defined(__CUDA_ARCH__)
+        return __ballot_sync(all, f(own_lane()));
+#else
+        std::uint32_t bits = 0;
+        for (std::uint32_t lane = 0; lane < width; ++lane)
+            bits |= static_cast<std::uint32_t>(f(lane)) << lane;
+        return bits;
+#endif
+    }
+
+    /// The value of one lane.
+    [[nodiscard]] MIR_HD std::uint32_t broadcast(const PerLane<std::uint32_t>& values,
+                                                 std::uint32_t lane) const {
+#if defined(__CUDA_ARCH__)
+        return __shfl_sync(all, values[lane], static_cast<int>(lane));
+#else
+        return values[lane];
+#endif
+    }
+
+    /// Replaces each value by the sum of those of the lanes before; returns the sum of all.
+    MIR_HD std::uint32_t sums_before(PerLane<std::uint32_t>& values) const {
+#if defined(__CUDA_ARCH__)
+        const std::uint32_t own = values[0];
+        std::uint32_t sum = own;
+        for (std::uint32_t step = 1; step < width; step *= 2) {
+            const std::uint32_t before = __shfl_up_sync(all, sum, step);
+            if (own_lane() >= step) sum += before;
+        }
+        values[0] = sum - own;
+        return __shfl_sync(all, sum, width - 1);
+#else
+        std::uint32_t sum = 0;
+        for (std::uint32_t lane = 0; lane < width; ++lane) {
+            const std::uint32_t own = values[lane];
+            values[lane] = sum;
+            sum += own;
+        }
+        return sum;
+#endif
+    }
+
+    /// Adds to a counter that groups share, and returns what it was before.
+    MIR_HD std::uint32_t add(std::uint32_t& counter, std::uint32_t amount) const {
+#if defined(__CUDA_ARCH__)
+        std::uint32_t before = 0;
+        if (own_lane() == 0) before = atomicAdd(&counter, amount);
+        return __shfl_sync(all, before, 0);
+#else
+        return std::atomic_ref(counter).fetch_add(amount, std::memory_order_relaxed);
+#endif
+    }
+
+    /// Number of bits that are set.
+    [[nodiscard]] MIR_HD static std::uint32_t count(std::uint32_t bits) {
+#if defined(__CUDA_ARCH__)
+        return static_cast<std::uint32_t>(__popc(bits));
+#else
+        return static_cast<std::uint32_t>(std::popcount(bits));
+#endif
+    }
+
+    /// Place of the lowest bit that is set; `bits` is not zero.
+    [[nodiscard]] MIR_HD static std::uint32_t lowest(std::uint32_t bits) {
+#if defined(__CUDA_ARCH__)
+        return static_cast<std::uint32_t>(__ffs(static_cast<int>(bits)) - 1);
+#else
+        return static_cast<std::uint32_t>(std::countr_zero(bits));
+#endif
+    }
+
+ private:
+#if defined(__CUDA_ARCH__)
+    /// Thread blocks are runs of whole warps.
+    MIR_HD static std::uint32_t own_lane() { return threadIdx.x % width; }
+#endif
+};
+
+}  // namespace mir

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/backend.hpp"
+#include "mir/shaft/cluster_shafts.hpp"
+#include "mir/shaft/cluster_visibility.hpp"
+#include "mir/shaft/facing_pass.hpp"
+#include "mir/shaft/open_segments.hpp"
+
+#include <algorithm>
+
+namespace mir {
+
+/// What the searches of shafts may cost on a backend, and how many pairs are worked on at a time.
+/// Any numbers give the same bits.
+struct BackendShaftOptions {
+    SearchLimits block{48, 48};     ///< for 256 luxels and a VPL
+    SearchLimits cluster{96, 160};  ///< for 32 luxels and a VPL
+    std::uint32_t vpls = 256;       ///< at a time, at least 1: queues have room for all their pairs
+    std::uint32_t groups = 1u << 14;  ///< that empty a queue together, at least 1
+};
+
+/// Fills words of visibility on a backend by shafts, for luxels in memory order: the better
+/// neighbours lie together, the faster. Holds the memory between the stages: 9 bytes per luxel and
+/// VPL of a batch at most, divided by 32. One queue at a time.
+template <Backend B>
+class BackendShafts {
+ public:
+    /// For up to `luxels` luxels, a multiple of 256, and sets of up to `vpls` VPLs.
+    /// @throws Error(invalid_argument) on options out of range; what the backend throws when it
+    ///         has no memory left.
+    BackendShafts(const B& backend, std::uint32_t luxels, std::uint32_t vpls,
+                  const BackendShaftOptions& options = {})
+        : options_(checked(options)),
+          blocks_(backend.template buffer<ClusterRecord>(luxels / block_luxels)),
+          clusters_(backend.template buffer<ClusterRecord>(luxels / cluster_luxels)),
+          open_blocks_(backend.template buffer<OpenPair>(pairs(luxels / block_luxels, vpls))),
+          open_clusters_(backend.template buffer<OpenPair>(pairs(luxels / cluster_luxels, vpls))),
+          counters_(backend.template buffer<std::uint32_t>(4)) {}
+
+    /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`: bit for bit
+    /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are a multiple of
+    /// 256, padded with empty ones, and no more than it was made for.
+    template <VplSet P, ShaftableVisibility V>
+        requires AccessibleFrom<V, B::space>
+    void fill(typename B::Queue& queue, SoaView<const Hit> hits, P vpls, const V& visibility,
+              std::uint32_t* words) {
+        const std::uint32_t block_count = hits.stride / block_luxels;
+        const std::uint32_t cluster_count = hits.stride / cluster_luxels;
+        queue.for_each(block_count,
+                       ClusterRecords{hits, block_luxels, visibility.sigma, blocks_.data()});
+        queue.for_each(cluster_count,
+                       ClusterRecords{hits, cluster_luxels, visibility.sigma, clusters_.data()});
+        queue.fill_bits(hits.stride, vpls.size(), FacingPass<P>{hits, vpls}, words);
+        for (std::uint32_t first = 0; first < vpls.size(); first += options_.vpls)
+            fill_batch(queue, hits, vpls, visibility,
+                       {first, std::min(options_.vpls, vpls.size() - first)}, words);
+    }
+
+ private:
+    [[nodiscard]] static BackendShaftOptions checked(const BackendShaftOptions& options) {
+        expects(options.vpls >= 1 && options.groups >= 1,
+                "shafts were to work on no VPL, or by no group, at a time; choose 1 or more");
+        return options;
+    }
+    [[nodiscard]] std::size_t pairs(std::uint32_t runs, std::uint32_t vpls) const {
+        return std::size_t{runs} * std::min(options_.vpls, vpls);
+    }
+
+    template <class P, class V>
+    void fill_batch(typename B::Queue& queue, SoaView<const Hit> hits, P vpls, const V& visibility,
+                    VplBatch batch, std::uint32_t* words) {
+        constexpr Space space = B::space;
+        const std::uint32_t block_count = hits.stride / block_luxels;
+        queue.clear(counters_);
+        std::uint32_t* counter = counters_.data();
+        const PairQueue open_blocks{open_blocks_.data(), counter, counter + 1};
+        const PairQueue open_clusters{open_clusters_.data(), counter + 2, counter + 3};
+        queue.for_each_group(
+            BlockShafts<space, P>::groups(block_count, batch),
+            BlockShafts<space, P>{blocks_.data(), block_count, vpls, batch, visibility.bvh,
+                                  visibility.sigma, options_.block, words, open_blocks});
+        queue.for_each_group(
+            options_.groups,
+            ClusterShafts<space, P>{hits, clusters_.data(), vpls, visibility.bvh, visibility.sigma,
+                                    options_.cluster, options_.groups, words, open_blocks,
+                                    open_clusters});
+        queue.for_each_group(options_.groups,
+                             OpenSegments{hits, vpls, visibility.segments, words, open_clusters});
+    }
+
+    BackendShaftOptions options_;
+    typename B::template Buffer<ClusterRecord> blocks_;
+    typename B::template Buffer<ClusterRecord> clusters_;
+    typename B::template Buffer<OpenPair> open_blocks_;
+    typename B::template Buffer<OpenPair> open_clusters_;
+    typename B::template Buffer<std::uint32_t> counters_;
+};
+
+}  // namespace mir

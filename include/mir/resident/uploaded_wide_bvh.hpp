@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/wide_bvh.hpp"
+#include "mir/resident/uploaded_array.hpp"
+
+namespace mir {
+
+/// A WideBvh in a backend's memory.
+template <Backend B>
+class UploadedWideBvh {
+ public:
+    /// Starts the copies on `queue`; `bvh` must live until they are done.
+    UploadedWideBvh(const B& backend, typename B::Queue& queue, const WideBvh& bvh)
+        : nodes_(backend, queue, bvh.nodes()),
+          triangles_(backend, queue, bvh.triangles()),
+          indices_(backend, queue, bvh.indices()),
+          reach_(bvh.view().reach) {}
+
+    /// For kernels that follow on the queue; valid until this is moved or ends.
+    [[nodiscard]] WideBvhView<B::space> view() const {
+        return {nodes_.data(), triangles_.data(), indices_.data(), reach_};
+    }
+
+ private:
+    UploadedArray<B, WideNode> nodes_;
+    UploadedArray<B, TriangleRows> triangles_;
+    UploadedArray<B, std::uint32_t> indices_;
+    float reach_;
+};
+
+}  // namespace mir

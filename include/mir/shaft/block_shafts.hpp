@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/vpl_set.hpp"
+#include "mir/shaft/leaf_search.hpp"
+#include "mir/shaft/pair_queue.hpp"
+
+namespace mir {
+
+/// VPLs first .. first + count - 1 of a set: what the kernels of shafts take at a time, so that
+/// their queues have room for all pairs.
+struct VplBatch {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Decides pairs of 256 luxels and a VPL: kernel for groups, a block per lane, neighbouring blocks
+/// and one VPL a group. Zeroes the words of pairs that a triangle covers, leaves those of clear
+/// ones as they are, facing masks (FacingPass), and queues the rest.
+template <Space S, VplSet P>
+struct BlockShafts {
+    static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
+
+    /// What a group works in.
+    struct Workspace {
+        LeafColumns<24> leaves;
+    };
+
+    const ClusterRecord* blocks = nullptr;  ///< of 256 luxels
+    std::uint32_t block_count = 0;
+    P vpls;
+    VplBatch batch;
+    WideBvhView<S> bvh;
+    float sigma = 0.0f;  ///< of the scene, metres, as for the records
+    SearchLimits limits;
+    std::uint32_t* words = nullptr;  ///< as VisibilityWords
+    PairQueue open;                  ///< blocks
+
+    /// Groups that cover all pairs.
+    [[nodiscard]] static std::uint32_t groups(std::uint32_t blocks, VplBatch batch) {
+        return (blocks + LaneGroup::width - 1) / LaneGroup::width * batch.count;
+    }
+
+    MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
+        const VplIndex j = batch.first + i % batch.count;
+        const std::uint32_t first = i / batch.count * LaneGroup::width;
+        const Vec3 apex = vpls[j].position;
+        const bool is_proved = is_proved_scale(bvh.reach) && within_reach(apex, bvh.reach);
+
+        LaneGroup::PerLane<PairState> states;
+        LaneGroup::PerLane<LeafSearch> searches;
+        LaneGroup::PerLane<ShaftSlabs> slabs;
+        group.each([&](std::uint32_t lane) {
+            const std::uint32_t block = first + lane;
+            const bool is_alive = block < block_count && any_bit(block, j);
+            const bool on = is_alive && is_proved && within_reach(blocks[block], bvh.reach);
+            states[lane] = is_alive ? PairState::unknown : PairState::clear;
+            if (on) slabs[lane] = make_shaft_slabs(blocks[block], apex, sigma, bvh.reach);
+            searches[lane].begin(on);
+        });
+        search_leaves(group, bvh, slabs, limits, searches, space.leaves);
+        classify(group, first, apex, searches, space, states);
+        group.each([&](std::uint32_t lane) {
+            if (states[lane] == PairState::covered) clear_words(first + lane, j);
+        });
+        const std::uint32_t undecided = group.ballot([&](std::uint32_t lane) {
+            return states[lane] == PairState::unknown || states[lane] == PairState::listed;
+        });
+        open.append(group, undecided, [&](std::uint32_t lane) {
+            return OpenPair{first + lane, j};
+        });
+    }
+
+ private:
+    [[nodiscard]] MIR_HD std::size_t first_word(std::uint32_t block, VplIndex j) const {
+        return std::size_t{block} * block_words * vpls.size() + j;
+    }
+    [[nodiscard]] MIR_HD bool any_bit(std::uint32_t block, VplIndex j) const {
+        const std::uint32_t* word = words + first_word(block, j);
+        std::uint32_t bits = 0;
+        for (std::uint32_t k = 0; k < block_words; ++k) bits |= word[std::size_t{k} * vpls.size()];
+        return bits != 0;
+    }
+    MIR_HD void clear_words(std::uint32_t block, VplIndex j) const {
+        std::uint32_t* word = words + first_word(block, j);
+        for (std::uint32_t k = 0; k < block_words; ++k) word[std::size_t{k} * vpls.size()] = 0;
+    }
+
+    /// Tests the triangles of a lane's leaves against its pyramid, one per turn.
+    MIR_HD void classify(const LaneGroup& group, std::uint32_t first, Vec3 apex,
+                         const LaneGroup::PerLane<LeafSearch>& searches, const Workspace& space,
+                         LaneGroup::PerLane<PairState>& states) const {
+        LaneGroup::PerLane<Pyramid> pyramids;
+        LaneGroup::PerLane<LeafCursor> cursors;
+        group.each([&](std::uint32_t lane) {
+            const LeafSearch& search = searches[lane];
+            cursors[lane] = {0, 0, search.leaves};
+            if (search.leaves > 0) pyramids[lane] = make_pyramid(blocks[first + lane], apex, sigma);
+            if (search.state == LeafSearchState::complete) states[lane] = PairState::clear;
+        });
+        while (group.ballot([&](std::uint32_t lane) { return cursors[lane].has_more(); }) != 0)
+            group.each([&](std::uint32_t lane) {
+                LeafCursor& cursor = cursors[lane];
+                if (!cursor.has_more()) return;
+                const std::uint32_t t = cursor.next(space.leaves, lane);
+                const Occlusion found = occlusion(bvh.triangles[t], pyramids[lane]);
+                if (found == Occlusion::none) return;
+                if (found == Occlusion::full) cursor.stop();
+                if (found == Occlusion::full)
+                    states[lane] = PairState::covered;
+                else if (states[lane] == PairState::clear)
+                    states[lane] = PairState::listed;
+            });
+    }
+
+    /// The next triangle of a lane's leaves.
+    struct LeafCursor {
+        std::uint32_t leaf;
+        std::uint32_t at;  ///< in the leaf
+        std::uint32_t leaves;
+
+        [[nodiscard]] MIR_HD bool has_more() const { return leaf < leaves; }
+        MIR_HD void stop() { leaf = leaves; }
+        template <std::uint32_t Capacity>
+        MIR_HD std::uint32_t next(const LeafColumns<Capacity>& columns, std::uint32_t lane) {
+            const PackedLeaf packed = columns.leaf[leaf][lane];
+            const std::uint32_t t = packed.first() + at;
+            if (++at == packed.count()) {
+                at = 0;
+                ++leaf;
+            }
+            return t;
+        }
+    };
+};
+
+}  // namespace mir

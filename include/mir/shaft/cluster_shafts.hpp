@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/shaft/block_shafts.hpp"
+
+namespace mir {
+
+/// Decides pairs of 32 luxels and a VPL that a block's shaft left open: kernel for groups, each of
+/// which takes four blocks at a time, a cluster per lane. Lists of triangles are resolved by all
+/// lanes together, a triangle per lane against the pyramid and then a luxel per lane against the
+/// triangles that are partial. Pairs whose search gave up are queued.
+template <Space S, VplSet P>
+struct ClusterShafts {
+    static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
+    static constexpr std::uint32_t blocks_at_once = LaneGroup::width / block_words;
+    static constexpr std::uint32_t most_triangles = 160;
+
+    /// What a group works in.
+    struct Workspace {
+        LeafColumns<LaneGroup::width> leaves;
+        std::uint32_t triangles[most_triangles];  ///< of one lane
+    };
+
+    SoaView<const Hit> hits;
+    const ClusterRecord* clusters = nullptr;  ///< of 32 luxels
+    P vpls;
+    WideBvhView<S> bvh;
+    float sigma = 0.0f;   ///< of the scene, metres, as for the records
+    SearchLimits limits;  ///< no more than most_triangles count
+    std::uint32_t group_count = 0;
+    std::uint32_t* words = nullptr;  ///< as VisibilityWords
+    PairQueue blocks;                ///< to decide
+    PairQueue open;                  ///< clusters, left to single segments
+
+    MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
+        const std::uint32_t count = blocks.size();
+        for (std::uint32_t first = i * blocks_at_once; first < count;
+             first += group_count * blocks_at_once)
+            decide(group, first, count, space);
+    }
+
+ private:
+    /// What a lane works on.
+    struct Task {
+        bool is_alive;
+        std::uint32_t cluster;
+        VplIndex vpl;
+    };
+
+    MIR_HD void decide(const LaneGroup& group, std::uint32_t first, std::uint32_t count,
+                       Workspace& space) const {
+        LaneGroup::PerLane<Task> tasks;
+        LaneGroup::PerLane<LeafSearch> searches;
+        LaneGroup::PerLane<ShaftSlabs> slabs;
+        group.each([&](std::uint32_t lane) {
+            const Task task = task_of(first, count, lane);
+            tasks[lane] = task;
+            bool on = task.is_alive && is_proved_scale(bvh.reach);
+            if (on) {
+                const Vec3 apex = vpls[task.vpl].position;
+                const ClusterRecord& cluster = clusters[task.cluster];
+                on = within_reach(apex, bvh.reach) && within_reach(cluster, bvh.reach);
+                if (on) slabs[lane] = make_shaft_slabs(cluster, apex, sigma, bvh.reach);
+            }
+            searches[lane].begin(on);
+        });
+        search_leaves(group, bvh, slabs, capped(), searches, space.leaves);
+        resolve_lists(group, tasks, searches, space);
+        const std::uint32_t undecided = group.ballot([&](std::uint32_t lane) {
+            return tasks[lane].is_alive && searches[lane].state != LeafSearchState::complete;
+        });
+        open.append(group, undecided, [&](std::uint32_t lane) {
+            return OpenPair{tasks[lane].cluster, tasks[lane].vpl};
+        });
+    }
+
+    [[nodiscard]] MIR_HD SearchLimits capped() const {
+        return {limits.nodes,
+                limits.triangles < most_triangles ? limits.triangles : most_triangles};
+    }
+    [[nodiscard]] MIR_HD std::uint32_t& word(std::uint32_t cluster, VplIndex j) const {
+        return words[std::size_t{cluster} * vpls.size() + j];
+    }
+
+    [[nodiscard]] MIR_HD Task task_of(std::uint32_t first, std::uint32_t count,
+                                      std::uint32_t lane) const {
+        const std::uint32_t at = first + lane / block_words;
+        if (at >= count) return {false, 0, 0};
+        const OpenPair pair = blocks.pairs[at];
+        const std::uint32_t cluster = pair.cluster * block_words + lane % block_words;
+        return {word(cluster, pair.vpl) != 0, cluster, pair.vpl};
+    }
+
+    /// The lists of all lanes that have a complete one, one list after the other.
+    MIR_HD void resolve_lists(const LaneGroup& group, const LaneGroup::PerLane<Task>& tasks,
+                              const LaneGroup::PerLane<LeafSearch>& searches,
+                              Workspace& space) const {
+        LaneGroup::PerLane<std::uint32_t> cluster;
+        LaneGroup::PerLane<std::uint32_t> vpl;
+        LaneGroup::PerLane<std::uint32_t> leaves;
+        group.each([&](std::uint32_t lane) {
+            cluster[lane] = tasks[lane].cluster;
+            vpl[lane] = tasks[lane].vpl;
+            leaves[lane] = searches[lane].leaves;
+        });
+        std::uint32_t listed = group.ballot([&](std::uint32_t lane) {
+            return searches[lane].state == LeafSearchState::complete && searches[lane].leaves > 0;
+        });
+        for (; listed != 0; listed &= listed - 1) {
+            const std::uint32_t owner = LaneGroup::lowest(listed);
+            const std::uint32_t count = unpack(group, owner, group.broadcast(leaves, owner), space);
+            resolve(group, group.broadcast(cluster, owner), group.broadcast(vpl, owner), count,
+                    space);
+        }
+    }
+
+    /// Writes the triangles of a lane's leaves to the workspace, a leaf per lane; returns how many
+    /// there are.
+    [[nodiscard]] MIR_HD std::uint32_t unpack(const LaneGroup& group, std::uint32_t owner,
+                                              std::uint32_t leaves, Workspace& space) const {
+        LaneGroup::PerLane<std::uint32_t> place;
+        group.each([&](std::uint32_t lane) {
+            place[lane] = lane < leaves ? space.leaves.leaf[lane][owner].count() : 0u;
+        });
+        const std::uint32_t count = group.sums_before(place);
+        group.each([&](std::uint32_t lane) {
+            if (lane >= leaves) return;
+            const PackedLeaf leaf = space.leaves.leaf[lane][owner];
+            for (std::uint32_t k = 0; k < leaf.count(); ++k)
+                space.triangles[place[lane] + k] = leaf.first() + k;
+        });
+        return count;
+    }
+
+    /// Decides a pair by `count` triangles, which are all that matter.
+    MIR_HD void resolve(const LaneGroup& group, std::uint32_t cluster, VplIndex j,
+                        std::uint32_t count, const Workspace& space) const {
+        const Vec3 apex = vpls[j].position;
+        const Pyramid pyramid = make_pyramid(clusters[cluster], apex, sigma);
+        const std::uint32_t before = word(cluster, j);
+        std::uint32_t lit = before;
+        for (std::uint32_t first = 0; first < count && lit != 0; first += LaneGroup::width) {
+            LaneGroup::PerLane<Occlusion> found;
+            group.each([&](std::uint32_t lane) {
+                const std::uint32_t k = first + lane;
+                found[lane] = k < count ? occlusion(bvh.triangles[space.triangles[k]], pyramid)
+                                        : Occlusion::none;
+            });
+            const auto lanes_with = [&](Occlusion o) {
+                return group.ballot([&](std::uint32_t lane) { return found[lane] == o; });
+            };
+            if (lanes_with(Occlusion::full) != 0) lit = 0;
+            std::uint32_t partial = lanes_with(Occlusion::partial);
+            for (; partial != 0 && lit != 0; partial &= partial - 1)
+                lit &= ~hit_by(group, cluster, apex,
+                               space.triangles[first + LaneGroup::lowest(partial)]);
+        }
+        group.each([&](std::uint32_t lane) {
+            if (lane == 0 && lit != before) word(cluster, j) = lit;
+        });
+    }
+
+    /// Luxels of a cluster whose segments a triangle hits, a bit each.
+    [[nodiscard]] MIR_HD std::uint32_t hit_by(const LaneGroup& group, std::uint32_t cluster,
+                                              Vec3 apex, std::uint32_t triangle) const {
+        return group.ballot([&](std::uint32_t lane) {
+            const Vec3 luxel = hits.load(cluster * cluster_luxels + lane).position;
+            return hits_segment(bvh.triangles[triangle], apex, luxel);
+        });
+    }
+};
+
+}  // namespace mir

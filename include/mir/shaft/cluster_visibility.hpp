@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/wide_bvh_view.hpp"
+#include "mir/concepts/visibility.hpp"
+
+#include <type_traits>
+
+namespace mir {
+
+/// What backends need to decide the visibility of whole clusters by shafts: a wide hierarchy for
+/// shafts, and an engine for the segments that are left. Model of Visibility by that engine alone,
+/// which must give the bits of hits_segment() asked of every triangle of the hierarchy, as those of
+/// mir/accel/ do. Thread-safe; both must outlive it.
+template <Visibility V>
+struct ClusterVisibility {
+    static constexpr Space space = V::space;
+
+    WideBvhView<V::space> bvh;
+    float sigma = 0.0f;  ///< of the scene (accept_box.hpp), metres
+    V segments;
+
+    [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return segments.visible(a, b); }
+};
+
+/// A Visibility that brings what shafts need.
+template <class V>
+concept ShaftableVisibility = Visibility<V> && requires(const V v) {
+    { v.bvh } -> std::convertible_to<WideBvhView<V::space>>;
+    { v.sigma } -> std::convertible_to<float>;
+    requires Visibility<std::remove_cvref_t<decltype(v.segments)>>;
+};
+
+}  // namespace mir

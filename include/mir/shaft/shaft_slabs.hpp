@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/detail/axis_step.hpp"
+#include "mir/accel/wide_node.hpp"
+#include "mir/shaft/shaft.hpp"
+
+namespace mir {
+
+/// A Shaft as the nodes of a wide hierarchy are tested against it: for each axis which of a child's
+/// two planes the segments reach first, and the share of the way at which the first of them passes
+/// the one and the last of them the other. One fused operation per plane, no selection per child.
+///
+/// Why no child is refused that a segment of the shaft needs. Let q be the VPL, p a luxel and X the
+/// point of the segment at the share t that lies in the child's box by 14 e M in each axis
+/// (wide_traverse.hpp, whose bounds of rounding hold here: the operations are the same). Where the
+/// cluster's box [l, h] lies above the VPL, t (l - q) <= X - q <= t (h - q): so t is at least the
+/// share at which the step h - q passes the child's lower plane and at most that at which l - q
+/// passes the upper one, each with 0.5 e M to spare, which is more than steps that are lengthened
+/// to the shortest one move a point. Below likewise. Where the VPL straddles the box both steps
+/// give lower bounds, one for children on either side.
+struct ShaftSlabs {
+    AffineRow front{0, 0, 0, 1};  ///< negative behind the cluster
+    detail::AxisStep nears[3];    ///< for planes[2 axis + near_plane[axis]]
+    detail::AxisStep fars[3];     ///< for the other one; always 1 where the VPL straddles
+    detail::AxisStep others[3];   ///< for the other one as well: a lower bound; 0 elsewhere
+    std::uint8_t near_plane[3] = {0, 0, 0};   ///< 1: the upper one
+    std::uint8_t front_plane[3] = {0, 0, 0};  ///< that lies farther in front
+    bool straddles = false;                   ///< on some axis
+};
+
+namespace detail {
+
+/// Step of a cluster's face as seen from the VPL, `size` metres away on the side of `sign`.
+MIR_HD inline AxisStep face_step(float apex, float size, float sign, float shortest) {
+    const float inverse = sign * loose::reciprocal(larger(size, shortest));
+    return {inverse, strict::mul(apex, inverse)};
+}
+
+MIR_HD inline void set_axis(ShaftSlabs& s, int axis, float apex, float low, float high,
+                            float shortest) {
+    const bool plus = low >= 0.0f;
+    const bool minus = !plus && high < 0.0f;
+    s.near_plane[axis] = plus ? 0 : 1;
+    s.nears[axis] =
+        plus ? face_step(apex, high, 1.0f, shortest) : face_step(apex, -low, -1.0f, shortest);
+    if (plus) s.fars[axis] = face_step(apex, low, 1.0f, shortest);
+    if (minus) s.fars[axis] = face_step(apex, -high, -1.0f, shortest);
+    s.others[axis] = {0.0f, 0.0f};
+    if (plus || minus) return;
+    s.fars[axis] = {0.0f, -1.0f};
+    s.others[axis] = face_step(apex, high, 1.0f, shortest);
+    s.straddles = true;
+}
+
+}  // namespace detail
+
+/// Slabs of a cluster that has luxels and a VPL at `apex`, both within `reach`, that of the
+/// hierarchy; metres. `sigma` as for the cluster.
+[[nodiscard]] MIR_HD inline ShaftSlabs make_shaft_slabs(const ClusterRecord& cluster, Vec3 apex,
+                                                        float sigma, float reach) {
+    ShaftSlabs s;
+    s.front = detail::front_of(cluster, apex, sigma);
+    s.front_plane[0] = s.front.x > 0.0f ? 1 : 0;
+    s.front_plane[1] = s.front.y > 0.0f ? 1 : 0;
+    s.front_plane[2] = s.front.z > 0.0f ? 1 : 0;
+    const float shortest = detail::shortest_step(reach);
+    for (int axis = 0; axis < 3; ++axis)
+        detail::set_axis(s, axis, apex[axis], strict::sub(cluster.low[axis], apex[axis]),
+                         strict::sub(cluster.high[axis], apex[axis]), shortest);
+    return s;
+}
+
+namespace detail {
+
+MIR_HD inline const ChildRow& plane_row(const WideNode& node, int axis, std::uint32_t upper) {
+    return node.planes[2 * axis + static_cast<int>(upper)];
+}
+
+/// Shares of the way between which segments may be inside of eight children.
+struct ChildIntervals {
+    ChildRow begin;
+    ChildRow end;
+};
+
+MIR_HD inline void meet_axis(const WideNode& node, const ShaftSlabs& s, int axis,
+                             ChildIntervals& t) {
+    const ChildRow& nears = plane_row(node, axis, s.near_plane[axis]);
+    const ChildRow& fars = plane_row(node, axis, s.near_plane[axis] ^ 1u);
+    const AxisStep near = s.nears[axis];
+    const AxisStep far = s.fars[axis];
+    for (std::uint32_t k = 0; k < WideNode::width; ++k) {
+        t.begin[k] = larger(t.begin[k], loose::mul_sub(nears[k], near.inverse, near.offset));
+        t.end[k] = smaller(t.end[k], loose::mul_sub(fars[k], far.inverse, far.offset));
+    }
+}
+
+/// The second lower bound where the VPL straddles the cluster's box.
+MIR_HD inline void meet_other_planes(const WideNode& node, const ShaftSlabs& s, ChildIntervals& t) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const AxisStep other = s.others[axis];
+        if (other.inverse == 0.0f) continue;
+        const ChildRow& lows = plane_row(node, axis, 0);
+        for (std::uint32_t k = 0; k < WideNode::width; ++k)
+            t.begin[k] = larger(t.begin[k], loose::mul_sub(lows[k], other.inverse, other.offset));
+    }
+}
+
+/// Values of the half-space's row at the foremost corners of eight children, metres.
+MIR_HD inline ChildRow front_values(const WideNode& node, const ShaftSlabs& s) {
+    const ChildRow& x = plane_row(node, 0, s.front_plane[0]);
+    const ChildRow& y = plane_row(node, 1, s.front_plane[1]);
+    const ChildRow& z = plane_row(node, 2, s.front_plane[2]);
+    ChildRow value;
+    for (std::uint32_t k = 0; k < WideNode::width; ++k) {
+        const float behind_z = -loose::mul_sub(z[k], s.front.z, -s.front.w);
+        const float behind_yz = -loose::mul_sub(y[k], s.front.y, behind_z);
+        value[k] = loose::mul_sub(x[k], s.front.x, behind_yz);
+    }
+    return value;
+}
+
+}  // namespace detail
+
+/// Slots of a node whose boxes hold a point of a segment of the shaft within its half-space, bit k
+/// for slot k; false ones of others may be set, those of empty slots among them.
+[[nodiscard]] MIR_HD inline std::uint32_t met_slots(const WideNode& node, const ShaftSlabs& s) {
+    detail::ChildIntervals t;
+    for (std::uint32_t k = 0; k < WideNode::width; ++k) {
+        t.begin[k] = 0.0f;
+        t.end[k] = 1.0f;
+    }
+    detail::meet_axis(node, s, 0, t);
+    detail::meet_axis(node, s, 1, t);
+    detail::meet_axis(node, s, 2, t);
+    if (s.straddles) detail::meet_other_planes(node, s, t);
+    const ChildRow front = detail::front_values(node, s);
+    std::uint32_t mask = 0;
+    for (std::uint32_t k = 0; k < WideNode::width; ++k)
+        mask |= t.begin[k] <= t.end[k] && front[k] >= 0.0f ? 1u << k : 0u;
+    return mask;
+}
+
+}  // namespace mir

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "mir/resident/backend_shafts.hpp"
+
+#include "accel/hard_segments.hpp"
+#include "mir/cpu/backend.hpp"
+#include "mir/cpu/tbb_executor.hpp"
+#include "shaft/shaft_stage.hpp"
+#include "support/catch.hpp"
+#include "support/lazy_backend.hpp"
+#include "support/shaft_words.hpp"
+
+// Words by the shafts of a backend, bit for bit those of every triangle asked: docs/shafts.md.
+
+namespace {
+
+using mirtest::different_bits;
+using mirtest::Lit;
+using mirtest::ShaftStage;
+using HostBackend = mir::cpu::Backend<mir::InlineExecutor>;
+
+mirtest::World soup(bool needles, float scale, float x) {
+    const mir::Vec3 move(x, 0.3f * x, -x);
+    return needles ? mirtest::needle_soup(60, 17, scale, move)
+                   : mirtest::triangle_soup(60, 18, scale, move);
+}
+
+ShaftStage stage_of(const mirtest::World& world, std::uint32_t luxels, std::uint32_t vpls,
+                    std::uint64_t seed = 19) {
+    const Lit lit = mirtest::random_lit(world.geometry, luxels, vpls, mirtest::test_random(seed));
+    return {world.geometry, mirtest::clustered(lit)};
+}
+
+mirtest::ShaftInput input(const ShaftStage& stage) {
+    return {stage.hits(), stage.lit().vpls, &stage.bvh(), stage.sigma()};
+}
+
+std::vector<std::uint32_t> words(const ShaftStage& stage,
+                                 const mir::BackendShaftOptions& options = {}, bool trace = true) {
+    mir::InlineExecutor executor;
+    return mirtest::shaft_words(HostBackend(executor), input(stage), options, trace);
+}
+
+}  // namespace
+
+TEST_CASE("Shafts of a backend give the bits of every triangle asked") {
+    const auto [scale, x] =
+        GENERATE(table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}}));
+    const bool needles = GENERATE(false, true);
+    INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
+    const mirtest::World world = soup(needles, scale, x);
+    const ShaftStage stage = stage_of(world, 2000, 40);
+    CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
+}
+
+TEST_CASE("Most pairs of a closed room are decided without a single segment") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 30000, 30);
+    const auto truth = stage.by_segments();
+    CHECK(different_bits(words(stage), truth) == 0);
+    const auto untraced = [&](const mir::BackendShaftOptions& options) {
+        return different_bits(words(stage, options, false), truth);
+    };
+    const std::size_t facing = untraced({{0, 0}, {0, 0}});
+    CHECK(facing > 10000);
+    CHECK(untraced({}) < facing / 10);
+}
+
+TEST_CASE("No limit of a backend's shafts changes a bit") {
+    const mirtest::World world = soup(GENERATE(false, true), 1.0f, 0.0f);
+    const ShaftStage stage = stage_of(world, 700, 30);
+    const auto truth = stage.by_brute_force();
+    for (std::uint32_t nodes : {0u, 1u, 2u, 3u, 5u, 8u, 1000u})
+        for (std::uint32_t triangles : {0u, 1u, 7u, 64u, 1000u}) {
+            CAPTURE(nodes, triangles);
+            const mir::SearchLimits some{nodes, triangles};
+            CHECK(different_bits(words(stage, {some, {96, 160}}), truth) == 0);
+            CHECK(different_bits(words(stage, {{0, 0}, some}), truth) == 0);
+        }
+}
+
+TEST_CASE("No batch of VPLs and no number of groups changes a bit") {
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const ShaftStage stage = stage_of(world, 3000, 37);
+    const auto truth = stage.by_brute_force();
+    for (std::uint32_t vpls : {1u, 2u, 36u, 37u, 38u})
+        for (std::uint32_t groups : {1u, 3u, 1000u}) {
+            CAPTURE(vpls, groups);
+            CHECK(different_bits(words(stage, {{48, 48}, {96, 160}, vpls, groups}), truth) == 0);
+        }
+    CHECK_THROWS_AS(words(stage, {{48, 48}, {96, 160}, 0, 1}), mir::Error);
+    CHECK_THROWS_AS(words(stage, {{48, 48}, {96, 160}, 1, 0}), mir::Error);
+}
+
+TEST_CASE("Any number of luxels and of VPLs is right for a backend's shafts") {
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    for (std::uint32_t luxels : {0u, 1u, 33u, 256u, 513u, 8193u})
+        for (std::uint32_t vpls : {0u, 1u, 33u}) {
+            CAPTURE(luxels, vpls);
+            const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
+            CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
+        }
+}
+
+TEST_CASE("Luxels and VPLs beyond reach, and those that are no number, are asked one by one") {
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    Lit lit = mirtest::random_lit(world.geometry, 500, 40, mirtest::test_random(22));
+    for (std::size_t i = 0; i < lit.luxels.size(); i += 5) lit.luxels[i].position *= 40.0f;
+    for (std::size_t j = 0; j < lit.vpls.size(); j += 3) lit.vpls[j].position *= 1e4f;
+    lit.luxels[77].position.y = std::numeric_limits<float>::quiet_NaN();
+    const ShaftStage stage(world.geometry, lit);
+    CHECK(different_bits(words(stage), stage.by_segments()) == 0);
+}
+
+TEST_CASE("Shafts of a backend that runs late, or on many threads, give the same words") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 5000, 30);
+    const auto truth = words(stage);
+    mir::cpu::TbbExecutor many(4);
+    CHECK(mirtest::shaft_words(mir::cpu::Backend(many), input(stage), {}) == truth);
+    mirtest::PutOff work(0);
+    CHECK(mirtest::shaft_words(mirtest::LazyBackend(work), input(stage), {}) == truth);
+}
