@@ -7,6 +7,7 @@
 #include "mir/kernels/fused.hpp"
 #include "mir/kernels/shading_pass.hpp"
 #include "mir/kernels/visibility_pass.hpp"
+#include "mir/kernels/word_shading.hpp"
 #include "mir/resident/backend_shafts.hpp"
 #include "tracing_backend.hpp"
 
@@ -145,9 +146,8 @@ class KernelBench {
         {
             auto queue = traced.queue();
             shafts_->fill(queue, view().hits, vpls(), visibility_, bits_.data());
-            queue.for_each(count_,
-                           mir::ShadingPass{view(), vpls(), Bits{bits_.data(), vpls().size()},
-                                            shading_, sums()});
+            queue.for_each_group(
+                count_ / 32, mir::WordShading{view(), vpls(), bits_.data(), shading_, sums()});
             queue.record().sync();
         }
         KernelRun run;

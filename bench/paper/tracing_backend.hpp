@@ -6,6 +6,7 @@
 #include "mir/kernels/shade_one_vpl.hpp"
 #include "mir/kernels/shading_pass.hpp"
 #include "mir/kernels/visibility_pass.hpp"
+#include "mir/kernels/word_shading.hpp"
 #include "mir/resident/backend_shafts.hpp"
 #include "timeline.hpp"
 
@@ -92,11 +93,13 @@ inline constexpr Work work_of<mir::FusedKernel<G, P, V, F>> = Work::fused;
 template <class G, class P, class S, class F>
 inline constexpr Work work_of<mir::ShadingPass<G, P, S, F>> = Work::shading;
 template <class G, class P, class F>
+inline constexpr Work work_of<mir::WordShading<G, P, F>> = Work::shading;
+template <class G, class P, class F>
 inline constexpr Work work_of<mir::ShadeOneVpl<G, P, F>> = Work::shading;
 template <class G, class P, class V>
 inline constexpr Work work_of<mir::VisibilityPass<G, P, V>> = Work::visibility;
 template <>
-inline constexpr Work work_of<mir::ClusterRecords> = Work::records;
+inline constexpr Work work_of<mir::GroupRecords> = Work::records;
 template <class P>
 inline constexpr Work work_of<mir::FacingPass<P>> = Work::facing;
 template <mir::Space S, class P>

@@ -98,6 +98,23 @@ class LaneGroup {
 #endif
     }
 
+    /// All values, joined in pairs by `join`, in the same order on host and device: lane 0 with 16,
+    /// 1 with 17 and so on, then 0 with 8.
+    template <class T, class Join>
+    [[nodiscard]] MIR_HD T combined(PerLane<T> values, const Join& join) const {
+#if defined(__CUDA_ARCH__)
+        T value = values[0];
+        for (std::uint32_t step = width / 2; step > 0; step /= 2)
+            value = join(value, __shfl_down_sync(all, value, step));
+        return __shfl_sync(all, value, 0);
+#else
+        for (std::uint32_t step = width / 2; step > 0; step /= 2)
+            for (std::uint32_t lane = 0; lane < step; ++lane)
+                values[lane] = join(values[lane], values[lane + step]);
+        return values[0];
+#endif
+    }
+
     /// Adds to a counter that groups share, and returns what it was before.
     MIR_HD std::uint32_t add(std::uint32_t& counter, std::uint32_t amount) const {
 #if defined(__CUDA_ARCH__)

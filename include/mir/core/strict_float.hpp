@@ -66,6 +66,15 @@ namespace mir::loose {
 #endif
 }
 
+/// a * b + c, rounded once or twice.
+[[nodiscard]] MIR_HD inline float mul_add(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    return __fmaf_rn(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
 /// a * b - c, rounded once or twice.
 [[nodiscard]] MIR_HD inline float mul_sub(float a, float b, float c) {
 #if defined(__CUDA_ARCH__)

@@ -5,6 +5,7 @@
 #include "mir/shaft/cluster_shafts.hpp"
 #include "mir/shaft/cluster_visibility.hpp"
 #include "mir/shaft/facing_pass.hpp"
+#include "mir/shaft/group_records.hpp"
 #include "mir/shaft/open_segments.hpp"
 
 #include <algorithm>
@@ -14,9 +15,9 @@ namespace mir {
 /// What the searches of shafts may cost on a backend, and how many pairs are worked on at a time.
 /// Any numbers give the same bits.
 struct BackendShaftOptions {
-    SearchLimits block{48, 48};     ///< for 256 luxels and a VPL
-    SearchLimits cluster{96, 160};  ///< for 32 luxels and a VPL
-    std::uint32_t vpls = 256;       ///< at a time, at least 1: queues have room for all their pairs
+    std::uint32_t block_nodes = 48;    ///< that the shaft of 256 luxels and a VPL visits
+    std::uint32_t cluster_nodes = 96;  ///< that the shaft of 32 luxels and a VPL visits
+    std::uint32_t vpls = 256;  ///< at a time, at least 1: queues have room for all their pairs
     std::uint32_t groups = 1u << 14;  ///< that empty a queue together, at least 1
 };
 
@@ -47,10 +48,10 @@ class BackendShafts {
               std::uint32_t* words) {
         const std::uint32_t block_count = hits.stride / block_luxels;
         const std::uint32_t cluster_count = hits.stride / cluster_luxels;
-        queue.for_each(block_count,
-                       ClusterRecords{hits, block_luxels, visibility.sigma, blocks_.data()});
-        queue.for_each(cluster_count,
-                       ClusterRecords{hits, cluster_luxels, visibility.sigma, clusters_.data()});
+        queue.for_each_group(block_count,
+                             GroupRecords{hits, block_luxels, visibility.sigma, blocks_.data()});
+        queue.for_each_group(
+            cluster_count, GroupRecords{hits, cluster_luxels, visibility.sigma, clusters_.data()});
         queue.fill_bits(hits.stride, vpls.size(), FacingPass<P>{hits, vpls}, words);
         for (std::uint32_t first = 0; first < vpls.size(); first += options_.vpls)
             fill_batch(queue, hits, vpls, visibility,
@@ -79,11 +80,11 @@ class BackendShafts {
         queue.for_each_group(
             BlockShafts<space, P>::groups(block_count, batch),
             BlockShafts<space, P>{blocks_.data(), block_count, vpls, batch, visibility.bvh,
-                                  visibility.sigma, options_.block, words, open_blocks});
+                                  visibility.sigma, options_.block_nodes, words, open_blocks});
         queue.for_each_group(
             options_.groups,
             ClusterShafts<space, P>{hits, clusters_.data(), vpls, visibility.bvh, visibility.sigma,
-                                    options_.cluster, options_.groups, words, open_blocks,
+                                    options_.cluster_nodes, options_.groups, words, open_blocks,
                                     open_clusters});
         queue.for_each_group(options_.groups,
                              OpenSegments{hits, vpls, visibility.segments, words, open_clusters});

@@ -23,7 +23,7 @@ struct BlockShafts {
 
     /// What a group works in.
     struct Workspace {
-        LeafColumns<24> leaves;
+        LeafColumns<16> leaves;
     };
 
     const ClusterRecord* blocks = nullptr;  ///< of 256 luxels
@@ -31,8 +31,8 @@ struct BlockShafts {
     P vpls;
     VplBatch batch;
     WideBvhView<S> bvh;
-    float sigma = 0.0f;  ///< of the scene, metres, as for the records
-    SearchLimits limits;
+    float sigma = 0.0f;              ///< of the scene, metres, as for the records
+    std::uint32_t most_nodes = 0;    ///< visited by a shaft
     std::uint32_t* words = nullptr;  ///< as VisibilityWords
     PairQueue open;                  ///< blocks
 
@@ -58,7 +58,7 @@ struct BlockShafts {
             if (on) slabs[lane] = make_shaft_slabs(blocks[block], apex, sigma, bvh.reach);
             searches[lane].begin(on);
         });
-        search_leaves(group, bvh, slabs, limits, searches, space.leaves);
+        search_leaves(group, bvh, slabs, most_nodes, searches, space.leaves);
         classify(group, first, apex, searches, space, states);
         group.each([&](std::uint32_t lane) {
             if (states[lane] == PairState::covered) clear_words(first + lane, j);
@@ -94,15 +94,15 @@ struct BlockShafts {
         LaneGroup::PerLane<LeafCursor> cursors;
         group.each([&](std::uint32_t lane) {
             const LeafSearch& search = searches[lane];
-            cursors[lane] = {0, 0, search.leaves};
-            if (search.leaves > 0) pyramids[lane] = make_pyramid(blocks[first + lane], apex, sigma);
+            cursors[lane].begin(search.listed);
+            if (search.listed > 0) pyramids[lane] = make_pyramid(blocks[first + lane], apex, sigma);
             if (search.state == LeafSearchState::complete) states[lane] = PairState::clear;
         });
         while (group.ballot([&](std::uint32_t lane) { return cursors[lane].has_more(); }) != 0)
             group.each([&](std::uint32_t lane) {
                 LeafCursor& cursor = cursors[lane];
                 if (!cursor.has_more()) return;
-                const std::uint32_t t = cursor.next(space.leaves, lane);
+                const std::uint32_t t = cursor.next(bvh, space.leaves, lane);
                 const Occlusion found = occlusion(bvh.triangles[t], pyramids[lane]);
                 if (found == Occlusion::none) return;
                 if (found == Occlusion::full) cursor.stop();
@@ -115,21 +115,32 @@ struct BlockShafts {
 
     /// The next triangle of a lane's leaves.
     struct LeafCursor {
-        std::uint32_t leaf;
-        std::uint32_t at;  ///< in the leaf
-        std::uint32_t leaves;
+        std::uint32_t at;      ///< in the lane's column
+        std::uint32_t listed;  ///< of it
+        std::uint32_t slots;   ///< of the node that are left
+        std::uint32_t triangle;
+        std::uint32_t end;
 
-        [[nodiscard]] MIR_HD bool has_more() const { return leaf < leaves; }
-        MIR_HD void stop() { leaf = leaves; }
+        MIR_HD void begin(std::uint32_t count) {
+            at = slots = triangle = end = 0;
+            listed = count;
+        }
+        [[nodiscard]] MIR_HD bool has_more() const {
+            return triangle < end || slots != 0 || at < listed;
+        }
+        MIR_HD void stop() { begin(0); }
         template <std::uint32_t Capacity>
-        MIR_HD std::uint32_t next(const LeafColumns<Capacity>& columns, std::uint32_t lane) {
-            const PackedLeaf packed = columns.leaf[leaf][lane];
-            const std::uint32_t t = packed.first() + at;
-            if (++at == packed.count()) {
-                at = 0;
-                ++leaf;
+        MIR_HD std::uint32_t next(const WideBvhView<S>& bvh, const LeafColumns<Capacity>& columns,
+                                  std::uint32_t lane) {
+            if (triangle == end) {
+                if (slots == 0) slots = columns.met[at++][lane].slots();
+                const WideNode& node = bvh.nodes[columns.met[at - 1][lane].node()];
+                const std::uint32_t k = LaneGroup::lowest(slots);
+                slots &= slots - 1;
+                triangle = node.ref[k];
+                end = triangle + static_cast<std::uint32_t>(node.count[k]);
             }
-            return t;
+            return triangle++;
         }
     };
 };

@@ -13,7 +13,7 @@ template <Space S, VplSet P>
 struct ClusterShafts {
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
     static constexpr std::uint32_t blocks_at_once = LaneGroup::width / block_words;
-    static constexpr std::uint32_t most_triangles = 160;
+    static constexpr std::uint32_t most_triangles = 192;  ///< of a list
 
     /// What a group works in.
     struct Workspace {
@@ -25,8 +25,8 @@ struct ClusterShafts {
     const ClusterRecord* clusters = nullptr;  ///< of 32 luxels
     P vpls;
     WideBvhView<S> bvh;
-    float sigma = 0.0f;   ///< of the scene, metres, as for the records
-    SearchLimits limits;  ///< no more than most_triangles count
+    float sigma = 0.0f;            ///< of the scene, metres, as for the records
+    std::uint32_t most_nodes = 0;  ///< visited by a shaft
     std::uint32_t group_count = 0;
     std::uint32_t* words = nullptr;  ///< as VisibilityWords
     PairQueue blocks;                ///< to decide
@@ -64,20 +64,16 @@ struct ClusterShafts {
             }
             searches[lane].begin(on);
         });
-        search_leaves(group, bvh, slabs, capped(), searches, space.leaves);
-        resolve_lists(group, tasks, searches, space);
-        const std::uint32_t undecided = group.ballot([&](std::uint32_t lane) {
+        search_leaves(group, bvh, slabs, most_nodes, searches, space.leaves);
+        std::uint32_t undecided = group.ballot([&](std::uint32_t lane) {
             return tasks[lane].is_alive && searches[lane].state != LeafSearchState::complete;
         });
+        undecided |= resolve_lists(group, tasks, searches, space);
         open.append(group, undecided, [&](std::uint32_t lane) {
             return OpenPair{tasks[lane].cluster, tasks[lane].vpl};
         });
     }
 
-    [[nodiscard]] MIR_HD SearchLimits capped() const {
-        return {limits.nodes,
-                limits.triangles < most_triangles ? limits.triangles : most_triangles};
-    }
     [[nodiscard]] MIR_HD std::uint32_t& word(std::uint32_t cluster, VplIndex j) const {
         return words[std::size_t{cluster} * vpls.size() + j];
     }
@@ -91,45 +87,67 @@ struct ClusterShafts {
         return {word(cluster, pair.vpl) != 0, cluster, pair.vpl};
     }
 
-    /// The lists of all lanes that have a complete one, one list after the other.
-    MIR_HD void resolve_lists(const LaneGroup& group, const LaneGroup::PerLane<Task>& tasks,
-                              const LaneGroup::PerLane<LeafSearch>& searches,
-                              Workspace& space) const {
+    /// The lists of all lanes that have a complete one, one list after the other. Returns the lanes
+    /// whose lists are too long.
+    MIR_HD std::uint32_t resolve_lists(const LaneGroup& group,
+                                       const LaneGroup::PerLane<Task>& tasks,
+                                       const LaneGroup::PerLane<LeafSearch>& searches,
+                                       Workspace& space) const {
         LaneGroup::PerLane<std::uint32_t> cluster;
         LaneGroup::PerLane<std::uint32_t> vpl;
-        LaneGroup::PerLane<std::uint32_t> leaves;
+        LaneGroup::PerLane<std::uint32_t> sizes;
         group.each([&](std::uint32_t lane) {
             cluster[lane] = tasks[lane].cluster;
             vpl[lane] = tasks[lane].vpl;
-            leaves[lane] = searches[lane].leaves;
+            sizes[lane] = searches[lane].listed;
         });
         std::uint32_t listed = group.ballot([&](std::uint32_t lane) {
-            return searches[lane].state == LeafSearchState::complete && searches[lane].leaves > 0;
+            return searches[lane].state == LeafSearchState::complete && searches[lane].listed > 0;
         });
+        std::uint32_t too_long = 0;
         for (; listed != 0; listed &= listed - 1) {
             const std::uint32_t owner = LaneGroup::lowest(listed);
-            const std::uint32_t count = unpack(group, owner, group.broadcast(leaves, owner), space);
-            resolve(group, group.broadcast(cluster, owner), group.broadcast(vpl, owner), count,
-                    space);
+            const std::uint32_t count = unpack(group, owner, group.broadcast(sizes, owner), space);
+            if (count > most_triangles)
+                too_long |= 1u << owner;
+            else
+                resolve(group, group.broadcast(cluster, owner), group.broadcast(vpl, owner), count,
+                        space);
         }
+        return too_long;
     }
 
-    /// Writes the triangles of a lane's leaves to the workspace, a leaf per lane; returns how many
-    /// there are.
+    /// Writes the triangles of a lane's leaves to the workspace, a node per lane; returns how many
+    /// there are. Those that are too many are not written.
     [[nodiscard]] MIR_HD std::uint32_t unpack(const LaneGroup& group, std::uint32_t owner,
-                                              std::uint32_t leaves, Workspace& space) const {
+                                              std::uint32_t listed, Workspace& space) const {
         LaneGroup::PerLane<std::uint32_t> place;
         group.each([&](std::uint32_t lane) {
-            place[lane] = lane < leaves ? space.leaves.leaf[lane][owner].count() : 0u;
+            place[lane] =
+                lane < listed ? triangles_of(space.leaves.met[lane][owner]) : std::uint32_t{0};
         });
         const std::uint32_t count = group.sums_before(place);
         group.each([&](std::uint32_t lane) {
-            if (lane >= leaves) return;
-            const PackedLeaf leaf = space.leaves.leaf[lane][owner];
-            for (std::uint32_t k = 0; k < leaf.count(); ++k)
-                space.triangles[place[lane] + k] = leaf.first() + k;
+            if (lane < listed && count <= most_triangles)
+                write_triangles(space.leaves.met[lane][owner], space.triangles + place[lane]);
         });
         return count;
+    }
+
+    [[nodiscard]] MIR_HD std::uint32_t triangles_of(MetLeaves leaves) const {
+        const WideNode& node = bvh.nodes[leaves.node()];
+        std::uint32_t count = 0;
+        for (std::uint32_t k = 0; k < WideNode::width; ++k)
+            if ((leaves.slots() >> k & 1u) != 0) count += static_cast<std::uint32_t>(node.count[k]);
+        return count;
+    }
+    MIR_HD void write_triangles(MetLeaves leaves, std::uint32_t* out) const {
+        const WideNode& node = bvh.nodes[leaves.node()];
+        for (std::uint32_t slots = leaves.slots(); slots != 0; slots &= slots - 1) {
+            const std::uint32_t k = LaneGroup::lowest(slots);
+            for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(node.count[k]); ++i)
+                *out++ = node.ref[k] + i;
+        }
     }
 
     /// Decides a pair by `count` triangles, which are all that matter.

@@ -44,6 +44,12 @@ struct OcclusionMargins {
 
 namespace detail {
 
+/// Value of a row at a point for bounds, which have margins for rounding: no worse than row_at().
+MIR_HD inline float loose_at(AffineRow row, Vec3 p) {
+    const float xy = loose::mul_add(row.y, p.y, strict::mul(row.x, p.x));
+    return strict::add(loose::mul_add(row.z, p.z, xy), row.w);
+}
+
 /// An affine function over a box: value in the centre and gradient.
 struct AffineForm {
     float value = 0.0f;
@@ -51,21 +57,19 @@ struct AffineForm {
 
     /// Largest difference from `value` in a box of half edges `half`.
     [[nodiscard]] MIR_HD float extent(Vec3 half) const {
-        return row_at({fabsf(slope.x), fabsf(slope.y), fabsf(slope.z), 0.0f}, half);
+        return loose_at({fabsf(slope.x), fabsf(slope.y), fabsf(slope.z), 0.0f}, half);
     }
 };
 
 MIR_HD inline AffineForm affine_form(AffineRow row, Vec3 centre) {
-    return {row_at(row, centre), {row.x, row.y, row.z}};
+    return {loose_at(row, centre), {row.x, row.y, row.z}};
 }
 
 MIR_HD inline AffineRow negated(AffineRow row) { return {-row.x, -row.y, -row.z, -row.w}; }
 
 /// a f + b g
 MIR_HD inline AffineForm combine(float a, const AffineForm& f, float b, const AffineForm& g) {
-    const auto mix = [a, b](float x, float y) {
-        return strict::add(strict::mul(a, x), strict::mul(b, y));
-    };
+    const auto mix = [a, b](float x, float y) { return loose::mul_add(a, x, strict::mul(b, y)); };
     return {mix(f.value, g.value),
             {mix(f.slope.x, g.slope.x), mix(f.slope.y, g.slope.y), mix(f.slope.z, g.slope.z)}};
 }
@@ -141,7 +145,8 @@ template <class Margins = OcclusionMargins>
     const detail::SureSign plane = detail::sure_sign(beyond, p.half, Margins::plane * p.sigma);
     if (plane.negative) return Occlusion::none;
 
-    const detail::ApexRows apex{row_at(rows.u, p.apex), row_at(rows.v, p.apex), depth};
+    const detail::ApexRows apex{detail::loose_at(rows.u, p.apex), detail::loose_at(rows.v, p.apex),
+                                depth};
     const float margin = detail::edge_margin(rows, p, apex, Margins::edge);
     const detail::SureSign edges = detail::sure_edges(rows, p, beyond, apex, margin);
     if (edges.negative) return Occlusion::none;

@@ -113,9 +113,8 @@ MIR_HD inline ChildRow front_values(const WideNode& node, const ShaftSlabs& s) {
     const ChildRow& z = plane_row(node, 2, s.front_plane[2]);
     ChildRow value;
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {
-        const float behind_z = -loose::mul_sub(z[k], s.front.z, -s.front.w);
-        const float behind_yz = -loose::mul_sub(y[k], s.front.y, behind_z);
-        value[k] = loose::mul_sub(x[k], s.front.x, behind_yz);
+        const float of_z = loose::mul_add(z[k], s.front.z, s.front.w);
+        value[k] = loose::mul_add(x[k], s.front.x, loose::mul_add(y[k], s.front.y, of_z));
     }
     return value;
 }

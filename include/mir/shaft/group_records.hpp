@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/lane_group.hpp"
+#include "mir/shaft/cluster_record.hpp"
+
+#include <limits>
+
+namespace mir {
+
+/// Records of runs of luxels, as cluster_record() makes them but for the order in which normals are
+/// summed: kernel for groups, a run of `run` luxels each, which neighbouring lanes read side by
+/// side. Luxels beyond the last one are padding, that is empty, and are there to be read.
+struct GroupRecords {
+    /// Groups need no memory.
+    struct Workspace {};
+
+    SoaView<const Hit> hits;
+    std::uint32_t run = cluster_luxels;  ///< a multiple of 32
+    float sigma = 0.0f;                  ///< of the scene, metres
+    ClusterRecord* records = nullptr;
+
+    MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace&) const {
+        const detail::ClusterSum sum = sum_of(group, i * run);
+        ClusterRecord cluster;
+        if (sum.luxels > 0) {
+            cluster.low = sum.low - sigma;
+            cluster.high = sum.high + sigma;
+            cluster.luxels = sum.luxels;
+            cluster.front = detail::direction_row(sum.normals);
+            cluster.front.w = strict::sub(2.0f * sigma, least_at(group, cluster.front, i * run));
+        }
+        group.each([&](std::uint32_t lane) {
+            if (lane == 0) records[i] = cluster;
+        });
+    }
+
+ private:
+    static constexpr float infinity = std::numeric_limits<float>::infinity();
+
+    using Floats = LaneGroup::PerLane<float>;
+
+    MIR_HD static float smallest(const LaneGroup& group, Floats values) {
+        return group.combined(values, [](float a, float b) { return smaller(a, b); });
+    }
+    MIR_HD static float largest(const LaneGroup& group, Floats values) {
+        return group.combined(values, [](float a, float b) { return larger(a, b); });
+    }
+    MIR_HD static float total(const LaneGroup& group, Floats values) {
+        return group.combined(values, [](float a, float b) { return strict::add(a, b); });
+    }
+
+    [[nodiscard]] MIR_HD detail::ClusterSum sum_of(const LaneGroup& group,
+                                                   std::uint32_t first) const {
+        LaneGroup::PerLane<detail::ClusterSum> own;
+        LaneGroup::PerLane<std::uint32_t> counts;
+        group.each([&](std::uint32_t lane) {
+            own[lane] = {Vec3(infinity), Vec3(-infinity), Vec3(0.0f), 0};
+            for (std::uint32_t k = lane; k < run; k += LaneGroup::width) {
+                const Hit hit = hits.load(first + k);
+                if (!is_empty(hit)) own[lane].add(hit);
+            }
+            counts[lane] = own[lane].luxels;
+        });
+        detail::ClusterSum sum;
+        sum.luxels = group.sums_before(counts);
+        for (int axis = 0; axis < 3; ++axis) {
+            Floats low, high, normal;
+            group.each([&](std::uint32_t lane) {
+                low[lane] = own[lane].low[axis];
+                high[lane] = own[lane].high[axis];
+                normal[lane] = own[lane].normals[axis];
+            });
+            sum.low[axis] = smallest(group, low);
+            sum.high[axis] = largest(group, high);
+            sum.normals[axis] = total(group, normal);
+        }
+        return sum;
+    }
+
+    [[nodiscard]] MIR_HD float least_at(const LaneGroup& group, AffineRow row,
+                                        std::uint32_t first) const {
+        Floats least;
+        group.each([&](std::uint32_t lane) {
+            least[lane] = infinity;
+            for (std::uint32_t k = lane; k < run; k += LaneGroup::width) {
+                const Hit hit = hits.load(first + k);
+                if (!is_empty(hit)) least[lane] = smaller(row_at(row, hit.position), least[lane]);
+            }
+        });
+        return smallest(group, least);
+    }
+};
+
+}  // namespace mir
