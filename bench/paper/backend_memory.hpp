@@ -35,7 +35,7 @@ class SceneOnBackend {
     /// Shafts that leave segments to `rays`.
     template <mir::Visibility V>
     [[nodiscard]] mir::ClusterVisibility<V> with_shafts(const V& rays) const {
-        return {bvh_.view(), sigma_, rays};
+        return {bvh_.quantised(), sigma_, rays};
     }
 
     /// Starts to trace all luxels on `queue`.

@@ -146,8 +146,8 @@ class KernelBench {
         {
             auto queue = traced.queue();
             shafts_->fill(queue, view().hits, vpls(), visibility_, bits_.data());
-            queue.for_each_group(
-                count_ / 32, mir::WordShading{view(), vpls(), bits_.data(), shading_, sums()});
+            queue.for_each_group(count_ / 32,
+                                 mir::WordShading{view(), vpls(), bits_.data(), shading_, sums()});
             queue.record().sync();
         }
         KernelRun run;

@@ -51,11 +51,11 @@ template <mir::Backend B>
         if (trace)
             shafts.fill(queue, luxels, lights,
                         mir::ClusterVisibility<mir::WideBvhVisibility<B::space>>{
-                            bvh.view(), in.sigma, {bvh.view()}},
+                            bvh.quantised(), in.sigma, {bvh.view()}},
                         there.data());
         else
             shafts.fill(queue, luxels, lights,
-                        mir::ClusterVisibility<SeesAll<B::space>>{bvh.view(), in.sigma, {}},
+                        mir::ClusterVisibility<SeesAll<B::space>>{bvh.quantised(), in.sigma, {}},
                         there.data());
     queue.download(there, std::span(words));
     queue.record().sync();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/quantised_node.hpp"
 #include "mir/accel/wide_bvh.hpp"
 #include "mir/resident/uploaded_array.hpp"
 
 namespace mir {
 
-/// A WideBvh in a backend's memory.
+/// A WideBvh in a backend's memory, and its boxes in short.
 template <Backend B>
 class UploadedWideBvh {
  public:
@@ -15,17 +16,24 @@ class UploadedWideBvh {
         : nodes_(backend, queue, bvh.nodes()),
           triangles_(backend, queue, bvh.triangles()),
           indices_(backend, queue, bvh.indices()),
-          reach_(bvh.view().reach) {}
+          boxes_(backend.template buffer<QuantisedNode>(bvh.nodes().size())),
+          reach_(bvh.view().reach) {
+        queue.for_each(static_cast<std::uint32_t>(bvh.nodes().size()),
+                       QuantiseNodes<B::space>{view(), boxes_.data()});
+    }
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
     [[nodiscard]] WideBvhView<B::space> view() const {
         return {nodes_.data(), triangles_.data(), indices_.data(), reach_};
     }
+    /// The same, for shafts.
+    [[nodiscard]] QuantisedBvhView<B::space> quantised() const { return {view(), boxes_.data()}; }
 
  private:
     UploadedArray<B, WideNode> nodes_;
     UploadedArray<B, TriangleRows> triangles_;
     UploadedArray<B, std::uint32_t> indices_;
+    typename B::template Buffer<QuantisedNode> boxes_;
     float reach_;
 };
 

@@ -30,7 +30,7 @@ struct BlockShafts {
     std::uint32_t block_count = 0;
     P vpls;
     VplBatch batch;
-    WideBvhView<S> bvh;
+    QuantisedBvhView<S> bvh;
     float sigma = 0.0f;              ///< of the scene, metres, as for the records
     std::uint32_t most_nodes = 0;    ///< visited by a shaft
     std::uint32_t* words = nullptr;  ///< as VisibilityWords
@@ -45,7 +45,8 @@ struct BlockShafts {
         const VplIndex j = batch.first + i % batch.count;
         const std::uint32_t first = i / batch.count * LaneGroup::width;
         const Vec3 apex = vpls[j].position;
-        const bool is_proved = is_proved_scale(bvh.reach) && within_reach(apex, bvh.reach);
+        const float reach = bvh.exact.reach;
+        const bool is_proved = is_proved_scale(reach) && within_reach(apex, reach);
 
         LaneGroup::PerLane<PairState> states;
         LaneGroup::PerLane<LeafSearch> searches;
@@ -53,9 +54,9 @@ struct BlockShafts {
         group.each([&](std::uint32_t lane) {
             const std::uint32_t block = first + lane;
             const bool is_alive = block < block_count && any_bit(block, j);
-            const bool on = is_alive && is_proved && within_reach(blocks[block], bvh.reach);
+            const bool on = is_alive && is_proved && within_reach(blocks[block], reach);
             states[lane] = is_alive ? PairState::unknown : PairState::clear;
-            if (on) slabs[lane] = make_shaft_slabs(blocks[block], apex, sigma, bvh.reach);
+            if (on) slabs[lane] = make_shaft_slabs(blocks[block], apex, sigma, reach);
             searches[lane].begin(on);
         });
         search_leaves(group, bvh, slabs, most_nodes, searches, space.leaves);
@@ -102,8 +103,9 @@ struct BlockShafts {
             group.each([&](std::uint32_t lane) {
                 LeafCursor& cursor = cursors[lane];
                 if (!cursor.has_more()) return;
-                const std::uint32_t t = cursor.next(bvh, space.leaves, lane);
-                const Occlusion found = occlusion(bvh.triangles[t], pyramids[lane]);
+                if (!cursor.next(bvh.exact, space.leaves, lane)) return;
+                const Occlusion found =
+                    occlusion(bvh.exact.triangles[cursor.triangle], pyramids[lane]);
                 if (found == Occlusion::none) return;
                 if (found == Occlusion::full) cursor.stop();
                 if (found == Occlusion::full)
@@ -113,34 +115,35 @@ struct BlockShafts {
             });
     }
 
-    /// The next triangle of a lane's leaves.
+    /// The triangles of a lane's leaves, one after the other.
     struct LeafCursor {
-        std::uint32_t at;      ///< in the lane's column
-        std::uint32_t listed;  ///< of it
-        std::uint32_t slots;   ///< of the node that are left
-        std::uint32_t triangle;
-        std::uint32_t end;
+        std::uint32_t at;        ///< in the lane's column
+        std::uint32_t listed;    ///< of it
+        std::uint32_t slots;     ///< of the node that are left
+        std::uint32_t triangle;  ///< where it stands
+        std::uint32_t left;      ///< of the slot, behind that one
 
         MIR_HD void begin(std::uint32_t count) {
-            at = slots = triangle = end = 0;
+            at = slots = triangle = left = 0;
             listed = count;
         }
-        [[nodiscard]] MIR_HD bool has_more() const {
-            return triangle < end || slots != 0 || at < listed;
-        }
+        [[nodiscard]] MIR_HD bool has_more() const { return left > 0 || slots != 0 || at < listed; }
         MIR_HD void stop() { begin(0); }
+
+        /// Moves on; false when it came to an empty slot.
         template <std::uint32_t Capacity>
-        MIR_HD std::uint32_t next(const WideBvhView<S>& bvh, const LeafColumns<Capacity>& columns,
-                                  std::uint32_t lane) {
-            if (triangle == end) {
-                if (slots == 0) slots = columns.met[at++][lane].slots();
-                const WideNode& node = bvh.nodes[columns.met[at - 1][lane].node()];
-                const std::uint32_t k = LaneGroup::lowest(slots);
-                slots &= slots - 1;
-                triangle = node.ref[k];
-                end = triangle + static_cast<std::uint32_t>(node.count[k]);
-            }
-            return triangle++;
+        MIR_HD bool next(const WideBvhView<S>& bvh, const LeafColumns<Capacity>& columns,
+                         std::uint32_t lane) {
+            ++triangle;
+            if (left > 0) return left-- > 0;
+            if (slots == 0) slots = columns.met[at++][lane].slots();
+            const WideNode& node = bvh.nodes[columns.met[at - 1][lane].node()];
+            const std::uint32_t k = LaneGroup::lowest(slots);
+            slots &= slots - 1;
+            triangle = node.ref[k];
+            const std::uint32_t count = triangles_of_slot(node, k);
+            left = count > 0 ? count - 1 : 0;
+            return count > 0;
         }
     };
 };

@@ -24,7 +24,7 @@ struct ClusterShafts {
     SoaView<const Hit> hits;
     const ClusterRecord* clusters = nullptr;  ///< of 32 luxels
     P vpls;
-    WideBvhView<S> bvh;
+    QuantisedBvhView<S> bvh;
     float sigma = 0.0f;            ///< of the scene, metres, as for the records
     std::uint32_t most_nodes = 0;  ///< visited by a shaft
     std::uint32_t group_count = 0;
@@ -55,12 +55,12 @@ struct ClusterShafts {
         group.each([&](std::uint32_t lane) {
             const Task task = task_of(first, count, lane);
             tasks[lane] = task;
-            bool on = task.is_alive && is_proved_scale(bvh.reach);
+            bool on = task.is_alive && is_proved_scale(bvh.exact.reach);
             if (on) {
                 const Vec3 apex = vpls[task.vpl].position;
                 const ClusterRecord& cluster = clusters[task.cluster];
-                on = within_reach(apex, bvh.reach) && within_reach(cluster, bvh.reach);
-                if (on) slabs[lane] = make_shaft_slabs(cluster, apex, sigma, bvh.reach);
+                on = within_reach(apex, bvh.exact.reach) && within_reach(cluster, bvh.exact.reach);
+                if (on) slabs[lane] = make_shaft_slabs(cluster, apex, sigma, bvh.exact.reach);
             }
             searches[lane].begin(on);
         });
@@ -135,56 +135,80 @@ struct ClusterShafts {
     }
 
     [[nodiscard]] MIR_HD std::uint32_t triangles_of(MetLeaves leaves) const {
-        const WideNode& node = bvh.nodes[leaves.node()];
+        const WideNode& node = bvh.exact.nodes[leaves.node()];
         std::uint32_t count = 0;
         for (std::uint32_t k = 0; k < WideNode::width; ++k)
-            if ((leaves.slots() >> k & 1u) != 0) count += static_cast<std::uint32_t>(node.count[k]);
+            if ((leaves.slots() >> k & 1u) != 0) count += triangles_of_slot(node, k);
         return count;
     }
     MIR_HD void write_triangles(MetLeaves leaves, std::uint32_t* out) const {
-        const WideNode& node = bvh.nodes[leaves.node()];
+        const WideNode& node = bvh.exact.nodes[leaves.node()];
         for (std::uint32_t slots = leaves.slots(); slots != 0; slots &= slots - 1) {
             const std::uint32_t k = LaneGroup::lowest(slots);
-            for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(node.count[k]); ++i)
-                *out++ = node.ref[k] + i;
+            for (std::uint32_t i = 0; i < triangles_of_slot(node, k); ++i) *out++ = node.ref[k] + i;
         }
     }
 
     /// Decides a pair by `count` triangles, which are all that matter.
     MIR_HD void resolve(const LaneGroup& group, std::uint32_t cluster, VplIndex j,
-                        std::uint32_t count, const Workspace& space) const {
+                        std::uint32_t count, Workspace& space) const {
         const Vec3 apex = vpls[j].position;
-        const Pyramid pyramid = make_pyramid(clusters[cluster], apex, sigma);
+        const std::uint32_t partial = keep_partial(group, cluster, apex, count, space);
         const std::uint32_t before = word(cluster, j);
-        std::uint32_t lit = before;
-        for (std::uint32_t first = 0; first < count && lit != 0; first += LaneGroup::width) {
-            LaneGroup::PerLane<Occlusion> found;
-            group.each([&](std::uint32_t lane) {
-                const std::uint32_t k = first + lane;
-                found[lane] = k < count ? occlusion(bvh.triangles[space.triangles[k]], pyramid)
-                                        : Occlusion::none;
-            });
-            const auto lanes_with = [&](Occlusion o) {
-                return group.ballot([&](std::uint32_t lane) { return found[lane] == o; });
-            };
-            if (lanes_with(Occlusion::full) != 0) lit = 0;
-            std::uint32_t partial = lanes_with(Occlusion::partial);
-            for (; partial != 0 && lit != 0; partial &= partial - 1)
-                lit &= ~hit_by(group, cluster, apex,
-                               space.triangles[first + LaneGroup::lowest(partial)]);
-        }
+        const std::uint32_t lit =
+            partial == covered ? 0u : lit_behind(group, cluster, apex, before, partial, space);
         group.each([&](std::uint32_t lane) {
             if (lane == 0 && lit != before) word(cluster, j) = lit;
         });
     }
 
-    /// Luxels of a cluster whose segments a triangle hits, a bit each.
-    [[nodiscard]] MIR_HD std::uint32_t hit_by(const LaneGroup& group, std::uint32_t cluster,
-                                              Vec3 apex, std::uint32_t triangle) const {
-        return group.ballot([&](std::uint32_t lane) {
-            const Vec3 luxel = hits.load(cluster * cluster_luxels + lane).position;
-            return hits_segment(bvh.triangles[triangle], apex, luxel);
+    static constexpr std::uint32_t covered = 0xFFFFFFFFu;
+
+    /// Moves those of `count` triangles that are partial to the front of the workspace and returns
+    /// their number, or `covered` when one covers the whole cluster.
+    [[nodiscard]] MIR_HD std::uint32_t keep_partial(const LaneGroup& group, std::uint32_t cluster,
+                                                    Vec3 apex, std::uint32_t count,
+                                                    Workspace& space) const {
+        const Pyramid pyramid = make_pyramid(clusters[cluster], apex, sigma);
+        std::uint32_t kept = 0;
+        for (std::uint32_t first = 0; first < count; first += LaneGroup::width) {
+            LaneGroup::PerLane<std::uint32_t> triangle;
+            LaneGroup::PerLane<Occlusion> found;
+            group.each([&](std::uint32_t lane) {
+                const bool on = first + lane < count;
+                triangle[lane] = on ? space.triangles[first + lane] : 0u;
+                found[lane] =
+                    on ? occlusion(bvh.exact.triangles[triangle[lane]], pyramid) : Occlusion::none;
+            });
+            if (group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::full; }) !=
+                0)
+                return covered;
+            const std::uint32_t partial =
+                group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::partial; });
+            group.each([&](std::uint32_t lane) {
+                if ((partial >> lane & 1u) != 0)
+                    space.triangles[kept + LaneGroup::count(partial & ((1u << lane) - 1u))] =
+                        triangle[lane];
+            });
+            kept += LaneGroup::count(partial);
+        }
+        return kept;
+    }
+
+    /// Luxels of `lit` whose segments none of the first `count` triangles hits.
+    [[nodiscard]] MIR_HD std::uint32_t lit_behind(const LaneGroup& group, std::uint32_t cluster,
+                                                  Vec3 apex, std::uint32_t lit, std::uint32_t count,
+                                                  const Workspace& space) const {
+        LaneGroup::PerLane<Vec3> luxels;
+        group.each([&](std::uint32_t lane) {
+            luxels[lane] = hits.load(cluster * cluster_luxels + lane).position;
         });
+        for (std::uint32_t k = 0; k < count && lit != 0; ++k) {
+            const TriangleRows rows = bvh.exact.triangles[space.triangles[k]];
+            lit &= ~group.ballot(
+                [&](std::uint32_t lane) { return hits_segment(rows, apex, luxels[lane]); });
+        }
+        return lit;
     }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh_view.hpp"
+#include "mir/accel/quantised_node.hpp"
 #include "mir/concepts/visibility.hpp"
 
 #include <type_traits>
@@ -16,7 +16,7 @@ template <Visibility V>
 struct ClusterVisibility {
     static constexpr Space space = V::space;
 
-    WideBvhView<V::space> bvh;
+    QuantisedBvhView<V::space> bvh;
     float sigma = 0.0f;  ///< of the scene (accept_box.hpp), metres
     V segments;
 
@@ -26,7 +26,7 @@ struct ClusterVisibility {
 /// A Visibility that brings what shafts need.
 template <class V>
 concept ShaftableVisibility = Visibility<V> && requires(const V v) {
-    { v.bvh } -> std::convertible_to<WideBvhView<V::space>>;
+    { v.bvh } -> std::convertible_to<QuantisedBvhView<V::space>>;
     { v.sigma } -> std::convertible_to<float>;
     requires Visibility<std::remove_cvref_t<decltype(v.segments)>>;
 };

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh_view.hpp"
+#include "mir/accel/quantised_node.hpp"
 #include "mir/core/lane_group.hpp"
 #include "mir/shaft/pair_search.hpp"
 #include "mir/shaft/shaft_slabs.hpp"
 
 namespace mir {
 
-/// Leaves of one node of a wide hierarchy, in one word: the node and a bit for each slot.
+/// Leaves of one node of a wide hierarchy, in one word: the node and a bit for each slot. Empty
+/// slots may be among them.
 struct MetLeaves {
     static constexpr std::uint32_t most_nodes = 1u << 24;
 
@@ -23,6 +24,11 @@ struct MetLeaves {
     }
 };
 static_assert(WideNode::width == 8);
+
+/// Triangles of a slot that is no node.
+[[nodiscard]] MIR_HD inline std::uint32_t triangles_of_slot(const WideNode& node, std::uint32_t k) {
+    return node.is_leaf(k) ? static_cast<std::uint32_t>(node.count[k]) : 0u;
+}
 
 /// Leaves that the shafts of a group's lanes meet, a column per lane.
 template <std::uint32_t Capacity>
@@ -59,30 +65,14 @@ struct LeafSearch {
 
 namespace detail {
 
-/// Slots of a node by what is in them.
-struct SlotKinds {
-    std::uint32_t inner = 0;
-    std::uint32_t leaf = 0;
-};
-
-MIR_HD inline SlotKinds slot_kinds(const WideNode& node) {
-    SlotKinds kinds;
-    for (std::uint32_t k = 0; k < WideNode::width; ++k) {
-        kinds.inner |= node.is_inner(k) ? 1u << k : 0u;
-        kinds.leaf |= node.is_leaf(k) ? 1u << k : 0u;
-    }
-    return kinds;
-}
-
 /// One node.
 template <Space S, std::uint32_t Capacity>
-MIR_HD void step(const WideBvhView<S>& bvh, const ShaftSlabs& slabs, std::uint32_t most_nodes,
+MIR_HD void step(const QuantisedBvhView<S>& bvh, const ShaftSlabs& slabs, std::uint32_t most_nodes,
                  std::uint32_t lane, LeafSearch& search, LeafColumns<Capacity>& columns) {
-    const WideNode& node = bvh.nodes[search.node];
+    const QuantisedNode node = bvh.boxes[search.node];
     const std::uint32_t met = met_slots(node, slabs);
-    const SlotKinds kinds = slot_kinds(node);
-    const std::uint32_t inner = met & kinds.inner;
-    const std::uint32_t leaf = met & kinds.leaf;
+    const std::uint32_t inner = met & node.inner;
+    const std::uint32_t leaf = met ^ inner;
     bool over = false;
     if (leaf != 0) {
         over = search.listed == Capacity || search.node >= MetLeaves::most_nodes;
@@ -95,7 +85,7 @@ MIR_HD void step(const WideBvhView<S>& bvh, const ShaftSlabs& slabs, std::uint32
         WaitingSlots& top = search.stack[search.waiting - 1];
         const std::uint32_t k = LaneGroup::lowest(top.slots);
         top.slots &= top.slots - 1;
-        search.node = bvh.nodes[top.node].ref[k];
+        search.node = bvh.exact.nodes[top.node].ref[k];
         if (top.slots == 0) --search.waiting;
     }
     if (ended) search.state = LeafSearchState::complete;
@@ -109,7 +99,7 @@ MIR_HD void step(const WideBvhView<S>& bvh, const ShaftSlabs& slabs, std::uint32
 /// hits_segment() accepts for some segment of its shaft. A node per turn for all lanes that have
 /// one left: lanes that met a leaf or went up come together again before the next.
 template <Space S, std::uint32_t Capacity>
-MIR_HD void search_leaves(const LaneGroup& group, const WideBvhView<S>& bvh,
+MIR_HD void search_leaves(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
                           const LaneGroup::PerLane<ShaftSlabs>& slabs, std::uint32_t most_nodes,
                           LaneGroup::PerLane<LeafSearch>& searches,
                           LeafColumns<Capacity>& columns) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/detail/axis_step.hpp"
-#include "mir/accel/wide_node.hpp"
+#include "mir/shaft/node_planes.hpp"
 #include "mir/shaft/shaft.hpp"
 
 namespace mir {
@@ -73,22 +72,19 @@ MIR_HD inline void set_axis(ShaftSlabs& s, int axis, float apex, float low, floa
 
 namespace detail {
 
-MIR_HD inline const ChildRow& plane_row(const WideNode& node, int axis, std::uint32_t upper) {
-    return node.planes[2 * axis + static_cast<int>(upper)];
-}
-
 /// Shares of the way between which segments may be inside of eight children.
 struct ChildIntervals {
     ChildRow begin;
     ChildRow end;
 };
 
-MIR_HD inline void meet_axis(const WideNode& node, const ShaftSlabs& s, int axis,
-                             ChildIntervals& t) {
-    const ChildRow& nears = plane_row(node, axis, s.near_plane[axis]);
-    const ChildRow& fars = plane_row(node, axis, s.near_plane[axis] ^ 1u);
-    const AxisStep near = s.nears[axis];
-    const AxisStep far = s.fars[axis];
+template <class Node>
+MIR_HD void meet_axis(const Node& node, const ShaftSlabs& s, int axis, ChildIntervals& t) {
+    const bool near_upper = s.near_plane[axis] != 0;
+    const auto& nears = plane_row(node, axis, near_upper);
+    const auto& fars = plane_row(node, axis, !near_upper);
+    const AxisStep near = adapted(node, axis, s.nears[axis]);
+    const AxisStep far = adapted(node, axis, s.fars[axis]);
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {
         t.begin[k] = larger(t.begin[k], loose::mul_sub(nears[k], near.inverse, near.offset));
         t.end[k] = smaller(t.end[k], loose::mul_sub(fars[k], far.inverse, far.offset));
@@ -96,34 +92,39 @@ MIR_HD inline void meet_axis(const WideNode& node, const ShaftSlabs& s, int axis
 }
 
 /// The second lower bound where the VPL straddles the cluster's box.
-MIR_HD inline void meet_other_planes(const WideNode& node, const ShaftSlabs& s, ChildIntervals& t) {
+template <class Node>
+MIR_HD void meet_other_planes(const Node& node, const ShaftSlabs& s, ChildIntervals& t) {
     for (int axis = 0; axis < 3; ++axis) {
-        const AxisStep other = s.others[axis];
-        if (other.inverse == 0.0f) continue;
-        const ChildRow& lows = plane_row(node, axis, 0);
+        if (s.others[axis].inverse == 0.0f) continue;
+        const auto& lows = plane_row(node, axis, false);
+        const AxisStep other = adapted(node, axis, s.others[axis]);
         for (std::uint32_t k = 0; k < WideNode::width; ++k)
             t.begin[k] = larger(t.begin[k], loose::mul_sub(lows[k], other.inverse, other.offset));
     }
 }
 
 /// Values of the half-space's row at the foremost corners of eight children, metres.
-MIR_HD inline ChildRow front_values(const WideNode& node, const ShaftSlabs& s) {
-    const ChildRow& x = plane_row(node, 0, s.front_plane[0]);
-    const ChildRow& y = plane_row(node, 1, s.front_plane[1]);
-    const ChildRow& z = plane_row(node, 2, s.front_plane[2]);
+template <class Node>
+MIR_HD ChildRow front_values(const Node& node, const ShaftSlabs& s) {
+    const AffineRow front = adapted(node, s.front);
+    const auto& x = plane_row(node, 0, s.front_plane[0] != 0);
+    const auto& y = plane_row(node, 1, s.front_plane[1] != 0);
+    const auto& z = plane_row(node, 2, s.front_plane[2] != 0);
     ChildRow value;
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {
-        const float of_z = loose::mul_add(z[k], s.front.z, s.front.w);
-        value[k] = loose::mul_add(x[k], s.front.x, loose::mul_add(y[k], s.front.y, of_z));
+        const float of_z = loose::mul_add(z[k], front.z, front.w);
+        value[k] = loose::mul_add(x[k], front.x, loose::mul_add(y[k], front.y, of_z));
     }
     return value;
 }
 
 }  // namespace detail
 
-/// Slots of a node whose boxes hold a point of a segment of the shaft within its half-space, bit k
-/// for slot k; false ones of others may be set, those of empty slots among them.
-[[nodiscard]] MIR_HD inline std::uint32_t met_slots(const WideNode& node, const ShaftSlabs& s) {
+/// Slots of a WideNode or a QuantisedNode whose boxes hold a point of a segment of the shaft within
+/// its half-space, bit k for slot k; false ones of others may be set, those of empty slots among
+/// them.
+template <class Node>
+[[nodiscard]] MIR_HD std::uint32_t met_slots(const Node& node, const ShaftSlabs& s) {
     detail::ChildIntervals t;
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {
         t.begin[k] = 0.0f;
