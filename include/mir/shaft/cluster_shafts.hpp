@@ -18,7 +18,8 @@ struct ClusterShafts {
     /// What a group works in.
     struct Workspace {
         LeafColumns<LaneGroup::width> leaves;
-        std::uint32_t triangles[most_triangles];  ///< of one lane
+        std::uint32_t triangles[most_triangles];    ///< of one lane
+        detail::RowValues of_apex[most_triangles];  ///< theirs at the VPL, of those kept
     };
 
     SoaView<const Hit> hits;
@@ -108,7 +109,7 @@ struct ClusterShafts {
         for (; listed != 0; listed &= listed - 1) {
             const std::uint32_t owner = LaneGroup::lowest(listed);
             const std::uint32_t count = unpack(group, owner, group.broadcast(sizes, owner), space);
-            if (count > most_triangles)
+            if (count == too_many)
                 too_long |= 1u << owner;
             else
                 resolve(group, group.broadcast(cluster, owner), group.broadcast(vpl, owner), count,
@@ -117,36 +118,46 @@ struct ClusterShafts {
         return too_long;
     }
 
-    /// Writes the triangles of a lane's leaves to the workspace, a node per lane; returns how many
-    /// there are. Those that are too many are not written.
+    /// Writes the triangles of a lane's leaves to the workspace, a slot of a node per lane; returns
+    /// how many there are. Those that are too many are not written.
     [[nodiscard]] MIR_HD std::uint32_t unpack(const LaneGroup& group, std::uint32_t owner,
                                               std::uint32_t listed, Workspace& space) const {
-        LaneGroup::PerLane<std::uint32_t> place;
-        group.each([&](std::uint32_t lane) {
-            place[lane] =
-                lane < listed ? triangles_of(space.leaves.met[lane][owner]) : std::uint32_t{0};
-        });
-        const std::uint32_t count = group.sums_before(place);
-        group.each([&](std::uint32_t lane) {
-            if (lane < listed && count <= most_triangles)
-                write_triangles(space.leaves.met[lane][owner], space.triangles + place[lane]);
-        });
-        return count;
+        constexpr std::uint32_t nodes_at_once = LaneGroup::width / WideNode::width;
+        std::uint32_t written = 0;
+        for (std::uint32_t first = 0; first < listed; first += nodes_at_once) {
+            LaneGroup::PerLane<std::uint32_t> place;
+            LaneGroup::PerLane<Leaf> leaves;
+            group.each([&](std::uint32_t lane) {
+                const std::uint32_t at = first + lane / WideNode::width;
+                leaves[lane] = at < listed
+                                   ? leaf_in(space.leaves.met[at][owner], lane % WideNode::width)
+                                   : Leaf{0, 0};
+                place[lane] = leaves[lane].count;
+            });
+            const std::uint32_t count = group.sums_before(place);
+            if (written + count > most_triangles) return too_many;
+            group.each([&](std::uint32_t lane) {
+                std::uint32_t* const out = space.triangles + written + place[lane];
+                for (std::uint32_t i = 0; i < leaves[lane].count; ++i)
+                    out[i] = leaves[lane].first + i;
+            });
+            written += count;
+        }
+        return written;
     }
 
-    [[nodiscard]] MIR_HD std::uint32_t triangles_of(MetLeaves leaves) const {
-        const WideNode& node = bvh.exact.nodes[leaves.node()];
-        std::uint32_t count = 0;
-        for (std::uint32_t k = 0; k < WideNode::width; ++k)
-            if ((leaves.slots() >> k & 1u) != 0) count += triangles_of_slot(node, k);
-        return count;
-    }
-    MIR_HD void write_triangles(MetLeaves leaves, std::uint32_t* out) const {
-        const WideNode& node = bvh.exact.nodes[leaves.node()];
-        for (std::uint32_t slots = leaves.slots(); slots != 0; slots &= slots - 1) {
-            const std::uint32_t k = LaneGroup::lowest(slots);
-            for (std::uint32_t i = 0; i < triangles_of_slot(node, k); ++i) *out++ = node.ref[k] + i;
-        }
+    static constexpr std::uint32_t too_many = 0xFFFFFFFFu;
+
+    /// Triangles of a leaf.
+    struct Leaf {
+        std::uint32_t first;
+        std::uint32_t count;
+    };
+
+    [[nodiscard]] MIR_HD Leaf leaf_in(MetLeaves met, std::uint32_t slot) const {
+        if ((met.slots() >> slot & 1u) == 0) return {0, 0};
+        const WideNode& node = bvh.exact.nodes[met.node()];
+        return {node.ref[slot], triangles_of_slot(node, slot)};
     }
 
     /// Decides a pair by `count` triangles, which are all that matter.
@@ -174,11 +185,14 @@ struct ClusterShafts {
         for (std::uint32_t first = 0; first < count; first += LaneGroup::width) {
             LaneGroup::PerLane<std::uint32_t> triangle;
             LaneGroup::PerLane<Occlusion> found;
+            LaneGroup::PerLane<detail::RowValues> of_apex;
             group.each([&](std::uint32_t lane) {
-                const bool on = first + lane < count;
-                triangle[lane] = on ? space.triangles[first + lane] : 0u;
-                found[lane] =
-                    on ? occlusion(bvh.exact.triangles[triangle[lane]], pyramid) : Occlusion::none;
+                found[lane] = Occlusion::none;
+                if (first + lane >= count) return;
+                triangle[lane] = space.triangles[first + lane];
+                const TriangleRows rows = bvh.exact.triangles[triangle[lane]];
+                found[lane] = occlusion(rows, pyramid);
+                of_apex[lane] = detail::row_values(rows, apex);
             });
             if (group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::full; }) !=
                 0)
@@ -186,9 +200,10 @@ struct ClusterShafts {
             const std::uint32_t partial =
                 group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::partial; });
             group.each([&](std::uint32_t lane) {
-                if ((partial >> lane & 1u) != 0)
-                    space.triangles[kept + LaneGroup::count(partial & ((1u << lane) - 1u))] =
-                        triangle[lane];
+                if ((partial >> lane & 1u) == 0) return;
+                const std::uint32_t at = kept + LaneGroup::count(partial & ((1u << lane) - 1u));
+                space.triangles[at] = triangle[lane];
+                space.of_apex[at] = of_apex[lane];
             });
             kept += LaneGroup::count(partial);
         }
@@ -205,8 +220,10 @@ struct ClusterShafts {
         });
         for (std::uint32_t k = 0; k < count && lit != 0; ++k) {
             const TriangleRows rows = bvh.exact.triangles[space.triangles[k]];
-            lit &= ~group.ballot(
-                [&](std::uint32_t lane) { return hits_segment(rows, apex, luxels[lane]); });
+            const detail::RowValues from = space.of_apex[k];
+            lit &= ~group.ballot([&](std::uint32_t lane) {
+                return detail::hits_segment(from, detail::row_values(rows, luxels[lane]));
+            });
         }
         return lit;
     }

@@ -78,17 +78,49 @@ struct ChildIntervals {
     ChildRow end;
 };
 
+/// The largest of three shares and 0.
+MIR_HD inline float latest(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    // Numbers that are not negative are ordered as their bits are, and negative ones below them.
+    return __int_as_float(
+        __vimax3_s32_relu(__float_as_int(a), __float_as_int(b), __float_as_int(c)));
+#else
+    return larger(larger(a, b), larger(c, 0.0f));
+#endif
+}
+
+/// The smallest of three shares, or some negative one of them: nothing begins before 0.
+MIR_HD inline float earliest(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    return __int_as_float(__vimin3_s32(__float_as_int(a), __float_as_int(b), __float_as_int(c)));
+#else
+    return smaller(smaller(a, b), c);
+#endif
+}
+
 template <class Node>
-MIR_HD void meet_axis(const Node& node, const ShaftSlabs& s, int axis, ChildIntervals& t) {
-    const bool near_upper = s.near_plane[axis] != 0;
-    const auto& nears = plane_row(node, axis, near_upper);
-    const auto& fars = plane_row(node, axis, !near_upper);
-    const AxisStep near = adapted(node, axis, s.nears[axis]);
-    const AxisStep far = adapted(node, axis, s.fars[axis]);
+MIR_HD ChildIntervals child_intervals(const Node& node, const ShaftSlabs& s) {
+    const auto& near_x = plane_row(node, 0, s.near_plane[0] != 0);
+    const auto& near_y = plane_row(node, 1, s.near_plane[1] != 0);
+    const auto& near_z = plane_row(node, 2, s.near_plane[2] != 0);
+    const auto& far_x = plane_row(node, 0, s.near_plane[0] == 0);
+    const auto& far_y = plane_row(node, 1, s.near_plane[1] == 0);
+    const auto& far_z = plane_row(node, 2, s.near_plane[2] == 0);
+    const AxisStep enters[3] = {adapted(node, 0, s.nears[0]), adapted(node, 1, s.nears[1]),
+                                adapted(node, 2, s.nears[2])};
+    const AxisStep leaves[3] = {adapted(node, 0, s.fars[0]), adapted(node, 1, s.fars[1]),
+                                adapted(node, 2, s.fars[2])};
+    const auto passes = [](float plane, AxisStep step) {
+        return loose::mul_sub(plane, step.inverse, step.offset);
+    };
+    ChildIntervals t;
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {
-        t.begin[k] = larger(t.begin[k], loose::mul_sub(nears[k], near.inverse, near.offset));
-        t.end[k] = smaller(t.end[k], loose::mul_sub(fars[k], far.inverse, far.offset));
+        t.begin[k] = latest(passes(near_x[k], enters[0]), passes(near_y[k], enters[1]),
+                            passes(near_z[k], enters[2]));
+        t.end[k] = earliest(passes(far_x[k], leaves[0]), passes(far_y[k], leaves[1]),
+                            passes(far_z[k], leaves[2]));
     }
+    return t;
 }
 
 /// The second lower bound where the VPL straddles the cluster's box.
@@ -125,19 +157,12 @@ MIR_HD ChildRow front_values(const Node& node, const ShaftSlabs& s) {
 /// them.
 template <class Node>
 [[nodiscard]] MIR_HD std::uint32_t met_slots(const Node& node, const ShaftSlabs& s) {
-    detail::ChildIntervals t;
-    for (std::uint32_t k = 0; k < WideNode::width; ++k) {
-        t.begin[k] = 0.0f;
-        t.end[k] = 1.0f;
-    }
-    detail::meet_axis(node, s, 0, t);
-    detail::meet_axis(node, s, 1, t);
-    detail::meet_axis(node, s, 2, t);
+    detail::ChildIntervals t = detail::child_intervals(node, s);
     if (s.straddles) detail::meet_other_planes(node, s, t);
     const ChildRow front = detail::front_values(node, s);
     std::uint32_t mask = 0;
     for (std::uint32_t k = 0; k < WideNode::width; ++k)
-        mask |= t.begin[k] <= t.end[k] && front[k] >= 0.0f ? 1u << k : 0u;
+        mask |= t.begin[k] <= t.end[k] && t.begin[k] <= 1.0f && front[k] >= 0.0f ? 1u << k : 0u;
     return mask;
 }
 
