@@ -167,7 +167,7 @@ struct ClusterShafts {
         const std::uint32_t partial = keep_partial(group, cluster, apex, count, space);
         const std::uint32_t before = word(cluster, j);
         const std::uint32_t lit =
-            partial == covered ? 0u : lit_behind(group, cluster, apex, before, partial, space);
+            partial == covered ? 0u : lit_behind(group, cluster, before, partial, space);
         group.each([&](std::uint32_t lane) {
             if (lane == 0 && lit != before) word(cluster, j) = lit;
         });
@@ -212,7 +212,7 @@ struct ClusterShafts {
 
     /// Luxels of `lit` whose segments none of the first `count` triangles hits.
     [[nodiscard]] MIR_HD std::uint32_t lit_behind(const LaneGroup& group, std::uint32_t cluster,
-                                                  Vec3 apex, std::uint32_t lit, std::uint32_t count,
+                                                  std::uint32_t lit, std::uint32_t count,
                                                   const Workspace& space) const {
         LaneGroup::PerLane<Vec3> luxels;
         group.each([&](std::uint32_t lane) {
