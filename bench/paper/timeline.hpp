@@ -19,14 +19,15 @@ enum class Work {
     facing,
     blocks,    ///< shafts of 256 luxels
     clusters,  ///< shafts of 32
+    lists,     ///< of their triangles
     segments,  ///< that no shaft decided
     shading,
     other
 };
 
-inline constexpr std::array work_names{"upload",   "download", "fused",  "visibility",
-                                       "records",  "facing",   "blocks", "clusters",
-                                       "segments", "shading",  "other"};
+inline constexpr std::array work_names{"upload",  "download", "fused",   "visibility",
+                                       "records", "facing",   "blocks",  "clusters",
+                                       "lists",   "segments", "shading", "other"};
 
 inline constexpr bool is_transfer(Work w) { return w == Work::upload || w == Work::download; }
 

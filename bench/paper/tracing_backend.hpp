@@ -106,6 +106,8 @@ template <mir::Space S, class P>
 inline constexpr Work work_of<mir::BlockShafts<S, P>> = Work::blocks;
 template <mir::Space S, class P>
 inline constexpr Work work_of<mir::ClusterShafts<S, P>> = Work::clusters;
+template <mir::Space S, class P>
+inline constexpr Work work_of<mir::ClusterLists<S, P>> = Work::lists;
 template <class P, class V>
 inline constexpr Work work_of<mir::OpenSegments<P, V>> = Work::segments;
 

@@ -89,6 +89,16 @@ TEST_CASE("No batch of VPLs and no number of groups changes a bit") {
     CHECK_THROWS_AS(words(stage, {48, 96, 1, 0}), mir::Error);
 }
 
+TEST_CASE("No room for leaves changes a bit") {
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const ShaftStage stage = stage_of(world, 3000, 37);
+    const auto truth = stage.by_brute_force();
+    for (std::uint32_t leaves : {0u, 1u, 7u, 8u, 9u, 100u, 5000u}) {
+        CAPTURE(leaves);
+        CHECK(different_bits(words(stage, {48, 96, 37, 16, leaves}), truth) == 0);
+    }
+}
+
 TEST_CASE("Any number of luxels and of VPLs is right for a backend's shafts") {
     const mirtest::World world = soup(false, 1.0f, 0.0f);
     for (std::uint32_t luxels : {0u, 1u, 33u, 256u, 513u, 8193u})

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/concepts/backend.hpp"
-#include "mir/shaft/cluster_shafts.hpp"
+#include "mir/shaft/cluster_lists.hpp"
 #include "mir/shaft/cluster_visibility.hpp"
 #include "mir/shaft/facing_pass.hpp"
 #include "mir/shaft/group_records.hpp"
@@ -19,6 +19,7 @@ struct BackendShaftOptions {
     std::uint32_t cluster_nodes = 96;  ///< that the shaft of 32 luxels and a VPL visits
     std::uint32_t vpls = 256;  ///< at a time, at least 1: queues have room for all their pairs
     std::uint32_t groups = 1u << 14;  ///< that empty a queue together, at least 1
+    std::uint32_t leaves = 1u << 26;  ///< room for the leaves that shafts meet, 4 bytes each
 };
 
 /// Fills words of visibility on a backend by shafts, for luxels in memory order: the better
@@ -37,7 +38,10 @@ class BackendShafts {
           clusters_(backend.template buffer<ClusterRecord>(luxels / cluster_luxels)),
           open_blocks_(backend.template buffer<OpenPair>(pairs(luxels / block_luxels, vpls))),
           open_clusters_(backend.template buffer<OpenPair>(pairs(luxels / cluster_luxels, vpls))),
-          counters_(backend.template buffer<std::uint32_t>(4)) {}
+          leaves_(backend.template buffer<MetLeaves>(
+              std::min<std::size_t>(options_.leaves, 32 * open_clusters_.size()))),
+          listed_(backend.template buffer<ListedPair>(leaves_.size() / 8)),
+          counters_(backend.template buffer<std::uint32_t>(7)) {}
 
     /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`: bit for bit
     /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are a multiple of
@@ -75,19 +79,32 @@ class BackendShafts {
         const std::uint32_t block_count = hits.stride / block_luxels;
         queue.clear(counters_);
         std::uint32_t* counter = counters_.data();
-        const PairQueue open_blocks{open_blocks_.data(), counter, counter + 1};
-        const PairQueue open_clusters{open_clusters_.data(), counter + 2, counter + 3};
+        const WorkQueue<OpenPair> blocks{open_blocks_.data(), size_of(open_blocks_), counter,
+                                         counter + 1};
+        const WorkQueue<ListedPair> listed{listed_.data(), size_of(listed_), counter + 2,
+                                           counter + 3};
+        const WorkQueue<OpenPair> open{open_clusters_.data(), size_of(open_clusters_), counter + 4,
+                                       counter + 5};
+        const LeafPool pool{leaves_.data(), size_of(leaves_), counter + 6};
+        const WideBvhView<space>& bvh = visibility.bvh.exact;
         queue.for_each_group(
             BlockShafts<space, P>::groups(block_count, batch),
             BlockShafts<space, P>{blocks_.data(), block_count, vpls, batch, visibility.bvh,
-                                  visibility.sigma, options_.block_nodes, words, open_blocks});
+                                  visibility.sigma, options_.block_nodes, words, blocks});
         queue.for_each_group(
             options_.groups,
-            ClusterShafts<space, P>{hits, clusters_.data(), vpls, visibility.bvh, visibility.sigma,
-                                    options_.cluster_nodes, options_.groups, words, open_blocks,
-                                    open_clusters});
+            ClusterShafts<space, P>{clusters_.data(), vpls, visibility.bvh, visibility.sigma,
+                                    options_.cluster_nodes, words, blocks, listed, pool, open});
+        queue.for_each_group(options_.groups, ClusterLists<space, P>{hits, clusters_.data(), vpls,
+                                                                     bvh, visibility.sigma, words,
+                                                                     listed, pool.leaves, open});
         queue.for_each_group(options_.groups,
-                             OpenSegments{hits, vpls, visibility.segments, words, open_clusters});
+                             OpenSegments{hits, vpls, visibility.segments, words, open});
+    }
+
+    template <class Buffer>
+    [[nodiscard]] static std::uint32_t size_of(const Buffer& buffer) {
+        return static_cast<std::uint32_t>(buffer.size());
     }
 
     BackendShaftOptions options_;
@@ -95,6 +112,8 @@ class BackendShafts {
     typename B::template Buffer<ClusterRecord> clusters_;
     typename B::template Buffer<OpenPair> open_blocks_;
     typename B::template Buffer<OpenPair> open_clusters_;
+    typename B::template Buffer<MetLeaves> leaves_;
+    typename B::template Buffer<ListedPair> listed_;
     typename B::template Buffer<std::uint32_t> counters_;
 };
 

@@ -3,7 +3,7 @@
 
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/shaft/leaf_search.hpp"
-#include "mir/shaft/pair_queue.hpp"
+#include "mir/shaft/work_queue.hpp"
 
 namespace mir {
 
@@ -20,6 +20,7 @@ struct VplBatch {
 template <Space S, VplSet P>
 struct BlockShafts {
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
+    static constexpr std::uint32_t most_triangles = 64;  ///< tested for a pair
 
     /// What a group works in.
     struct Workspace {
@@ -34,7 +35,7 @@ struct BlockShafts {
     float sigma = 0.0f;              ///< of the scene, metres, as for the records
     std::uint32_t most_nodes = 0;    ///< visited by a shaft
     std::uint32_t* words = nullptr;  ///< as VisibilityWords
-    PairQueue open;                  ///< blocks
+    WorkQueue<OpenPair> open;        ///< blocks; has room for all
 
     /// Groups that cover all pairs.
     [[nodiscard]] static std::uint32_t groups(std::uint32_t blocks, VplBatch batch) {
@@ -99,7 +100,10 @@ struct BlockShafts {
             if (search.listed > 0) pyramids[lane] = make_pyramid(blocks[first + lane], apex, sigma);
             if (search.state == LeafSearchState::complete) states[lane] = PairState::clear;
         });
-        while (group.ballot([&](std::uint32_t lane) { return cursors[lane].has_more(); }) != 0)
+        const auto lanes_with_more = [&] {
+            return group.ballot([&](std::uint32_t lane) { return cursors[lane].has_more(); });
+        };
+        for (std::uint32_t turn = 0; turn < most_triangles && lanes_with_more() != 0; ++turn)
             group.each([&](std::uint32_t lane) {
                 LeafCursor& cursor = cursors[lane];
                 if (!cursor.has_more()) return;
@@ -113,6 +117,9 @@ struct BlockShafts {
                 else if (states[lane] == PairState::clear)
                     states[lane] = PairState::listed;
             });
+        group.each([&](std::uint32_t lane) {
+            if (cursors[lane].has_more()) states[lane] = PairState::unknown;
+        });
     }
 
     /// The triangles of a lane's leaves, one after the other.

@@ -5,7 +5,7 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/data/soa.hpp"
 #include "mir/shaft/cluster_record.hpp"
-#include "mir/shaft/pair_queue.hpp"
+#include "mir/shaft/work_queue.hpp"
 
 namespace mir {
 
@@ -20,13 +20,12 @@ struct OpenSegments {
     P vpls;
     V visibility;
     std::uint32_t* words = nullptr;  ///< as VisibilityWords
-    PairQueue open;                  ///< clusters
+    WorkQueue<OpenPair> open;        ///< clusters
 
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace&) const {
         const std::uint32_t count = open.size();
-        for (std::uint32_t at = group.add(*open.taken, 1); at < count;
-             at = group.add(*open.taken, 1))
-            decide(group, open.pairs[at]);
+        for (std::uint32_t at = open.take(group, 1); at < count; at = open.take(group, 1))
+            decide(group, open.items[at]);
     }
 
  private:
