@@ -155,6 +155,7 @@
 #include "mir/resident/uploaded_surfaces.hpp"
 #include "mir/resident/uploaded_wide_bvh.hpp"
 #include "mir/resident/wait_at_end.hpp"
+#include "mir/resident/word_finder.hpp"
 #include "mir/sampling/bidirectional_sampler.hpp"
 #include "mir/sampling/emission.hpp"
 #include "mir/sampling/image_probe.hpp"

@@ -2,7 +2,7 @@
 #include "gpu_engine.hpp"
 #include "mir/accel/kd_ray_finder.hpp"
 #include "mir/cuda/backend.cuh"
-#include "mir/kernels/shading_pass.hpp"
+#include "mir/kernels/word_shading.hpp"
 #include "mir/resident/backend_metropolis.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_lights.hpp"
@@ -54,7 +54,9 @@ void GpuEngine<F>::find_visible(Luxels& luxels, VplSpan<Space::host> vpls,
     const WaitAtEnd wait(queue_);
     there.send(queue_);
     luxels.visibility.emplace(backend_, luxels.gbuffer->grid(), vpls.size(), limits);
-    luxels.visibility->find(queue_, *luxels.gbuffer, there.view(), device_visibility());
+    with_tile_visibility([&](const auto& visibility) {
+        luxels.visibility->find(queue_, *luxels.gbuffer, there.view(), visibility);
+    });
     queue_.sync();
 }
 
@@ -84,8 +86,10 @@ Image<Rgb> GpuEngine<F>::light(const Luxels& luxels, const BlockedGBuffer<Params
         case GpuScheduler::rcvp:
             break;
     }
-    return reconstruct(sched::ReconstructVisibilityParallel{backend_, monitor}, *luxels.gbuffer,
-                       vpls, device_visibility(), shading);
+    return with_tile_visibility([&](const auto& visibility) {
+        return reconstruct(sched::ReconstructVisibilityParallel{backend_, monitor}, *luxels.gbuffer,
+                           vpls, visibility, shading);
+    });
 }
 
 /// The second kernel of RCVP alone, from bits that stayed on the GPU.
@@ -105,8 +109,9 @@ Image<Rgb> GpuEngine<F>::light_known(const Luxels& luxels, VplSpan<Space::host> 
     for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
         if (monitor != nullptr) monitor->check();
         const auto view = gbuffer.view(t);
-        queue_.for_each(view.size(), ShadingPass{view, there.view(), luxels.visibility->tile(t),
-                                                 shading, SoaView<Rgb>{sums.data(), view.size()}});
+        queue_.for_each_group(view.size() / LaneGroup::width,
+                              WordShading{view, there.view(), luxels.visibility->tile(t).words,
+                                          shading, SoaView<Rgb>{sums.data(), view.size()}});
         queue_.download(sums, at_home.span().first(std::size_t{SoaView<Rgb>::words} * view.size()));
         queue_.sync();
         const SoaView<const Rgb> radiance{at_home.span().data(), view.size()};

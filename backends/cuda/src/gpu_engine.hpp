@@ -13,11 +13,13 @@
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_kd_tree.hpp"
 #include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/uploaded_wide_bvh.hpp"
 #include "mir/runtime/band_engine.hpp"
 #include "mir/runtime/sampling_engine.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/vpl_shading.hpp"
+#include "mir/shaft/cluster_visibility.hpp"
 
 namespace mir::cuda {
 
@@ -57,9 +59,11 @@ class GpuEngine {
     };
 
     /// Copies everything to the GPU. `geometry`, the tree over it and `executor`, on which OS
-    /// traces, must outlive the engine.
+    /// traces, must outlive the engine. With a `bvh`, visibility is found by shafts through it, and
+    /// by single segments through the tree where those decide nothing.
     GpuEngine(const Backend& backend, const Scene& scene, const WorldGeometry& geometry,
-              const KdTree& tree, cpu::TbbExecutor& executor, GpuScheduler scheduler)
+              const KdTree& tree, const WideBvh* bvh, cpu::TbbExecutor& executor,
+              GpuScheduler scheduler)
         : backend_(backend),
           executor_(executor),
           scheduler_(scheduler),
@@ -69,7 +73,9 @@ class GpuEngine {
           queue_(backend.queue()),
           tree_(backend, queue_, tree),
           geometry_(backend, queue_, geometry),
-          surfaces_(backend, queue_, table_) {
+          surfaces_(backend, queue_, table_),
+          sigma_(static_cast<float>(sigma_of(magnitude_of(geometry.bounds())))) {
+        if (bvh != nullptr) bvh_.emplace(backend, queue_, *bvh);
         queue_.sync();
     }
 
@@ -101,6 +107,13 @@ class GpuEngine {
     [[nodiscard]] KdTreeVisibility<Space::device> device_visibility() const {
         return {tree_.view()};
     }
+    /// Calls use(visibility) with the best that there is for whole tiles.
+    template <class Use>
+    auto with_tile_visibility(const Use& use) const {
+        if (!bvh_) return use(device_visibility());
+        return use(ClusterVisibility<KdTreeVisibility<Space::device>>{bvh_->quantised(), sigma_,
+                                                                      device_visibility()});
+    }
 
     Backend backend_;
     cpu::TbbExecutor& executor_;
@@ -112,6 +125,8 @@ class GpuEngine {
     UploadedKdTree<Backend> tree_;
     UploadedGeometry<Backend> geometry_;
     UploadedSurfaces<Backend, F> surfaces_;
+    float sigma_;  ///< as shafts want it
+    std::optional<UploadedWideBvh<Backend>> bvh_;
 };
 
 static_assert(BandEngine<GpuEngine<Lambert>> && SamplingEngine<GpuEngine<Lambert>>);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_engine.hpp"
 #include "mir/accel/kd_build.hpp"
+#include "mir/accel/wide_build.hpp"
 #include "mir/cpu/any_scheduler.hpp"
 #include "mir/cuda/register.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
@@ -29,8 +30,8 @@ class CudaRenderer : public Renderer {
                         Monitor* monitor) const override {
         settings.validate();
         expects(settings.acceleration != Acceleration::bvh,
-                "the CUDA backend has no bounding volume hierarchy yet; use --accel kdtree, or "
-                "--backend cpu");
+                "the CUDA backend traces no rays through a bounding volume hierarchy alone; leave "
+                "--accel away for shafts through one, use --accel kdtree, or --backend cpu");
         std::vector<std::string> warnings = check_scene(scene, settings);
         double total = 0.0;
         RenderResult result = [&] {
@@ -41,7 +42,7 @@ class CudaRenderer : public Renderer {
         s.seconds.total = total;
         s.backend = "cuda";
         s.device = device_.name;
-        s.acceleration = "kdtree";
+        s.acceleration = uses_shafts(settings) ? "kdtree+shafts" : "kdtree";
         s.scheduler = name_;
         s.scene_hash = SceneHash(scene).hex();
         add_result_warnings(result, warnings);
@@ -50,6 +51,11 @@ class CudaRenderer : public Renderer {
     }
 
  private:
+    [[nodiscard]] static bool uses_shafts(const RenderSettings& settings) {
+        return settings.acceleration == Acceleration::automatic &&
+               settings.integrator == Integrator::vpl;
+    }
+
     /// Tries again with smaller tiles and bands while the GPU has too little memory.
     [[nodiscard]] RenderResult render_in_memory(const Scene& scene, RenderSettings settings,
                                                 Monitor* monitor) const {
@@ -95,7 +101,10 @@ class CudaRenderer : public Renderer {
         {
             const Stopwatch watch(build);
             tree.emplace(geometry, KdTreeOptions::for_gpu(), executor);
-            engine.emplace(backend_, scene, geometry, *tree, executor, scheduler_);
+            std::optional<WideBvh> bvh;  // read while it is copied alone
+            if (uses_shafts(settings)) bvh.emplace(geometry, WideBvhOptions{}, executor);
+            engine.emplace(backend_, scene, geometry, *tree, bvh ? &*bvh : nullptr, executor,
+                           scheduler_);
         }
         if (monitor != nullptr) monitor->check();
         CancellableExecutor cancellable(executor, monitor);

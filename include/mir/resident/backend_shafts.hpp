@@ -39,7 +39,7 @@ class BackendShafts {
           open_blocks_(backend.template buffer<OpenPair>(pairs(luxels / block_luxels, vpls))),
           open_clusters_(backend.template buffer<OpenPair>(pairs(luxels / cluster_luxels, vpls))),
           leaves_(backend.template buffer<MetLeaves>(
-              std::min<std::size_t>(options_.leaves, 32 * open_clusters_.size()))),
+              std::min<std::size_t>(options_.leaves, 4 * open_clusters_.size()))),
           listed_(backend.template buffer<ListedPair>(leaves_.size() / 8)),
           counters_(backend.template buffer<std::uint32_t>(7)) {}
 

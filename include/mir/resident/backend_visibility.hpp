@@ -3,8 +3,8 @@
 
 #include "mir/core/limits.hpp"
 #include "mir/data/visibility_words.hpp"
-#include "mir/kernels/visibility_pass.hpp"
 #include "mir/resident/backend_gbuffer.hpp"
+#include "mir/resident/word_finder.hpp"
 
 namespace mir {
 
@@ -19,9 +19,10 @@ class BackendVisibility {
                       const Limits& limits = {})
         : grid_(tiles),
           vpls_(vpls),
-          words_(backend.template buffer<std::uint32_t>(checked_count(tiles, vpls, limits))) {}
+          words_(backend.template buffer<std::uint32_t>(checked_count(tiles, vpls, limits))),
+          finder_(backend, BlockedLayout::of(tiles[0]).size(), vpls) {}
 
-    /// Starts to trace a segment for each luxel of `gbuffer` and each VPL that face each other.
+    /// Starts to find which luxels of `gbuffer` and VPLs face and see each other (WordFinder).
     /// Kernels on `queue` that follow may read the words; other queues wait for an event of it.
     /// @throws Error(invalid_argument) when luxels or VPLs are others than it was made for.
     template <TiledGBuffer G, VplSet P, Visibility V>
@@ -32,9 +33,7 @@ class BackendVisibility {
                 "not fit); make it from the grid of this G-buffer");
         if (vpls_ == 0) return;
         for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
-            const auto luxels = gbuffer.view(t);
-            queue.fill_bits(luxels.size(), vpls_, VisibilityPass{luxels, vpls, visibility},
-                            words_.data() + first_word(t));
+            finder_.find(queue, gbuffer.view(t), vpls, visibility, words_.data() + first_word(t));
         }
     }
 
@@ -65,6 +64,7 @@ class BackendVisibility {
     TileGrid grid_;
     std::uint32_t vpls_;
     typename B::template Buffer<std::uint32_t> words_;
+    WordFinder<B> finder_;
 };
 
 }  // namespace mir

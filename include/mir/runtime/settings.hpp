@@ -26,7 +26,8 @@ enum class BackendKind {
 
 /// What finds out where rays end.
 enum class Acceleration {
-    automatic,  ///< the backend's own choice: bvh on the processor, kd_tree on a GPU
+    automatic,  ///< the backend's own choice: bvh on the processor; shafts, and kd_tree for single
+                ///< segments, on a GPU
     kd_tree,    ///< the kd-tree of this library, the same bits on every backend
     bvh         ///< a bounding volume hierarchy: Embree's on the processor
 };

@@ -2,17 +2,18 @@
 #pragma once
 
 #include "mir/kernels/shading_pass.hpp"
-#include "mir/kernels/visibility_pass.hpp"
+#include "mir/kernels/word_shading.hpp"
 #include "mir/reconstruct.hpp"
+#include "mir/resident/word_finder.hpp"
 #include "mir/sched/detail/tile_ring.hpp"
 #include "mir/sched/detail/uploaded_vpls.hpp"
 
 namespace mir::sched {
 
-/// RCVP, figure 6 of the paper: per tile, a kernel of rays that needs the hits alone, and behind it
-/// one of shading; the surfaces go up while rays are traced. Given a KnownVisibility the first
-/// kernel is left out. On the host the image is that of sched::Cpu in every bit. Not thread-safe;
-/// several may share a backend.
+/// RCVP, figure 6 of the paper: per tile, kernels of rays or shafts (WordFinder) that need the hits
+/// alone, and behind them one of shading; the surfaces go up while rays are traced. Given a
+/// KnownVisibility the first kernel is left out. On the host the image is that of sched::Cpu in
+/// every bit. Not thread-safe; several may share a backend.
 template <Backend B>
 struct ReconstructVisibilityParallel {
     B backend;
@@ -27,6 +28,7 @@ struct ReconstructVisibilityParallel {
               ring_(scheduler.backend, in.gbuffer, vpls_.size(),
                     is_known ? detail::SlotVisibility::masks : detail::SlotVisibility::words, image,
                     scheduler.monitor),
+              finder_(scheduler.backend, ring_.largest_tile(), vpls_.size()),
               copy_(scheduler.backend.queue()),
               compute_(scheduler.backend.queue()) {
             vpls_.send(copy_);
@@ -42,12 +44,17 @@ struct ReconstructVisibilityParallel {
 
             compute_.wait(hits_there);
             if constexpr (!is_known)
-                compute_.fill_bits(slot.luxels, vpls_.size(),
-                                   VisibilityPass{ring_.luxels(slot), vpls_.view(), in_.visibility},
-                                   slot.words.data());
+                finder_.find(compute_, ring_.luxels(slot), vpls_.view(), in_.visibility,
+                             slot.words.data());
             compute_.wait(surfaces_there);
-            compute_.for_each(slot.luxels, ShadingPass{ring_.luxels(slot), vpls_.view(),
-                                                       seen_by(slot), in_.shading, slot.sums()});
+            if constexpr (is_known)
+                compute_.for_each(slot.luxels,
+                                  ShadingPass{ring_.luxels(slot), vpls_.view(),
+                                              slot.known(vpls_.size()), in_.shading, slot.sums()});
+            else
+                compute_.for_each_group(slot.luxels / LaneGroup::width,
+                                        WordShading{ring_.luxels(slot), vpls_.view(),
+                                                    slot.words.data(), in_.shading, slot.sums()});
             ring_.send_back(slot, compute_);
         }
         void finish() { ring_.drain(); }
@@ -56,16 +63,10 @@ struct ReconstructVisibilityParallel {
         using G = std::remove_cvref_t<decltype(std::declval<In>().gbuffer)>;
         static constexpr bool is_known = KnownVisibility<decltype(In::visibility)>;
 
-        [[nodiscard]] auto seen_by(const detail::TileSlot<B>& slot) const {
-            if constexpr (is_known)
-                return slot.known(vpls_.size());
-            else
-                return slot.seen(vpls_.size());
-        }
-
         const In& in_;
         detail::UploadedVpls<B> vpls_;
         detail::TileRing<B, G> ring_;
+        WordFinder<B> finder_;
         // Last, so that they end, and wait for their work, before the memory goes.
         typename B::Queue copy_;
         typename B::Queue compute_;

@@ -71,6 +71,10 @@ TEST_CASE("A GPU draws every scene with the bits of the host's kd-tree, by every
             INFO(named.name << ", " << scheduler);
             check_same(host, render(*scene, settings, BackendKind::cuda, scheduler));
         }
+        INFO(named.name << ", shafts");
+        mir::RenderSettings by_shafts = settings;
+        by_shafts.acceleration = mir::Acceleration::automatic;
+        check_same(host, render(*scene, by_shafts, BackendKind::cuda, "rcvp"));
     }
 }
 

@@ -28,9 +28,6 @@ struct TileSlot {
     std::optional<typename B::Event> done = std::nullopt;    ///< radiance is at home
 
     [[nodiscard]] SoaView<Rgb> sums() { return {radiance.data(), luxels}; }
-    [[nodiscard]] VisibilityWords<B::space> seen(std::uint32_t vpls) const {
-        return {words.data(), vpls};
-    }
     [[nodiscard]] TileMasks<B::space> known(std::uint32_t vpls) const {
         return {masks.data(), vpls};
     }
@@ -53,6 +50,13 @@ class TileRing {
         : gbuffer_(gbuffer), vpls_(vpls), image_(image), monitor_(monitor) {
         const std::size_t count = std::min<std::size_t>(depth, gbuffer.tiles().size());
         for (std::size_t i = 0; i < count; ++i) slots_.push_back(make_slot(backend, visibility));
+    }
+
+    /// Luxels of the largest tile, padding included.
+    [[nodiscard]] std::uint32_t largest_tile() const {
+        std::uint32_t most = 0;
+        for (const Tile& t : gbuffer_.tiles()) most = std::max(most, BlockedLayout::of(t).size());
+        return most;
     }
 
     /// The slot for a tile, once the tile before it has left.
@@ -111,8 +115,7 @@ class TileRing {
     }
 
     [[nodiscard]] Slot make_slot(const B& backend, SlotVisibility visibility) const {
-        std::uint32_t most = 0;
-        for (const Tile& t : gbuffer_.tiles()) most = std::max(most, BlockedLayout::of(t).size());
+        const std::uint32_t most = largest_tile();
         const bool copies = !ResidentGBuffer<G, B>;
         const auto if_wanted = [](bool wanted, std::size_t n) { return wanted ? n : 0; };
         const auto word_buffer = [&](std::size_t n) {

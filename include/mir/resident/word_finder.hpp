@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/kernels/visibility_pass.hpp"
+#include "mir/resident/backend_shafts.hpp"
+
+#include <optional>
+
+namespace mir {
+
+/// Fills words of visibility (VisibilityWords) on a backend in the fastest way that the visibility
+/// allows: by shafts if it brings what they need, else by a segment for each luxel and VPL that
+/// face each other. The bits are the same. Keeps what shafts work in. One queue at a time, and it
+/// must outlive the work.
+template <Backend B>
+class WordFinder {
+ public:
+    /// For runs of up to `luxels` luxels, padding included, and sets of up to `vpls` VPLs.
+    WordFinder(const B& backend, std::uint32_t luxels, std::uint32_t vpls)
+        : backend_(backend), luxels_(luxels), vpls_(vpls) {}
+
+    /// Starts to fill the words of `luxels`, which lie in planes if shafts are to be used.
+    /// @throws What the backend throws when it has no memory left.
+    template <GBuffer G, VplSet P, Visibility V>
+        requires AccessibleFrom<V, B::space>
+    void find(typename B::Queue& queue, const G& luxels, P vpls, const V& visibility,
+              std::uint32_t* words) {
+        if constexpr (ShaftableVisibility<V> && requires { luxels.hits.planes; }) {
+            if (!shafts_) shafts_.emplace(backend_, luxels_, vpls_);
+            shafts_->fill(queue, luxels.hits, vpls, visibility, words);
+        } else {
+            queue.fill_bits(luxels.size(), vpls.size(), VisibilityPass{luxels, vpls, visibility},
+                            words);
+        }
+    }
+
+ private:
+    B backend_;
+    std::uint32_t luxels_;
+    std::uint32_t vpls_;
+    std::optional<BackendShafts<B>> shafts_;
+};
+
+}  // namespace mir

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "cuda/shafts.hpp"
+
+#include "mir/cuda/device.hpp"
+#include "shaft/shaft_stage.hpp"
+#include "support/catch.hpp"
+
+// Words by the GPU's shafts against every triangle asked on the host, bit for bit.
+
+namespace {
+
+using mirtest::different_bits;
+using mirtest::ShaftStage;
+
+ShaftStage stage_of(const mirtest::World& world, std::uint32_t luxels, std::uint32_t vpls,
+                    std::uint64_t seed = 19) {
+    const mirtest::Lit lit =
+        mirtest::random_lit(world.geometry, luxels, vpls, mirtest::test_random(seed));
+    return {world.geometry, mirtest::clustered(lit)};
+}
+
+std::vector<std::uint32_t> words(const ShaftStage& stage,
+                                 const mir::BackendShaftOptions& options = {}) {
+    const mir::cuda::Backend backend(mir::cuda::select_device(0));
+    return mirtest::shaft_words_on_gpu(
+        backend, {stage.hits(), stage.lit().vpls, &stage.bvh(), stage.sigma()}, options);
+}
+
+}  // namespace
+
+TEST_CASE("The GPU's shafts give the bits of every triangle asked on the host") {
+    for (const auto& [scale, x] :
+         {std::pair{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}})
+        for (const bool needles : {false, true}) {
+            INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
+            const mir::Vec3 move(x, 0.3f * x, -x);
+            const mirtest::World world = needles ? mirtest::needle_soup(60, 17, scale, move)
+                                                 : mirtest::triangle_soup(60, 18, scale, move);
+            const ShaftStage stage = stage_of(world, 2000, 40);
+            CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
+        }
+}
+
+TEST_CASE("The GPU's shafts give the bits of single segments in a closed room") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 60000, 70);
+    CHECK(different_bits(words(stage), stage.by_segments()) == 0);
+}
+
+TEST_CASE("No limit, batch or lack of room changes a bit of the GPU's shafts") {
+    const mirtest::World world = mirtest::triangle_soup(60, 18, 1.0f, mir::Vec3(0.0f));
+    const ShaftStage stage = stage_of(world, 3000, 37);
+    const auto truth = stage.by_brute_force();
+    for (std::uint32_t nodes : {0u, 1u, 3u, 1000u})
+        for (std::uint32_t vpls : {1u, 36u, 256u})
+            for (std::uint32_t leaves : {0u, 9u, 100u, 1u << 20}) {
+                CAPTURE(nodes, vpls, leaves);
+                CHECK(different_bits(words(stage, {nodes, nodes, vpls, 7, leaves}), truth) == 0);
+            }
+}
+
+TEST_CASE("Any number of luxels and of VPLs is right for the GPU's shafts") {
+    const mirtest::World world = mirtest::triangle_soup(60, 18, 1.0f, mir::Vec3(0.0f));
+    for (std::uint32_t luxels : {0u, 1u, 33u, 256u, 513u, 8193u})
+        for (std::uint32_t vpls : {0u, 1u, 31u, 33u, 129u}) {
+            CAPTURE(luxels, vpls);
+            const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
+            CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
+        }
+}
+
+TEST_CASE("Twenty runs of the GPU's shafts give the same words") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 20000, 40);
+    const auto first = words(stage);
+    for (int run = 1; run < 20; ++run) CHECK(words(stage) == first);
+}
