@@ -20,7 +20,7 @@ struct VplBatch {
 template <Space S, VplSet P>
 struct BlockShafts {
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
-    static constexpr std::uint32_t most_triangles = 64;  ///< tested for a pair
+    static constexpr std::uint32_t most_triangles = 32;  ///< tested for a pair
 
     /// What a group works in.
     struct Workspace {

@@ -19,6 +19,7 @@ inline constexpr std::uint32_t threads_per_block = BlockedLayout::block_size;
 /// Warps of a block that runs groups of lanes: few, because a block keeps its place until its
 /// slowest warp is done.
 inline constexpr std::uint32_t groups_per_block = 4;
+inline constexpr std::uint32_t threads_of_groups = groups_per_block * LaneGroup::width;
 
 /// Blocks of `size` that hold `n`.
 constexpr std::uint32_t blocks_for(std::uint32_t n, std::uint32_t size) {
@@ -78,7 +79,7 @@ __global__ void __launch_bounds__(threads_per_block)
 
 /// A warp per index. Lanes leave together: conditions on `i` are the same for all of them.
 template <class Kernel>
-__global__ void __launch_bounds__(groups_per_block* LaneGroup::width)
+__global__ void __launch_bounds__(threads_of_groups, resident_blocks<Kernel>)
     for_each_group_index(std::uint32_t n, const __grid_constant__ Kernel kernel) {
     __shared__ typename Kernel::Workspace spaces[groups_per_block];
     const std::uint32_t warp = threadIdx.x / LaneGroup::width;
@@ -125,9 +126,8 @@ void Queue::for_each_group(std::uint32_t n, const Kernel& kernel) {
     detail::check_kernel<Kernel>();
     if (n == 0) return;
     const ActiveDevice active(device_);
-    detail::launch(detail::blocks_for(n, detail::groups_per_block),
-                   detail::groups_per_block * LaneGroup::width, stream_,
-                   detail::for_each_group_index<Kernel>, n, kernel);
+    detail::launch(detail::blocks_for(n, detail::groups_per_block), detail::threads_of_groups,
+                   stream_, detail::for_each_group_index<Kernel>, n, kernel);
 }
 
 }  // namespace mir::cuda
