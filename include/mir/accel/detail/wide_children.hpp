@@ -34,17 +34,20 @@ class OpenedNodes {
     [[nodiscard]] MIR_HD bool is_full() const { return count_ == WideNode::width; }
     [[nodiscard]] MIR_HD const WideChildren& children() const { return children_; }
 
-    /// Place of the largest surface among nodes of more than `size` triangles, or width.
+    /// Place of the largest surface among nodes of more than `size` triangles, or width; of equal
+    /// ones that of the most triangles, lest coincident triangles become a long chain.
     [[nodiscard]] MIR_HD std::uint32_t largest(std::uint32_t size, float area_scale) const {
         std::uint32_t best = WideNode::width;
-        float most = 0.0f;
+        float largest_area = -1.0f;
+        std::uint32_t most = 0;
         for (std::uint32_t k = 0; k < count_; ++k) {
             const BinaryNode& node = nodes_[children_.at[k]];
             if (node.count <= size) continue;
             const float area = half_area(node.low, node.high, area_scale);
-            if (best != WideNode::width && !(area > most)) continue;
+            if (area < largest_area || (area == largest_area && node.count <= most)) continue;
             best = k;
-            most = area;
+            largest_area = area;
+            most = node.count;
         }
         return best;
     }
