@@ -18,14 +18,16 @@ class BackendWideBvh {
     /// Builds from the leaves up. Triangles are sorted by the places of their accept boxes
     /// (accept_box.hpp) along Morton's curve. Of these clusters, those that are nearest to each
     /// other among their neighbours on the curve are joined, all at the same time, until one is
-    /// left. The binary tree becomes a wide one from the root down: of a node's children, the one
-    /// of the largest surface is opened until there are eight. Some dozens of rounds of O(N), at
-    /// most three for each node of depth; up to 0.4 kB of the backend's memory per triangle.
+    /// left. The binary tree becomes a wide one from the root down; which of its nodes stay is what
+    /// costs least by the surface area heuristic (WideBvhStatistics::sah_cost()). Some dozens of
+    /// rounds, never more than three for each node of depth; up to half a kilobyte of the backend's
+    /// memory per triangle meanwhile.
     /// `uploaded` views `geometry` in the backend's memory, for which kernels on `queue` need not
     /// wait. All work is done when it returns.
     /// Sources: Meister and Bittner, "Parallel locally-ordered clustering for bounding volume
-    /// hierarchy construction", IEEE TVCG 24(3), 2018; Wald, Benthin and Boulos, "Getting rid of
-    /// packets", IEEE Symposium on Interactive Ray Tracing 2008.
+    /// hierarchy construction", IEEE TVCG 24(3), 2018; Ylitie, Karras and Laine, "Efficient
+    /// incoherent ray traversal on GPUs through compressed wide BVHs", High Performance Graphics
+    /// 2017.
     /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
     ///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more; what the
     ///         backend throws.

@@ -37,21 +37,19 @@ struct StartAtRoot {
 /// Kernel over the nodes of a level and one index more, so that sums of what it writes include all:
 /// chooses children and counts those that are no leaves.
 struct ChooseChildren {
-    const BinaryNode* nodes = nullptr;
-    std::uint32_t* first = nullptr;
+    ChildChoice choice;
     WideNotes notes;
     std::uint32_t* inner = nullptr;
     WideLevel level;
-    OpeningRule rule;
 
     MIR_HD void operator()(std::uint32_t i) const {
         inner[i] = 0;
         if (i == level.size) return;
         const std::uint32_t at = level.begin + i;
-        const WideChildren children = rule.open(nodes, first, notes.roots[at], level.depth);
-        for (const std::uint32_t child : children.at)
-            if (child != WideChildren::none && nodes[child].count > rule.leaf_size) ++inner[i];
-        notes.children[at] = children;
+        WideChildren& children = notes.children[at];
+        choice.choose(notes.roots[at], level.depth, children);
+        for (std::uint32_t k = 0; k < children.count; ++k)
+            if (choice.tree.nodes[children.at[k]].count > choice.leaf_size) ++inner[i];
     }
 };
 
@@ -71,9 +69,9 @@ struct NumberChildren {
         }
         std::uint32_t next = level.end() + inner_before[i];
         notes.first_child[level.begin + i] = next;
-        for (const std::uint32_t child : notes.children[level.begin + i].at)
-            if (child != WideChildren::none && nodes[child].count > leaf_size)
-                notes.roots[next++] = child;
+        const WideChildren& children = notes.children[level.begin + i];
+        for (std::uint32_t k = 0; k < children.count; ++k)
+            if (nodes[children.at[k]].count > leaf_size) notes.roots[next++] = children.at[k];
     }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/detail/cluster.hpp"
+#include "mir/accel/detail/slot_costs.hpp"
 
 namespace mir::detail {
 
@@ -30,11 +31,13 @@ struct JoinClusters {
     const std::uint32_t* partners = nullptr;
     const std::uint32_t* kept_before = nullptr;
     BinaryNode* nodes = nullptr;
+    SlotCosts* costs = nullptr;
     Cluster* next = nullptr;
     std::uint32_t* next_count = nullptr;  ///< one word
     std::uint32_t count = 0;
     std::uint32_t first_node = 0;  ///< of those made here
     std::uint32_t leaf_size = 0;
+    float area_scale = 0.0f;
 
     MIR_HD void operator()(std::uint32_t i) const {
         if (i == count) {
@@ -56,6 +59,9 @@ struct JoinClusters {
         const std::uint32_t taller = left.height > right.height ? left.height : right.height;
         nodes[both.node] = {both.low, both.high, a.node,
                             b.node,   triangles, triangles <= leaf_size ? 0 : taller + 1};
+        costs[both.node] =
+            joined_costs(costs[a.node], costs[b.node], half_area(both.low, both.high, area_scale),
+                         triangles, leaf_size);
         return both;
     }
 };

@@ -3,6 +3,7 @@
 
 #include "mir/accel/detail/cluster.hpp"
 #include "mir/accel/detail/cluster_plan.hpp"
+#include "mir/accel/detail/slot_costs.hpp"
 #include "mir/core/morton.hpp"
 
 namespace mir::detail {
@@ -39,11 +40,14 @@ struct PlaceLeaves {
     const Cluster* boxes = nullptr;            ///< by triangle
     const std::uint32_t* triangles = nullptr;  ///< by place
     BinaryNode* nodes = nullptr;
+    SlotCosts* costs = nullptr;
     Cluster* clusters = nullptr;
+    float area_scale = 0.0f;
 
     MIR_HD void operator()(std::uint32_t i) const {
         const Cluster box = boxes[triangles[i]];
         nodes[i] = {box.low, box.high, box.node, 0, 1, 0};
+        costs[i] = triangle_costs(half_area(box.low, box.high, area_scale));
         clusters[i] = {box.low, i, box.high, 0};
     }
 };

@@ -32,7 +32,7 @@ struct WriteWideNodes {
         std::uint32_t next = notes.first_child[i];
         for (std::uint32_t slot = 0; slot < WideNode::width; ++slot) {
             const std::uint32_t child = notes.children[i].at[slot];
-            if (child == WideChildren::none)
+            if (slot >= notes.children[i].count)
                 nodes[i].set_empty(slot, reach);
             else if (binary[child].count > leaf_size)
                 set_child(nodes[i], slot, child, next++, WideNode::inner);

@@ -4,6 +4,7 @@
 #include "mir/accel/detail/find_partners.hpp"
 #include "mir/accel/detail/join_clusters.hpp"
 #include "mir/accel/detail/make_clusters.hpp"
+#include "mir/accel/detail/wide_children.hpp"
 #include "mir/resident/detail/counter.hpp"
 
 #include <array>
@@ -18,6 +19,7 @@ class ClusterTree {
     ClusterTree(const B& backend, const ClusterPlan& plan)
         : plan_(plan),
           nodes_(backend.template buffer<BinaryNode>(2 * std::size_t{plan.room()} - 1)),
+          costs_(backend.template buffer<SlotCosts>(2 * std::size_t{plan.room()} - 1)),
           clusters_{backend.template buffer<Cluster>(plan.room()),
                     backend.template buffer<Cluster>(plan.room())},
           keys_(backend.template buffer<std::uint64_t>(plan.room())),
@@ -34,7 +36,8 @@ class ClusterTree {
         queue.for_each(
             n, MakeBoxes<B::space>{geometry, plan_, next(), keys_.data(), partners_.data()});
         queue.sort_by_key(n, keys_.data(), partners_.data(), scratch);
-        queue.for_each(n, PlaceLeaves{next(), partners_.data(), nodes_.data(), now()});
+        queue.for_each(n, PlaceLeaves{next(), partners_.data(), nodes_.data(), costs_.data(), now(),
+                                      plan_.area_scale});
         std::uint32_t count = n;
         for (std::uint32_t rounds = 0; count > 1; ++rounds) {
             find_partners(queue, rounds, count);
@@ -42,7 +45,7 @@ class ClusterTree {
         }
     }
 
-    [[nodiscard]] const BinaryNode* nodes() const { return nodes_.data(); }
+    [[nodiscard]] CostedTree view() const { return {nodes_.data(), costs_.data()}; }
     /// The cluster that holds everything.
     [[nodiscard]] const Cluster* all() const { return clusters_[turn_].data(); }
 
@@ -66,7 +69,8 @@ class ClusterTree {
         queue.sum_before(count + 1, kept_.data(), kept_before_.data(), scratch);
         queue.for_each(count + 1,
                        JoinClusters{now(), partners_.data(), kept_before_.data(), nodes_.data(),
-                                    next(), left_.data(), count, first_node, plan_.leaf_size});
+                                    costs_.data(), next(), left_.data(), count, first_node,
+                                    plan_.leaf_size, plan_.area_scale});
         turn_ = 1 - turn_;
         return left_.read(queue);
     }
@@ -76,6 +80,7 @@ class ClusterTree {
 
     ClusterPlan plan_;
     Buffer<BinaryNode> nodes_;  ///< leaves by place along the curve, then others as they were made
+    Buffer<SlotCosts> costs_;   ///< of the same
     std::array<Buffer<Cluster>, 2> clusters_;  ///< of this round and of the next, by turns
     Buffer<std::uint64_t> keys_;
     Buffer<std::uint32_t> partners_;

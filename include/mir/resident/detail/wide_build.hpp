@@ -39,8 +39,8 @@ class WideBuild {
             return;
         }
         queue.for_each(collapse_.node_count(),
-                       WriteWideNodes{tree_.nodes(), collapse_.first(), collapse_.notes(), nodes,
-                                      indices, plan_.leaf_size, plan_.reach});
+                       WriteWideNodes{tree_.view().nodes, collapse_.first(), collapse_.notes(),
+                                      nodes, indices, plan_.leaf_size, plan_.reach});
         queue.for_each(plan_.triangles, WriteRows<B::space>{uploaded_, indices, rows});
     }
 

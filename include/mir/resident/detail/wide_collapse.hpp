@@ -39,21 +39,19 @@ class WideCollapse {
     }
 
  private:
-    /// Room for nodes. Of n triangles, with leaves of l. A node other than the root has more than l
-    /// triangles, and 8 children or as many as triangles: so W nodes have (W - 1) + n >= W min(l +
-    /// 1, 8).
+    /// Room for wide nodes: each is made of a node of the binary tree that has two children.
     static std::size_t most_nodes(const ClusterPlan& plan) {
-        return std::max(1u, (plan.room() - 1) / std::min(plan.leaf_size, 7u));
+        return std::max(plan.triangles, 2u) - 1;
     }
 
     void choose(typename B::Queue& queue, const ClusterTree<B>& tree,
                 typename B::template Buffer<std::byte>& scratch) {
-        const OpeningRule rule{plan_.leaf_size, plan_.max_depth, plan_.area_scale};
+        const ChildChoice choice{tree.view(), first_.data(), plan_.leaf_size, plan_.max_depth,
+                                 plan_.area_scale};
         const std::uint32_t n = level_.size + 1;
-        queue.for_each(
-            n, ChooseChildren{tree.nodes(), first_.data(), notes(), inner_.data(), level_, rule});
+        queue.for_each(n, ChooseChildren{choice, notes(), inner_.data(), level_});
         queue.sum_before(n, inner_.data(), inner_before_.data(), scratch);
-        queue.for_each(n, NumberChildren{tree.nodes(), inner_before_.data(), notes(),
+        queue.for_each(n, NumberChildren{tree.view().nodes, inner_before_.data(), notes(),
                                          next_size_.data(), level_, plan_.leaf_size});
     }
 
