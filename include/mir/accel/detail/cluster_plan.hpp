@@ -16,8 +16,9 @@ namespace mir::detail {
 // looks for the nearest joins two of them at least. Let r be the rounds done, m the clusters left
 // and D the plan's max_depth. Claim: r + ceil(log2 m) <= 3 D. It holds at first, by the choice of
 // D; joining two by two keeps it, and the nearest are looked for only if
-// r + 1 + ceil(log2(m - 1)) <= 3 D. So the binary tree has a height of 3 D at most, there are no
-// more rounds than that, and wide_children.hpp makes no way through the wide tree longer than D.
+// r + 1 + ceil(log2(m - 1)) <= 3 D. It is as true of an m that is more than there are. So the
+// binary tree has a height of 3 D at most, there are no more rounds than that, and
+// wide_children.hpp makes no way through the wide tree longer than D.
 
 /// Least k with 2^k >= n; n at least 1.
 inline std::uint32_t ceil_log2(std::uint32_t n) {
@@ -39,7 +40,8 @@ struct ClusterPlan {
     /// Triangles for which to keep memory.
     [[nodiscard]] std::uint32_t room() const { return std::max(triangles, 1u); }
 
-    /// Whether a round may look for the nearest clusters, see above; at least 2 are left.
+    /// Whether a round may look for the nearest clusters, see above, when there are no more than
+    /// that many, which is at least 2.
     [[nodiscard]] bool may_search(std::uint32_t rounds, std::uint32_t clusters) const {
         return rounds + 1 + ceil_log2(clusters - 1) <= 3 * max_depth;
     }

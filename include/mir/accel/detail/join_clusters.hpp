@@ -12,14 +12,14 @@ MIR_HD inline bool is_pair(const std::uint32_t* partners, std::uint32_t i) {
 }
 
 /// Kernel over clusters and one index more, so that sums of what it writes include all: 1 where a
-/// cluster keeps a place, 0 for the second of a pair.
+/// cluster keeps a place, 0 for the second of a pair and for what is no cluster.
 struct MarkKept {
+    const std::uint32_t* left = nullptr;  ///< how many clusters there are
     const std::uint32_t* partners = nullptr;
     std::uint32_t* kept = nullptr;
-    std::uint32_t count = 0;
 
     MIR_HD void operator()(std::uint32_t i) const {
-        const bool goes = i == count || (is_pair(partners, i) && partners[i] < i);
+        const bool goes = i >= *left || (is_pair(partners, i) && partners[i] < i);
         kept[i] = goes ? 0 : 1;
     }
 };
@@ -28,41 +28,47 @@ struct MarkKept {
 /// Nodes are numbered in the order of the clusters that go.
 struct JoinClusters {
     const Cluster* clusters = nullptr;
+    const std::uint32_t* left = nullptr;  ///< how many clusters there are
     const std::uint32_t* partners = nullptr;
     const std::uint32_t* kept_before = nullptr;
     BinaryNode* nodes = nullptr;
     SlotCosts* costs = nullptr;
     Cluster* next = nullptr;
-    std::uint32_t* next_count = nullptr;  ///< one word
-    std::uint32_t count = 0;
-    std::uint32_t first_node = 0;  ///< of those made here
+    std::uint32_t* next_left = nullptr;
+    std::uint32_t triangles = 0;
     std::uint32_t leaf_size = 0;
     float area_scale = 0.0f;
 
     MIR_HD void operator()(std::uint32_t i) const {
-        if (i == count) {
-            *next_count = kept_before[i];
+        if (i > *left) return;
+        if (i == *left) {
+            *next_left = kept_before[i];
         } else if (!is_pair(partners, i)) {
             next[kept_before[i]] = clusters[i];
         } else if (i < partners[i]) {
-            next[kept_before[i]] = join(clusters[i], clusters[partners[i]], partners[i]);
+            const Cluster& a = clusters[i];
+            const Cluster& b = clusters[partners[i]];
+            const Cluster both = joined(a, b, node_without(partners[i]));
+            next[kept_before[i]] = both;
+            write_node(both, a.node, b.node);
         }
     }
 
  private:
-    [[nodiscard]] MIR_HD Cluster join(const Cluster& a, const Cluster& b,
-                                      std::uint32_t goes) const {
-        const Cluster both = joined(a, b, first_node + (goes - kept_before[goes]));
-        const BinaryNode& left = nodes[a.node];
-        const BinaryNode& right = nodes[b.node];
-        const std::uint32_t triangles = left.count + right.count;
-        const std::uint32_t taller = left.height > right.height ? left.height : right.height;
-        nodes[both.node] = {both.low, both.high, a.node,
-                            b.node,   triangles, triangles <= leaf_size ? 0 : taller + 1};
-        costs[both.node] =
-            joined_costs(costs[a.node], costs[b.node], half_area(both.low, both.high, area_scale),
-                         triangles, leaf_size);
-        return both;
+    /// Number of the node for which a cluster goes. Clusters and the nodes above leaves made so far
+    /// are as many as triangles.
+    [[nodiscard]] MIR_HD std::uint32_t node_without(std::uint32_t cluster) const {
+        return 2 * triangles - *left + (cluster - kept_before[cluster]);
+    }
+
+    MIR_HD void write_node(const Cluster& both, std::uint32_t a, std::uint32_t b) const {
+        const std::uint32_t count = nodes[a].count + nodes[b].count;
+        const std::uint32_t taller =
+            nodes[a].height > nodes[b].height ? nodes[a].height : nodes[b].height;
+        const std::uint32_t height = count <= leaf_size ? 0 : taller + 1;
+        const float area = half_area(both.low, both.high, area_scale);
+        nodes[both.node] = {both.low, both.high, a, b, count, height};
+        costs[both.node] = joined_costs(costs[a], costs[b], area, count, leaf_size);
     }
 };
 

@@ -26,7 +26,7 @@ class ClusterTree {
           partners_(backend.template buffer<std::uint32_t>(plan.room())),
           kept_(backend.template buffer<std::uint32_t>(std::size_t{plan.room()} + 1)),
           kept_before_(backend.template buffer<std::uint32_t>(std::size_t{plan.room()} + 1)),
-          left_(backend) {}
+          left_{Counter<B>(backend), Counter<B>(backend)} {}
 
     /// Does all of it but the last steps, which it starts. There are triangles. The scratch is for
     /// one element more than these.
@@ -38,10 +38,15 @@ class ClusterTree {
         queue.sort_by_key(n, keys_.data(), partners_.data(), scratch);
         queue.for_each(n, PlaceLeaves{next(), partners_.data(), nodes_.data(), costs_.data(), now(),
                                       plan_.area_scale});
-        std::uint32_t count = n;
-        for (std::uint32_t rounds = 0; count > 1; ++rounds) {
-            find_partners(queue, rounds, count);
-            count = join(queue, count, 2 * n - count, scratch);
+        left_[turn_].set(queue, n);
+        // Never less than there are; exact where the host has just looked.
+        std::uint32_t bound = n;
+        for (std::uint32_t rounds = 0; bound > 1;) {
+            const bool searches = plan_.may_search(rounds, bound);
+            find_partners(queue, searches, bound);
+            join(queue, bound, scratch);
+            bound = searches ? bound - 1 : (bound + 1) / 2;
+            if (++rounds % rounds_between_looks == 0) bound = left_[turn_].read(queue);
         }
     }
 
@@ -53,26 +58,28 @@ class ClusterTree {
     [[nodiscard]] Cluster* now() { return clusters_[turn_].data(); }
     [[nodiscard]] Cluster* next() { return clusters_[1 - turn_].data(); }
 
-    void find_partners(typename B::Queue& queue, std::uint32_t rounds, std::uint32_t count) {
-        if (plan_.may_search(rounds, count))
-            queue.for_each(
-                count, FindNearest{now(), partners_.data(), count, plan_.radius, plan_.area_scale});
+    /// The host waits for the backend when it looks how many clusters are left, which takes longer
+    /// than rounds of few clusters do.
+    static constexpr std::uint32_t rounds_between_looks = 4;
+
+    void find_partners(typename B::Queue& queue, bool searches, std::uint32_t bound) {
+        if (searches)
+            queue.for_each(bound, FindNearest{now(), left_[turn_].data(), partners_.data(),
+                                              plan_.radius, plan_.area_scale});
         else
-            queue.for_each(count, PairNeighbours{partners_.data(), count});
+            queue.for_each(bound, PairNeighbours{left_[turn_].data(), partners_.data()});
     }
 
-    /// How many clusters are left.
-    [[nodiscard]] std::uint32_t join(typename B::Queue& queue, std::uint32_t count,
-                                     std::uint32_t first_node,
-                                     typename B::template Buffer<std::byte>& scratch) {
-        queue.for_each(count + 1, MarkKept{partners_.data(), kept_.data(), count});
-        queue.sum_before(count + 1, kept_.data(), kept_before_.data(), scratch);
-        queue.for_each(count + 1,
-                       JoinClusters{now(), partners_.data(), kept_before_.data(), nodes_.data(),
-                                    costs_.data(), next(), left_.data(), count, first_node,
-                                    plan_.leaf_size, plan_.area_scale});
+    void join(typename B::Queue& queue, std::uint32_t bound,
+              typename B::template Buffer<std::byte>& scratch) {
+        const std::uint32_t* const left = left_[turn_].data();
+        queue.for_each(bound + 1, MarkKept{left, partners_.data(), kept_.data()});
+        queue.sum_before(bound + 1, kept_.data(), kept_before_.data(), scratch);
+        queue.for_each(bound + 1,
+                       JoinClusters{now(), left, partners_.data(), kept_before_.data(),
+                                    nodes_.data(), costs_.data(), next(), left_[1 - turn_].data(),
+                                    plan_.triangles, plan_.leaf_size, plan_.area_scale});
         turn_ = 1 - turn_;
-        return left_.read(queue);
     }
 
     template <class T>
@@ -86,7 +93,7 @@ class ClusterTree {
     Buffer<std::uint32_t> partners_;
     Buffer<std::uint32_t> kept_;
     Buffer<std::uint32_t> kept_before_;
-    Counter<B> left_;
+    std::array<Counter<B>, 2> left_;  ///< how many clusters, by the same turns
     std::size_t turn_ = 0;
 };
 

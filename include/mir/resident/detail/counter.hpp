@@ -15,6 +15,13 @@ class Counter {
 
     [[nodiscard]] std::uint32_t* data() { return there_.data(); }
 
+    /// Makes it `value`, for what follows on the queue, and waits until that is done.
+    void set(typename B::Queue& queue, std::uint32_t value) {
+        here_.span()[0] = value;
+        queue.upload(std::span<const std::uint32_t>(here_.span()), there_);
+        queue.record().sync();
+    }
+
     /// What it holds after all work given to the queue, for which this waits.
     /// @throws Error what failed of that work.
     [[nodiscard]] std::uint32_t read(typename B::Queue& queue) {
