@@ -98,7 +98,7 @@ template <class Build>
 void depth_is_never_exceeded(const Build& build) {
     mir::WideClusterOptions options;
     options.max_depth = GENERATE(1u, 4u, 5u, 6u, 8u, 32u);
-    const World world = nested_triangles(3000, 30);
+    const World world = nested_triangles(3000, GENERATE(30, 150));
     const CopiedWideBvh bvh = build_and_check(build, world.geometry, options);
     // 8 * 8 * 8 * 4 triangles fit below three nodes, 8 * 2048 below four.
     CHECK(bvh.depth() <= std::max(options.max_depth, 4u));
@@ -122,6 +122,8 @@ void what_cannot_be_built_is_refused(const Build& build) {
     SECTION("too many triangles in a leaf") { options.leaf_size = 9; }
     SECTION("no neighbour") { options.radius = 0; }
     SECTION("too many neighbours") { options.radius = 65; }
+    SECTION("nodes for nothing") { options.node_cost = 0.0f; }
+    SECTION("nodes too dear") { options.node_cost = std::numeric_limits<float>::infinity(); }
     SECTION("no depth") { options.max_depth = 0; }
     SECTION("depth") { options.max_depth = 33; }
     CHECK_THROWS_AS(build(triangle_soup(10, 19).geometry, options), mir::Error);

@@ -30,6 +30,7 @@ struct ClusterPlan {
     std::uint32_t triangles = 0;
     std::uint32_t leaf_size = 0;
     std::uint32_t radius = 0;
+    float node_cost = 0.0f;
     std::uint32_t max_depth = 0;  ///< of the wide tree, nodes
     float magnitude = 0.0f;       ///< magnitude_of() the scene's bounds, metres
     float reach = 0.0f;           ///< metres
@@ -71,6 +72,7 @@ inline ClusterPlan cluster_plan(const WorldGeometry& geometry, const WideCluster
     plan.triangles = static_cast<std::uint32_t>(geometry.triangles().size());
     plan.leaf_size = options.leaf_size;
     plan.radius = options.radius;
+    plan.node_cost = options.node_cost;
     plan.max_depth = std::max({options.max_depth, (ceil_log2(plan.room()) + 2) / 3, 1u});
     plan.magnitude = magnitude_of(bounds);
     plan.reach = reach_of(plan.magnitude);

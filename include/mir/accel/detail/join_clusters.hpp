@@ -36,8 +36,7 @@ struct JoinClusters {
     Cluster* next = nullptr;
     std::uint32_t* next_left = nullptr;
     std::uint32_t triangles = 0;
-    std::uint32_t leaf_size = 0;
-    float area_scale = 0.0f;
+    CostRule rule;
 
     MIR_HD void operator()(std::uint32_t i) const {
         if (i > *left) return;
@@ -65,10 +64,10 @@ struct JoinClusters {
         const std::uint32_t count = nodes[a].count + nodes[b].count;
         const std::uint32_t taller =
             nodes[a].height > nodes[b].height ? nodes[a].height : nodes[b].height;
-        const std::uint32_t height = count <= leaf_size ? 0 : taller + 1;
-        const float area = half_area(both.low, both.high, area_scale);
+        const std::uint32_t height = count <= rule.leaf_size ? 0 : taller + 1;
+        const float area = rule.area(both.low, both.high);
         nodes[both.node] = {both.low, both.high, a, b, count, height};
-        costs[both.node] = joined_costs(costs[a], costs[b], area, count, leaf_size);
+        costs[both.node] = joined_costs(costs[a], costs[b], area, count, rule);
     }
 };
 

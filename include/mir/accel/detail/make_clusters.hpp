@@ -42,12 +42,12 @@ struct PlaceLeaves {
     BinaryNode* nodes = nullptr;
     SlotCosts* costs = nullptr;
     Cluster* clusters = nullptr;
-    float area_scale = 0.0f;
+    CostRule rule;
 
     MIR_HD void operator()(std::uint32_t i) const {
         const Cluster box = boxes[triangles[i]];
         nodes[i] = {box.low, box.high, box.node, 0, 1, 0};
-        costs[i] = triangle_costs(half_area(box.low, box.high, area_scale));
+        costs[i] = triangle_costs(rule.area(box.low, box.high));
         clusters[i] = {box.low, i, box.high, 0};
     }
 };

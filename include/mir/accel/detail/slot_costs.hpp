@@ -3,7 +3,6 @@
 
 #include "mir/accel/detail/binary_node.hpp"
 #include "mir/accel/wide_node.hpp"
-#include "mir/accel/wide_statistics.hpp"
 
 namespace mir::detail {
 
@@ -37,17 +36,27 @@ struct SlotShare {
     float cost = 0.0f;
 };
 
-/// The best way to share 2 to 8 slots; of equal ones the most even, lest coincident triangles
-/// become a long chain.
+/// The best way to share 2 to 8 slots.
 MIR_HD inline SlotShare share_slots(const SlotCosts& left, const SlotCosts& right,
                                     std::uint32_t slots) {
     SlotShare best;
     for (std::uint32_t k = 1; k < slots; ++k) {
         const float cost = strict::add(left.with(k), right.with(slots - k));
-        if (k == 1 || cost < best.cost || (cost == best.cost && 2 * k <= slots)) best = {k, cost};
+        if (k == 1 || cost < best.cost) best = {k, cost};
     }
     return best;
 }
+
+/// What costs depend on besides areas.
+struct CostRule {
+    std::uint32_t leaf_size = 0;
+    float node_cost = 0.0f;   ///< in triangle tests
+    float area_scale = 0.0f;  ///< 1 / metres
+
+    [[nodiscard]] MIR_HD float area(Vec3 low, Vec3 high) const {
+        return half_area(low, high, area_scale);
+    }
+};
 
 /// Of a single triangle.
 MIR_HD inline SlotCosts triangle_costs(float area) {
@@ -56,14 +65,13 @@ MIR_HD inline SlotCosts triangle_costs(float area) {
     return costs;
 }
 
-/// Of a node with two children: `triangles` is their number.
+/// Of a node with two children, below which there are so many triangles.
 MIR_HD inline SlotCosts joined_costs(const SlotCosts& left, const SlotCosts& right, float area,
-                                     std::uint32_t triangles, std::uint32_t leaf_size) {
-    constexpr auto node_cost = static_cast<float>(WideBvhStatistics::node_cost);
+                                     std::uint32_t triangles, const CostRule& rule) {
     SlotCosts costs;
-    costs.of[0] = triangles <= leaf_size
+    costs.of[0] = triangles <= rule.leaf_size
                       ? strict::mul(static_cast<float>(triangles), area)
-                      : strict::add(strict::mul(node_cost, area),
+                      : strict::add(strict::mul(rule.node_cost, area),
                                     share_slots(left, right, WideNode::width).cost);
     for (std::uint32_t k = 2; k <= SlotCosts::most; ++k)
         costs.of[k - 1] = smaller(share_slots(left, right, k).cost, costs.with(k - 1));

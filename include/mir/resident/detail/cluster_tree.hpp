@@ -36,8 +36,8 @@ class ClusterTree {
         queue.for_each(
             n, MakeBoxes<B::space>{geometry, plan_, next(), keys_.data(), partners_.data()});
         queue.sort_by_key(n, keys_.data(), partners_.data(), scratch);
-        queue.for_each(n, PlaceLeaves{next(), partners_.data(), nodes_.data(), costs_.data(), now(),
-                                      plan_.area_scale});
+        queue.for_each(
+            n, PlaceLeaves{next(), partners_.data(), nodes_.data(), costs_.data(), now(), rule()});
         left_[turn_].set(queue, n);
         // Never less than there are; exact where the host has just looked.
         std::uint32_t bound = n;
@@ -58,6 +58,10 @@ class ClusterTree {
     [[nodiscard]] Cluster* now() { return clusters_[turn_].data(); }
     [[nodiscard]] Cluster* next() { return clusters_[1 - turn_].data(); }
 
+    [[nodiscard]] CostRule rule() const {
+        return {plan_.leaf_size, plan_.node_cost, plan_.area_scale};
+    }
+
     /// The host waits for the backend when it looks how many clusters are left, which takes longer
     /// than rounds of few clusters do.
     static constexpr std::uint32_t rounds_between_looks = 4;
@@ -75,10 +79,9 @@ class ClusterTree {
         const std::uint32_t* const left = left_[turn_].data();
         queue.for_each(bound + 1, MarkKept{left, partners_.data(), kept_.data()});
         queue.sum_before(bound + 1, kept_.data(), kept_before_.data(), scratch);
-        queue.for_each(bound + 1,
-                       JoinClusters{now(), left, partners_.data(), kept_before_.data(),
-                                    nodes_.data(), costs_.data(), next(), left_[1 - turn_].data(),
-                                    plan_.triangles, plan_.leaf_size, plan_.area_scale});
+        queue.for_each(bound + 1, JoinClusters{now(), left, partners_.data(), kept_before_.data(),
+                                               nodes_.data(), costs_.data(), next(),
+                                               left_[1 - turn_].data(), plan_.triangles, rule()});
         turn_ = 1 - turn_;
     }
 
