@@ -140,6 +140,16 @@ class TracingQueue {
     void for_each_group(std::uint32_t n, const Kernel& kernel) {
         trace_->run(work_of<Kernel>, queue_, [&] { queue_.for_each_group(n, kernel); });
     }
+    void sort_by_key(std::uint32_t n, std::uint64_t* keys, std::uint32_t* values, auto& scratch) {
+        trace_->run(Work::other, queue_, [&] { queue_.sort_by_key(n, keys, values, scratch); });
+    }
+    void sum_before(std::uint32_t n, const std::uint32_t* from, std::uint32_t* sums,
+                    auto& scratch) {
+        trace_->run(Work::other, queue_, [&] { queue_.sum_before(n, from, sums, scratch); });
+    }
+    [[nodiscard]] std::size_t scratch_bytes(std::uint32_t n) const {
+        return queue_.scratch_bytes(n);
+    }
     [[nodiscard]] typename B::Event record() { return queue_.record(); }
     void wait(const typename B::Event& event) { queue_.wait(event); }
 

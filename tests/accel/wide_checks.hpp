@@ -23,8 +23,9 @@ inline mir::Bounds box_of(const mir::WideNode& node) {
     return box;
 }
 
-inline bool holds_accept_boxes(const mir::WorldGeometry& geometry, const mir::WideBvh& bvh,
-                               const WideChild& leaf) {
+template <class Tree>
+bool holds_accept_boxes(const mir::WorldGeometry& geometry, const Tree& bvh,
+                        const WideChild& leaf) {
     const float magnitude = mir::magnitude_of(geometry.bounds());
     for (std::uint32_t i = leaf.ref; i < leaf.ref + static_cast<std::uint32_t>(leaf.count); ++i) {
         const std::uint32_t t = bvh.indices()[i];
@@ -37,7 +38,8 @@ inline bool holds_accept_boxes(const mir::WorldGeometry& geometry, const mir::Wi
 
 /// Every triangle lies in one leaf, all boxes hold what is below them, and rows are those of the
 /// triangles named beside them.
-inline void check_whole(const mir::WorldGeometry& geometry, const mir::WideBvh& bvh) {
+template <class Tree>
+void check_whole(const mir::WorldGeometry& geometry, const Tree& bvh) {
     const std::size_t n = geometry.triangles().size();
     std::vector<int> listed(n);
     std::size_t small_boxes = 0;
@@ -80,7 +82,8 @@ inline double half_area(const mir::Bounds& box) {
     return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-inline WideCount count_wide(const mir::WideBvh& bvh) {
+template <class Tree>
+WideCount count_wide(const Tree& bvh) {
     WideCount c;
     const double root = half_area(box_of(bvh.nodes()[0]));
     walk_wide(bvh, [&](const WideChild& child) {

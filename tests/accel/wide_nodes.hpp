@@ -35,9 +35,9 @@ inline WideChild child_of(const mir::WideNode& node, std::uint32_t slot) {
 }
 
 /// Calls visit(child) for every slot of every node. Stops with an exception at a node that is
-/// reached twice.
-template <class Visit>
-void walk_wide(const mir::WideBvh& bvh, Visit visit) {
+/// reached twice. `bvh` is a WideBvh or what has its members.
+template <class Tree, class Visit>
+void walk_wide(const Tree& bvh, Visit visit) {
     struct Waiting {
         std::uint32_t node = 0;
         std::uint32_t depth = 1;
@@ -60,7 +60,8 @@ void walk_wide(const mir::WideBvh& bvh, Visit visit) {
 }
 
 /// Planes of all boxes, in the form in which HardSegments aims at them.
-inline std::vector<mir::KdNode> box_planes(const mir::WideBvh& bvh) {
+template <class Tree>
+std::vector<mir::KdNode> box_planes(const Tree& bvh) {
     std::vector<mir::KdNode> planes;
     walk_wide(bvh, [&](const WideChild& child) {
         if (child.count == mir::WideNode::empty) return;

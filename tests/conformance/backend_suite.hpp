@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -187,6 +188,58 @@ class BackendExperiments {
         return differences(words, wanted) + differences(lanes, Words(1, 32 * n));
     }
 
+    /// Axiom 6: pairs whose keys are the `distinct` first numbers, spread over 64 bits. What lies
+    /// behind them stays as it was.
+    [[nodiscard]] std::size_t wrong_after_sort(std::uint32_t n, std::uint32_t distinct) const {
+        const std::uint32_t behind = 7;
+        std::vector<std::uint64_t> keys(n + behind, 5u);
+        Words values = numbers(n + behind);
+        for (std::uint32_t i = 0; i < n; ++i)
+            keys[i] = (scrambled(i) % distinct) * 0x0123456789ABCDEFull;
+        auto keys_there = backend_.template buffer<std::uint64_t>(n + behind);
+        auto values_there = backend_.template buffer<std::uint32_t>(n + behind);
+        auto queue = backend_.queue();
+        auto scratch = backend_.template buffer<std::byte>(queue.scratch_bytes(n));
+        queue.upload(std::span<const std::uint64_t>(keys), keys_there);
+        queue.upload(std::span<const std::uint32_t>(values), values_there);
+        queue.sort_by_key(n, keys_there.data(), values_there.data(), scratch);
+        std::vector<std::uint64_t> sorted_keys(n + behind);
+        Words sorted_values(n + behind);
+        queue.download(keys_there, std::span<std::uint64_t>(sorted_keys));
+        queue.download(values_there, std::span<std::uint32_t>(sorted_values));
+        queue.record().sync();
+        const Words order = stable_order(keys, n);
+        std::size_t wrong = 0;
+        for (std::uint32_t i = 0; i < n + behind; ++i) {
+            const std::uint32_t from = i < n ? order[i] : i;
+            wrong += sorted_keys[i] != keys[from] || sorted_values[i] != values[from] ? 1 : 0;
+        }
+        return wrong;
+    }
+
+    /// Axiom 6: sums that wrap around, none behind, within a scratch for more elements.
+    [[nodiscard]] std::size_t wrong_sums(std::uint32_t n) const {
+        const std::uint32_t behind = 7;
+        const Words words = numbers(n);
+        Words sums(n + behind, 5u);
+        auto from = backend_.template buffer<std::uint32_t>(n);
+        auto to = backend_.template buffer<std::uint32_t>(n + behind);
+        auto queue = backend_.queue();
+        auto scratch = backend_.template buffer<std::byte>(queue.scratch_bytes(2 * n + 1));
+        queue.upload(std::span<const std::uint32_t>(words), from);
+        queue.upload(std::span<const std::uint32_t>(sums), to);
+        queue.sum_before(n, from.data(), to.data(), scratch);
+        queue.download(to, std::span<std::uint32_t>(sums));
+        queue.record().sync();
+        Words wanted(n + behind, 5u);
+        std::uint32_t sum = 0;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            wanted[i] = sum;
+            sum += words[i];
+        }
+        return differences(sums, wanted);
+    }
+
     /// Axiom 1: a chain of kernels and copies, each of which needs the one before.
     [[nodiscard]] std::size_t wrong_after_chain(std::uint32_t n, std::uint32_t length) const {
         std::array<typename B::template Buffer<std::uint32_t>, 2> there{
@@ -272,6 +325,14 @@ class BackendExperiments {
         for (std::uint32_t i = 0; i < kernel.n; ++i) kernel(i);
         return to;
     }
+    /// Indices of the first `n` keys in the order of a stable sort.
+    static Words stable_order(const std::vector<std::uint64_t>& keys, std::uint32_t n) {
+        Words order(n);
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(),
+                         [&keys](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+        return order;
+    }
     static Words slowly_scrambled(std::uint32_t n, std::uint32_t steps) {
         Words out(n);
         for (std::uint32_t i = 0; i < n; ++i) SlowScramble{out.data(), steps}(i);
@@ -303,6 +364,10 @@ std::vector<Finding> examine_backend(const B& backend) {
         named("upload, then download", n, experiments.wrong_after_round_trip(n));
         named("clear, then download", n, experiments.wrong_after_clear(n));
         named("visits of for_each", n, experiments.wrong_visits(n));
+        named("sums of those before", n, experiments.wrong_sums(n));
+        for (std::uint32_t distinct : {1u, 100u, 1u << 31})
+            named("sorting by " + std::to_string(distinct) + " keys", n,
+                  experiments.wrong_after_sort(n, distinct));
     }
     for (std::uint32_t rows : {0u, 32u, 256u, 1056u})
         for (std::uint32_t columns : {0u, 1u, 31u, 32u, 33u, 100u})

@@ -2,6 +2,7 @@
 #include "conformance/backend_suite.hpp"
 #include "cuda/experiments.hpp"
 #include "mir/cuda/backend.cuh"
+#include "mir/cuda/sort.cuh"
 
 namespace mirtest {
 

@@ -114,6 +114,17 @@ class LazyBackend {
         void for_each_group(std::uint32_t n, const Kernel& kernel) {
             later([n, kernel] { at_once().for_each_group(n, kernel); });
         }
+        void sort_by_key(std::uint32_t n, std::uint64_t* keys, std::uint32_t* values,
+                         Buffer<std::byte>& scratch) {
+            later([=, &scratch] { at_once().sort_by_key(n, keys, values, scratch); });
+        }
+        void sum_before(std::uint32_t n, const std::uint32_t* from, std::uint32_t* sums,
+                        Buffer<std::byte>& scratch) {
+            later([=, &scratch] { at_once().sum_before(n, from, sums, scratch); });
+        }
+        [[nodiscard]] std::size_t scratch_bytes(std::uint32_t n) const {
+            return at_once().scratch_bytes(n);
+        }
         [[nodiscard]] Event record() { return {work_, index_, work_->size(index_)}; }
         void wait(const Event& event) {
             later([event] { event.sync(); });

@@ -72,6 +72,16 @@ class WatchedBackend {
             count();
             LazyBackend::Queue::for_each(n, kernel);
         }
+        void sort_by_key(std::uint32_t n, std::uint64_t* keys, std::uint32_t* values,
+                         Buffer<std::byte>& scratch) {
+            count();
+            LazyBackend::Queue::sort_by_key(n, keys, values, scratch);
+        }
+        void sum_before(std::uint32_t n, const std::uint32_t* from, std::uint32_t* sums,
+                        Buffer<std::byte>& scratch) {
+            count();
+            LazyBackend::Queue::sum_before(n, from, sums, scratch);
+        }
 
      private:
         void count() {

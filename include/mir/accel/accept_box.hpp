@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mir {
 
@@ -45,7 +44,7 @@ namespace mir {
 
 /// Largest distance in metres, per axis, between a segment that is taken to cross a triangle's
 /// plane and the plane, the rounding of traversal included.
-[[nodiscard]] inline double sigma_of(float magnitude) {
+[[nodiscard]] MIR_HD inline double sigma_of(float magnitude) {
     return 32.0 * 0x1p-24 * static_cast<double>(magnitude);
 }
 
@@ -58,34 +57,33 @@ struct AcceptTriangle {
     Double3 c{0};
 };
 
-inline double l1_norm(Double3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
-inline AcceptTriangle accept_triangle(const TriangleFrame& f, double sigma) {
-    const double e_u = sigma * l1_norm(f.gradient_u);
-    const double e_v = sigma * l1_norm(f.gradient_v);
-    const double e_w = e_u + e_v + 0x1p-22;
+MIR_HD inline AcceptTriangle accept_triangle(const TriangleFrame& f, double sigma) {
+    const double e_u = strict::mul(sigma, l1_norm(f.gradient_u));
+    const double e_v = strict::mul(sigma, l1_norm(f.gradient_v));
+    const double e_w = strict::add(strict::add(e_u, e_v), 0x1p-22);
+    const double far_u = strict::add(strict::add(1.0, e_v), e_w);
+    const double far_v = strict::add(strict::add(1.0, e_u), e_w);
     AcceptTriangle t;
-    t.a = f.corner - e_u * f.e1 - e_v * f.e2;
-    t.b = f.corner + (1.0 + e_v + e_w) * f.e1 - e_v * f.e2;
-    t.c = f.corner - e_u * f.e1 + (1.0 + e_u + e_w) * f.e2;
+    t.a = strict::sub(strict::sub(f.corner, strict::mul(e_u, f.e1)), strict::mul(e_v, f.e2));
+    t.b = strict::sub(strict::add(f.corner, strict::mul(far_u, f.e1)), strict::mul(e_v, f.e2));
+    t.c = strict::add(strict::sub(f.corner, strict::mul(e_u, f.e1)), strict::mul(far_v, f.e2));
     return t;
 }
 
 /// Triangles that are never crossed have no frame; their corners will do.
-inline AcceptTriangle accept_triangle(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
+MIR_HD inline AcceptTriangle accept_triangle(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
     const AcceptTriangle t = accept_triangle(triangle_frame(a, b, c), sigma_of(magnitude));
-    const bool usable = std::isfinite(l1_norm(t.a) + l1_norm(t.b) + l1_norm(t.c));
-    return usable ? t : AcceptTriangle{Double3(a), Double3(b), Double3(c)};
+    const double all = strict::add(strict::add(l1_norm(t.a), l1_norm(t.b)), l1_norm(t.c));
+    return is_finite(all) ? t : AcceptTriangle{Double3(a), Double3(b), Double3(c)};
 }
 
-inline float rounded_down(double x) {
+MIR_HD inline float rounded_down(double x) {
     const auto f = static_cast<float>(x);
-    return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
-                                      : f;
+    return static_cast<double>(f) > x ? nextafterf(f, -INFINITY) : f;
 }
-inline float rounded_up(double x) { return -rounded_down(-x); }
+MIR_HD inline float rounded_up(double x) { return -rounded_down(-x); }
 
-inline Bounds rounded_outwards(Double3 low, Double3 high) {
+MIR_HD inline Bounds rounded_outwards(Double3 low, Double3 high) {
     return {{rounded_down(low.x), rounded_down(low.y), rounded_down(low.z)},
             {rounded_up(high.x), rounded_up(high.y), rounded_up(high.z)}};
 }
@@ -95,14 +93,15 @@ inline Bounds rounded_outwards(Double3 low, Double3 high) {
 /// Box around all places where hits_segment() may accept a segment for the triangle a, b, c and
 /// where traversal may look for it, rounded outwards. `magnitude` is magnitude_of() the bounds of
 /// the whole scene, metres. Cut to the cube of reach_of(magnitude), outside of which there are no
-/// segments: needles would have boxes without end.
-[[nodiscard]] inline Bounds accept_box(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
+/// segments: needles would have boxes without end. The same bits on host and device.
+[[nodiscard]] MIR_HD inline Bounds accept_box(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
     const detail::AcceptTriangle t = detail::accept_triangle(a, b, c, magnitude);
     const detail::Double3 sigma(sigma_of(magnitude));
     const detail::Double3 reach(static_cast<double>(reach_of(magnitude)));
-    const detail::Double3 low = glm::min(t.a, glm::min(t.b, t.c));
-    const detail::Double3 high = glm::max(t.a, glm::max(t.b, t.c));
-    return detail::rounded_outwards(glm::max(low, -reach) - sigma, glm::min(high, reach) + sigma);
+    const detail::Double3 low = detail::smaller_axes(t.a, detail::smaller_axes(t.b, t.c));
+    const detail::Double3 high = detail::larger_axes(t.a, detail::larger_axes(t.b, t.c));
+    return detail::rounded_outwards(strict::sub(detail::larger_axes(low, -reach), sigma),
+                                    strict::add(detail::smaller_axes(high, reach), sigma));
 }
 
 /// Largest distance, per axis and in metres, of a point of the region that accept_box() surrounds

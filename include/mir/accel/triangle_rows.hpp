@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/math.hpp"
-#include "mir/core/strict_float.hpp"
+#include "mir/accel/detail/double3.hpp"
 
 namespace mir {
 
@@ -28,8 +27,6 @@ struct TriangleRows {
 
 namespace detail {
 
-using Double3 = glm::dvec3;
-
 /// A triangle as affine frame, double precision: a point is corner + u e1 + v e2 + s normal.
 struct TriangleFrame {
     Double3 corner{0};
@@ -41,38 +38,40 @@ struct TriangleFrame {
 };
 
 /// Gradients are not finite when the corners lie on one line.
-inline TriangleFrame triangle_frame(Vec3 a, Vec3 b, Vec3 c) {
+MIR_HD inline TriangleFrame triangle_frame(Vec3 a, Vec3 b, Vec3 c) {
     TriangleFrame f;
     f.corner = Double3(a);
-    f.e1 = Double3(b) - f.corner;
-    f.e2 = Double3(c) - f.corner;
-    const Double3 n = glm::cross(f.e1, f.e2);
-    const double squared = glm::dot(n, n);
-    f.normal = n / std::sqrt(squared);
-    f.gradient_u = glm::cross(f.e2, n) / squared;
-    f.gradient_v = glm::cross(n, f.e1) / squared;
+    f.e1 = strict::sub(Double3(b), f.corner);
+    f.e2 = strict::sub(Double3(c), f.corner);
+    const Double3 n = strict::cross(f.e1, f.e2);
+    const double squared = strict::dot(n, n);
+    f.normal = strict::div(n, strict::sqrt(squared));
+    f.gradient_u = strict::div(strict::cross(f.e2, n), squared);
+    f.gradient_v = strict::div(strict::cross(n, f.e1), squared);
     return f;
 }
 
-inline AffineRow row_through(Double3 gradient, Double3 zero) {
+MIR_HD inline AffineRow row_through(Double3 gradient, Double3 zero) {
     return {static_cast<float>(gradient.x), static_cast<float>(gradient.y),
-            static_cast<float>(gradient.z), static_cast<float>(-glm::dot(gradient, zero))};
+            static_cast<float>(gradient.z), static_cast<float>(-strict::dot(gradient, zero))};
 }
 
-inline bool is_finite_row(AffineRow r) {
-    return is_finite(Vec3(r.x, r.y, r.z)) && std::isfinite(r.w);
+MIR_HD inline bool is_finite_row(AffineRow r) {
+    const auto finite = [](float x) { return is_finite(static_cast<double>(x)); };
+    return finite(r.x) && finite(r.y) && finite(r.z) && finite(r.w);
 }
 
 }  // namespace detail
 
 /// Rows of a triangle that no segment crosses.
-[[nodiscard]] inline TriangleRows uncrossable_rows() {
+[[nodiscard]] MIR_HD inline TriangleRows uncrossable_rows() {
     return {{0, 0, 0, -1}, {0, 0, 0, -1}, {0, 0, 0, 1}};
 }
 
 /// Rows of the triangle a, b, c (metres), computed in double precision and rounded once. Triangles
-/// without area, and those whose rows do not fit into single precision, are never crossed.
-[[nodiscard]] inline TriangleRows make_triangle_rows(Vec3 a, Vec3 b, Vec3 c) {
+/// without area, and those whose rows do not fit into single precision, are never crossed. The same
+/// bits on host and device.
+[[nodiscard]] MIR_HD inline TriangleRows make_triangle_rows(Vec3 a, Vec3 b, Vec3 c) {
     const detail::TriangleFrame f = detail::triangle_frame(a, b, c);
     const TriangleRows rows{detail::row_through(f.gradient_u, f.corner),
                             detail::row_through(f.gradient_v, f.corner),

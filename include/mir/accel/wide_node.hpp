@@ -43,6 +43,12 @@ struct alignas(64) WideNode {
         planes[low_plane(axis)][slot] = low;
         planes[low_plane(axis) + 1][slot] = high;
     }
+    /// Makes the slot one without a child, in a scene of that reach (metres).
+    MIR_HD void set_empty(std::uint32_t slot, float reach) {
+        for (int axis = 0; axis < 3; ++axis) set_bounds(axis, slot, reach, -reach);
+        ref[slot] = 0;
+        count[slot] = empty;
+    }
     [[nodiscard]] MIR_HD bool is_inner(std::uint32_t slot) const { return count[slot] == inner; }
     [[nodiscard]] MIR_HD bool is_leaf(std::uint32_t slot) const { return count[slot] > 0; }
 

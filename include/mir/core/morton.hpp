@@ -7,12 +7,11 @@
 
 namespace mir {
 
-/// Place of a point of the unit cube along Morton's curve, below 2^30: points with similar codes
-/// are close to each other, and mostly the other way round. Points outside are clamped.
-/// Source: Morton 1966.
-MIR_HD inline std::uint64_t morton_code(Vec3 p) {
-    constexpr int bits = 10;
-    constexpr float cells = 1 << bits;
+namespace detail {
+
+/// Bits of the cells of a point of the unit cube, 2^bits on each axis, interleaved.
+MIR_HD inline std::uint64_t morton_code(Vec3 p, int bits) {
+    const auto cells = static_cast<float>(1 << bits);
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto cell =
@@ -21,5 +20,15 @@ MIR_HD inline std::uint64_t morton_code(Vec3 p) {
     }
     return code;
 }
+
+}  // namespace detail
+
+/// Place of a point of the unit cube along Morton's curve, below 2^30: points with similar codes
+/// are close to each other, and mostly the other way round. Points outside are clamped.
+/// Source: Morton 1966.
+MIR_HD inline std::uint64_t morton_code(Vec3 p) { return detail::morton_code(p, 10); }
+
+/// The same in cells of 2^-21, below 2^63.
+MIR_HD inline std::uint64_t fine_morton_code(Vec3 p) { return detail::morton_code(p, 21); }
 
 }  // namespace mir

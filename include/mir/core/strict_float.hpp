@@ -3,6 +3,8 @@
 
 #include "mir/core/hd.hpp"
 
+#include <cmath>
+
 namespace mir::strict {
 
 // Products, sums and quotients that are rounded one by one, to nearest even, in every compilation.
@@ -45,6 +47,51 @@ namespace mir::strict {
     return __fdiv_rn(a, b);
 #else
     return a / b;
+#endif
+}
+
+/// a * b, rounded once.
+[[nodiscard]] MIR_HD inline double mul(double a, double b) {
+#if defined(__CUDA_ARCH__)
+    return __dmul_rn(a, b);
+#else
+    return a * b;
+#endif
+}
+
+/// a + b, rounded once.
+[[nodiscard]] MIR_HD inline double add(double a, double b) {
+#if defined(__CUDA_ARCH__)
+    return __dadd_rn(a, b);
+#else
+    return a + b;
+#endif
+}
+
+/// a - b, rounded once.
+[[nodiscard]] MIR_HD inline double sub(double a, double b) {
+#if defined(__CUDA_ARCH__)
+    return __dsub_rn(a, b);
+#else
+    return a - b;
+#endif
+}
+
+/// a / b, rounded once.
+[[nodiscard]] MIR_HD inline double div(double a, double b) {
+#if defined(__CUDA_ARCH__)
+    return __ddiv_rn(a, b);
+#else
+    return a / b;
+#endif
+}
+
+/// Square root, rounded once.
+[[nodiscard]] MIR_HD inline double sqrt(double a) {
+#if defined(__CUDA_ARCH__)
+    return __dsqrt_rn(a);
+#else
+    return std::sqrt(a);
 #endif
 }
 

@@ -93,7 +93,7 @@ class WideGrower {
         // The last child first, so that children are made in order.
         for (std::uint32_t slot = WideNode::width; slot-- > 0;) {
             if (slot >= groups.count)
-                set_empty(nodes_[index], slot);
+                nodes_[index].set_empty(slot, plan_.reach);
             else
                 set_child(groups.at[slot], job.depth, index, slot);
         }
@@ -166,12 +166,6 @@ class WideGrower {
         node.ref[slot] = 0;
         node.count[slot] = WideNode::inner;
         (range.count() <= enough_ ? open_ : waiting_).push_back({range, depth + 1, index, slot});
-    }
-
-    void set_empty(WideNode& node, std::uint32_t slot) const {
-        for (int axis = 0; axis < 3; ++axis) node.set_bounds(axis, slot, plan_.reach, -plan_.reach);
-        node.ref[slot] = 0;
-        node.count[slot] = WideNode::empty;
     }
 
     void add_leaf(const WideRange& range) {

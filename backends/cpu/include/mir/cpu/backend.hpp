@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace mir::cpu {
@@ -85,6 +88,21 @@ class Queue {
             kernel(LaneGroup{}, static_cast<std::uint32_t>(i), space);
         });
     }
+    /// On the calling thread.
+    void sort_by_key(std::uint32_t n, std::uint64_t* keys, std::uint32_t* values,
+                     Buffer<std::byte>& /*scratch*/) {
+        std::vector<std::pair<std::uint64_t, std::uint32_t>> pairs(n);
+        for (std::uint32_t i = 0; i < n; ++i) pairs[i] = {keys[i], values[i]};
+        std::stable_sort(pairs.begin(), pairs.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (std::uint32_t i = 0; i < n; ++i) std::tie(keys[i], values[i]) = pairs[i];
+    }
+    /// On the calling thread.
+    void sum_before(std::uint32_t n, const std::uint32_t* from, std::uint32_t* sums,
+                    Buffer<std::byte>& /*scratch*/) {
+        std::exclusive_scan(from, from + n, sums, 0u);
+    }
+    [[nodiscard]] std::size_t scratch_bytes(std::uint32_t /*n*/) const { return 0; }
     [[nodiscard]] Event record() { return {}; }
     void wait(const Event&) {}
 

@@ -88,6 +88,21 @@ class Queue {
     template <class Kernel>
     void for_each_group(std::uint32_t n, const Kernel& kernel);
 
+    /// Sorts pairs by their keys, stably, by radix. Defined in mir/cuda/sort.cuh, for files that
+    /// nvcc compiles. An error that the caller's CUDA code has not read is forgotten.
+    /// @throws Error(invalid_argument) when the scratch is smaller than scratch_bytes(n);
+    ///         Error(device)
+    void sort_by_key(std::uint32_t n, std::uint64_t* keys, std::uint32_t* values,
+                     Buffer<std::byte>& scratch);
+
+    /// sums[i] becomes the sum of the first i words. Otherwise like sort_by_key().
+    void sum_before(std::uint32_t n, const std::uint32_t* from, std::uint32_t* sums,
+                    Buffer<std::byte>& scratch);
+
+    /// What either needs for `n` elements or fewer. Defined in mir/cuda/sort.cuh.
+    /// @throws Error(device)
+    [[nodiscard]] std::size_t scratch_bytes(std::uint32_t n) const;
+
     /// The point behind all work given so far.
     /// @throws Error(device)
     [[nodiscard]] Event record() {

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/detail/cluster.hpp"
+#include "mir/accel/detail/wide_children.hpp"
+
+namespace mir::detail {
+
+/// The wide nodes of one depth: they follow each other.
+struct WideLevel {
+    std::uint32_t begin = 0;
+    std::uint32_t size = 1;
+    std::uint32_t depth = 0;  ///< nodes above
+
+    [[nodiscard]] MIR_HD std::uint32_t end() const { return begin + size; }
+};
+
+/// What is noted of wide nodes before they are written, by node.
+struct WideNotes {
+    std::uint32_t* roots = nullptr;  ///< nodes of the binary tree of which they are made
+    WideChildren* children = nullptr;
+    std::uint32_t* first_child = nullptr;  ///< the first wide node among their children
+};
+
+/// Kernel over one index: the first wide node is made of all.
+struct StartAtRoot {
+    const Cluster* all = nullptr;
+    WideNotes notes;
+    std::uint32_t* first = nullptr;
+
+    MIR_HD void operator()(std::uint32_t /*i*/) const {
+        notes.roots[0] = all->node;
+        first[all->node] = 0;
+    }
+};
+
+/// Kernel over the nodes of a level and one index more, so that sums of what it writes include all:
+/// chooses children and counts those that are no leaves.
+struct ChooseChildren {
+    ChildChoice choice;
+    WideNotes notes;
+    std::uint32_t* inner = nullptr;
+    WideLevel level;
+
+    MIR_HD void operator()(std::uint32_t i) const {
+        inner[i] = 0;
+        if (i == level.size) return;
+        const std::uint32_t at = level.begin + i;
+        WideChildren& children = notes.children[at];
+        choice.choose(notes.roots[at], level.depth, children);
+        for (std::uint32_t k = 0; k < children.count; ++k)
+            if (choice.tree.nodes[children.at[k]].count > choice.leaf_size) ++inner[i];
+    }
+};
+
+/// Kernel over the nodes of a level and one index more: numbers the nodes of the next.
+struct NumberChildren {
+    const BinaryNode* nodes = nullptr;
+    const std::uint32_t* inner_before = nullptr;
+    WideNotes notes;
+    std::uint32_t* next_size = nullptr;  ///< one word
+    WideLevel level;
+    std::uint32_t leaf_size = 0;
+
+    MIR_HD void operator()(std::uint32_t i) const {
+        if (i == level.size) {
+            *next_size = inner_before[i];
+            return;
+        }
+        std::uint32_t next = level.end() + inner_before[i];
+        notes.first_child[level.begin + i] = next;
+        const WideChildren& children = notes.children[level.begin + i];
+        for (std::uint32_t k = 0; k < children.count; ++k)
+            if (nodes[children.at[k]].count > leaf_size) notes.roots[next++] = children.at[k];
+    }
+};
+
+}  // namespace mir::detail

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "accel/against_brute_force.hpp"
+#include "accel/wide_checks.hpp"
+#include "mir/accel/wide_traverse.hpp"
+#include "mir/scene/builtin.hpp"
+#include "support/copied_wide_bvh.hpp"
+
+// What a tree promises that a backend builds. `build(geometry, options)` gives a CopiedWideBvh.
+
+namespace mirtest {
+
+/// Everything that can be seen by walking a tree; gives the tree.
+template <class Build>
+CopiedWideBvh build_and_check(const Build& build, const mir::WorldGeometry& geometry,
+                              const mir::WideClusterOptions& options = {}) {
+    CopiedWideBvh bvh = build(geometry, options);
+    check_whole(geometry, bvh);
+    const WideCount count = count_wide(bvh);
+    CHECK(count.depth == bvh.depth());
+    CHECK(count.depth <= mir::WideBvhOptions::depth_limit);
+    CHECK(count.largest_leaf <= options.leaf_size);
+    return bvh;
+}
+
+/// Bits of segments and rays are those of asking every triangle.
+template <class Build>
+void check_bits(const Build& build, const World& world, std::uint64_t index,
+                const mir::WideClusterOptions& options = {}) {
+    const CopiedWideBvh bvh = build_and_check(build, world.geometry, options);
+    const std::vector<mir::KdNode> planes = box_planes(bvh);
+    check_equal_bits(compare(world, bvh.view(), planes, 10000, index));
+    CHECK(wrong_rays(world, bvh.view(), planes, 5000, index + 1) == 0);
+}
+
+template <class Build>
+void bits_are_those_of_every_triangle(const Build& build) {
+    SECTION("at any scale and place") { check_bits(build, soup_anywhere(1), 2); }
+    SECTION("among needles") { check_bits(build, needles_anywhere(3), 4); }
+    SECTION("where walls lie along the axes") { check_bits(build, sphere_in_box(), 5); }
+    SECTION("in a flat scene") { check_bits(build, flat_grid(8, GENERATE(0, 1, 2)), 6); }
+    SECTION("among coincident triangles") { check_bits(build, coincident(50), 7); }
+    SECTION("among nested triangles") { check_bits(build, nested_triangles(200, 10), 8); }
+    SECTION("with leaves of any size") {
+        mir::WideClusterOptions options;
+        options.leaf_size = GENERATE(1u, 2u, 8u);
+        check_bits(build, triangle_soup(150, 9), 10, options);
+    }
+}
+
+template <class Build>
+void few_triangles_make_whole_trees(const Build& build) {
+    const std::uint32_t count = GENERATE(1u, 2u, 3u, 4u, 5u, 8u, 9u, 33u);
+    const World world = triangle_soup(count, 11);
+    const CopiedWideBvh bvh = build_and_check(build, world.geometry);
+    CHECK(bvh.depth() == (count <= 9 ? 1 : 2));
+    if (count > 8) return;
+    for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot)
+        CHECK(bvh.nodes()[0].count[slot] == (slot < count ? 1 : mir::WideNode::empty));
+}
+
+template <class Build>
+void no_triangle_makes_a_root_without_children(const Build& build) {
+    const World world{mir::Scene{}};
+    const CopiedWideBvh bvh = build_and_check(build, world.geometry);
+    REQUIRE(bvh.nodes().size() == 1);
+    for (const std::int32_t c : bvh.nodes()[0].count) CHECK(c == mir::WideNode::empty);
+    CHECK_FALSE(mir::is_hidden(bvh.view(), {-1, 0, 0}, {1, 0, 0}));
+}
+
+/// Scenes that are hard to cluster, larger than those asked segment by segment.
+template <class Build>
+void hard_scenes_make_whole_trees(const Build& build) {
+    SECTION("soup") {
+        const World world = triangle_soup(20000, 12, 0.5f);
+        const CopiedWideBvh bvh = build_and_check(build, world.geometry);
+        CHECK(bvh.depth() < 12);
+    }
+    SECTION("needles") {
+        build_and_check(build, needles(500, GENERATE(10.0f, 1e4f, 1e7f), 13).geometry);
+    }
+    SECTION("coincident triangles, dealt out evenly") {
+        CHECK(build_and_check(build, coincident(20000).geometry).depth() <= 6);
+    }
+    SECTION("a flat grid, whose leaves lie apart") {
+        const World world = flat_grid(32, GENERATE(0, 1, 2));
+        CHECK(count_wide(build_and_check(build, world.geometry)).tests_area < 16.0);
+    }
+    SECTION("far from the origin") {
+        build_and_check(build, triangle_soup(700, 14, 1.0f, {1e4f, -1e4f, 3e3f}).geometry);
+    }
+    SECTION("huge") { build_and_check(build, triangle_soup(700, 15, 5e35f).geometry); }
+    SECTION("tiny") { build_and_check(build, triangle_soup(700, 16, 1e-20f).geometry); }
+}
+
+template <class Build>
+void depth_is_never_exceeded(const Build& build) {
+    mir::WideClusterOptions options;
+    options.max_depth = GENERATE(1u, 4u, 5u, 6u, 8u, 32u);
+    const World world = nested_triangles(3000, GENERATE(30, 150));
+    const CopiedWideBvh bvh = build_and_check(build, world.geometry, options);
+    // 8 * 8 * 8 * 4 triangles fit below three nodes, 8 * 2048 below four.
+    CHECK(bvh.depth() <= std::max(options.max_depth, 4u));
+}
+
+template <class Build>
+void scale_changes_nothing(const Build& build) {
+    // Powers of two scale every number of the construction exactly.
+    const CopiedWideBvh one = build(triangle_soup(2000, 17).geometry, {});
+    const World scaled = triangle_soup(2000, 17, GENERATE(0x1p-20f, 0x1p60f));
+    const CopiedWideBvh other = build(scaled.geometry, {});
+    CHECK(equal_bytes(one.indices(), other.indices()));
+    CHECK(one.nodes().size() == other.nodes().size());
+}
+
+template <class Build>
+void what_cannot_be_built_is_refused(const Build& build) {
+    CHECK_THROWS_AS(build(triangle_soup(2, 18, 1e37f).geometry, {}), mir::Error);
+    mir::WideClusterOptions options;
+    SECTION("no triangle in a leaf") { options.leaf_size = 0; }
+    SECTION("too many triangles in a leaf") { options.leaf_size = 9; }
+    SECTION("no neighbour") { options.radius = 0; }
+    SECTION("too many neighbours") { options.radius = 65; }
+    SECTION("nodes for nothing") { options.node_cost = 0.0f; }
+    SECTION("nodes too dear") { options.node_cost = std::numeric_limits<float>::infinity(); }
+    SECTION("no depth") { options.max_depth = 0; }
+    SECTION("depth") { options.max_depth = 33; }
+    CHECK_THROWS_AS(build(triangle_soup(10, 19).geometry, options), mir::Error);
+}
+
+/// All of the above, each by its name.
+template <class Build>
+void wide_builder_suite(const Build& build) {
+    SECTION("bits") { bits_are_those_of_every_triangle(build); }
+    SECTION("few triangles") { few_triangles_make_whole_trees(build); }
+    SECTION("no triangle") { no_triangle_makes_a_root_without_children(build); }
+    SECTION("hard scenes") { hard_scenes_make_whole_trees(build); }
+    SECTION("depth") { depth_is_never_exceeded(build); }
+    SECTION("scale") { scale_changes_nothing(build); }
+    SECTION("refusals") { what_cannot_be_built_is_refused(build); }
+}
+
+/// Whether two trees have the same bytes.
+inline bool same_trees(const CopiedWideBvh& a, const CopiedWideBvh& b) {
+    return equal_bytes(a.nodes(), b.nodes()) && equal_bytes(a.triangles(), b.triangles()) &&
+           equal_bytes(a.indices(), b.indices());
+}
+
+/// Scenes on which builders of different machines are compared in every byte.
+inline std::vector<World> worlds_to_compare() {
+    std::vector<World> worlds;
+    worlds.push_back(triangle_soup(30000, 20, 1.0f, {0.25f, 0, 0}));
+    worlds.push_back(needles(3000, 1e4f, 21));
+    worlds.push_back(coincident(3000));
+    worlds.push_back(nested_triangles(3000, 30));
+    worlds.push_back(flat_grid(40, 1));
+    worlds.emplace_back(mir::builtin::make("sphere"));
+    return worlds;
+}
+
+}  // namespace mirtest
