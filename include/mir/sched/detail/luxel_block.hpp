@@ -144,6 +144,15 @@ inline void load_points(SoaView<const Hit> group, PointPacket& points) {
     return mask;
 }
 
+/// Luxels of a block that count and face the VPL.
+[[gnu::always_inline]] inline BlockMask facing_luxels(const HitBlock& block, const Vpl& vpl) {
+    BlockMask mask;
+    for (std::uint32_t group = 0; group < groups_per_block; ++group)
+        mask.packet[group] = facing_mask(starting_at(block.hits, group * group_size), vpl) &
+                             block.candidates[group];
+    return mask;
+}
+
 /// Bit k: luxel k of the group counts, faces and sees the VPL.
 template <PacketVisibility V>
 [[gnu::always_inline]] inline std::uint32_t visible_mask(const HitBlock& block, std::uint32_t group,
