@@ -4,6 +4,12 @@
 #include "mir/accel/packet_hits.hpp"
 #include "mir/accel/wide_traverse.hpp"
 
+#ifdef MIR_CASCADE_COUNT  // TEMP
+namespace mir { inline long cascade_count[32]; }
+#define MIR_N(i, n) (MIR_CASCADE_COUNT ? (void)(cascade_count[i] += (n)) : (void)0)
+#else
+#define MIR_N(i, n) ((void)0)
+#endif
 namespace mir {
 
 // Sixteen segments from one origin walk a wide hierarchy together: a node is fetched once, its
@@ -64,16 +70,19 @@ class WidePacketWalk {
           slabs_(origin, points, bvh.reach),
           open_(active) {}
 
-    /// Lanes of `active` that meet no triangle. Nodes wait on a stack with the lanes that meet
-    /// them; at most seven wait per level.
-    std::uint32_t run() {
+    /// Lanes of `active` that meet no triangle below some nodes.
+    std::uint32_t run(const std::uint32_t* roots, std::uint32_t count) {
         Waiting stack[(WideNode::width - 1) * WideBvhView<Space::host>::max_depth + 1];
-        stack[0] = {WideBvhView<Space::host>::root, open_};
-        for (std::uint32_t waiting = 1; waiting != 0 && open_ != 0;) {
+        for (std::uint32_t i = 0; i < count; ++i) stack[i] = {roots[i], open_};
+        for (std::uint32_t waiting = count; waiting != 0 && open_ != 0;) {
             const Waiting next = stack[--waiting];
             if ((next.lanes & open_) != 0) enter(bvh_.nodes[next.node], stack, waiting);
         }
         return open_;
+    }
+    std::uint32_t run() {
+        const std::uint32_t root = WideBvhView<Space::host>::root;
+        return run(&root, 1);
     }
 
  private:
@@ -83,24 +92,46 @@ class WidePacketWalk {
     };
 
     void enter(const WideNode& node, Waiting* stack, std::uint32_t& waiting) {
+        MIR_N(20, 1);
+        std::uint32_t leaves = 0;
         for (std::uint32_t rest = hull_.met(node); rest != 0;) {
             const std::uint32_t k = pop_lowest(rest);
             if (node.count[k] == WideNode::empty) continue;
+            MIR_N(21, 1);
             const std::uint32_t lanes = open_ & slabs_.met(node, k);
             if (lanes == 0) continue;
-            if (node.is_inner(k))
+            if (node.is_inner(k)) {
+                fetch(bvh_.nodes + node.ref[k], sizeof(WideNode));
                 stack[waiting++] = {node.ref[k], lanes};
-            else
-                test_leaf(node.ref[k], static_cast<std::uint32_t>(node.count[k]));
+            } else {
+                fetch(bvh_.triangles + node.ref[k],
+                      static_cast<std::size_t>(node.count[k]) * sizeof(TriangleRows));
+                leaves |= 1u << k;
+            }
         }
+        while (leaves != 0) {
+            const std::uint32_t k = pop_lowest(leaves);
+            test_leaf(node.ref[k], static_cast<std::uint32_t>(node.count[k]));
+        }
+    }
+
+    static void fetch(const void* from, std::size_t bytes) {
+        for (std::size_t i = 0; i < bytes; i += 64)
+            __builtin_prefetch(static_cast<const char*>(from) + i);
     }
 
     void test_leaf(std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t t = first; t < first + count; ++t) {
             const TriangleRows& rows = bvh_.triangles[t];
-            open_ &= ~hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
+            MIR_N(22, 1);
+            const std::uint32_t hit = hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
+            if (hit != 0) blocker = t;
+            open_ &= ~hit;
         }
     }
+ public:
+    std::uint32_t blocker = ~0u;
+ private:
 
     const WideBvhView<Space::host>& bvh_;
     const Hull& hull_;

@@ -2,29 +2,12 @@
 #pragma once
 
 #include "mir/accel/packet_hits.hpp"
+#include "mir/accel/triangle_lanes.hpp"
 #include "mir/shaft/occlusion.hpp"
 
 #include <limits>
 
 namespace mir::detail {
-
-/// An affine function per lane.
-struct LaneRows {
-    LaneFloats x;
-    LaneFloats y;
-    LaneFloats z;
-    LaneFloats w;
-
-    [[nodiscard]] AffineRow row(std::uint32_t k) const {
-        return {x.at[k], y.at[k], z.at[k], w.at[k]};
-    }
-    void set(std::uint32_t k, AffineRow r) {
-        x.at[k] = r.x;
-        y.at[k] = r.y;
-        z.at[k] = r.z;
-        w.at[k] = r.w;
-    }
-};
 
 /// The box of a cluster as triangles are tested against it: it keeps within centre -+ half, metres.
 struct ClusterBox {
@@ -57,7 +40,7 @@ inline AffineRow subtract_rows(AffineRow f, AffineRow g, AffineRow h) {
     return {rest(f.x, g.x, h.x), rest(f.y, g.y, h.y), rest(f.z, g.z, h.z), rest(f.w, g.w, h.w)};
 }
 
-/// Up to sixteen triangles, made ready for one VPL: the affine functions s', U, V and W of
+/// Sixteen triangles, made ready for one VPL: the affine functions s', U, V and W of
 /// occlusion.hpp, once for all clusters that are asked about. Left uninitialised, because there are
 /// many for each pair and most are not used.
 struct CandidateLanes {
@@ -69,8 +52,8 @@ struct CandidateLanes {
     LaneFloats origin_u;  ///< rows at the VPL, as hit_lanes() wants them
     LaneFloats origin_v;
     LaneFloats origin_s;
-    std::uint32_t triangle[lane_count];  ///< by place in the hierarchy
-    std::uint32_t used;                  ///< bit k: lane k holds a triangle
+    std::uint32_t group;  ///< the triangles are those at 16 group + lane in the hierarchy
+    std::uint32_t used;   ///< bit k: lane k counts
 
     [[nodiscard]] OriginRows origin(std::uint32_t k) const {
         return {origin_u.at[k], origin_v.at[k], origin_s.at[k]};
@@ -80,27 +63,15 @@ struct CandidateLanes {
 /// Where coefficients are larger, products of them and coordinates might be infinite.
 inline constexpr float largest_margin = 1e30f;
 
-/// Fills `lanes` with `count` triangles, one to sixteen, by their places. No point of a cluster
-/// that will be asked about is farther from the VPL than `spread` in a coordinate, metres.
-inline void prepare_lanes(const TriangleRows* triangles, const std::uint32_t* places,
-                          std::uint32_t count, Vec3 apex, float spread, float sigma,
+/// Makes sixteen triangles ready. No point of a cluster that will be asked about is farther from
+/// the VPL at `apex` than `spread` in a coordinate, metres.
+inline void prepare_lanes(const TriangleLanes& triangles, Vec3 apex, float spread, float sigma,
                           CandidateLanes& lanes) {
-    LaneRows rows_s;
-    LaneRows rows_u;
-    LaneRows rows_v;
-    for (std::uint32_t k = 0; k < lane_count; ++k) {
-        lanes.triangle[k] = places[k < count ? k : 0];
-        const TriangleRows& rows = triangles[lanes.triangle[k]];
-        rows_s.set(k, rows.s);
-        rows_u.set(k, rows.u);
-        rows_v.set(k, rows.v);
-    }
-    lanes.used = (2u << (count - 1)) - 1u;
     const float sigmas = OcclusionMargins::edge * sigma;
     for (std::uint32_t k = 0; k < lane_count; ++k) {
-        const AffineRow s = rows_s.row(k);
-        const AffineRow u = rows_u.row(k);
-        const AffineRow v = rows_v.row(k);
+        const AffineRow s = triangles.s.row(k);
+        const AffineRow u = triangles.u.row(k);
+        const AffineRow v = triangles.v.row(k);
         const float at_s = row_at(s, apex);
         const float at_u = row_at(u, apex);
         const float at_v = row_at(v, apex);
@@ -137,7 +108,7 @@ inline LaneOcclusion occlusion(const CandidateLanes& lanes, const ClusterBox& bo
     LaneTruths full;
     for (std::uint32_t k = 0; k < lane_count; ++k) {
         const auto range = [&](AffineRow row) {
-            const float extent = row_at({fabsf(row.x), fabsf(row.y), fabsf(row.z), 0.0f}, half);
+            const float extent = AffineForm{0.0f, {row.x, row.y, row.z}}.extent(half);
             const float value = row_at(row, centre);
             return Vec2(strict::sub(value, extent), strict::add(value, extent));
         };
@@ -153,21 +124,7 @@ inline LaneOcclusion occlusion(const CandidateLanes& lanes, const ClusterBox& bo
         none.at[k] = -negative;
         full.at[k] = -positive;
     }
-    return {bits_of(none) & lanes.used, bits_of(full) & lanes.used};
-}
-
-/// Puts lane `from` of `source` into lane `to` of `target`.
-inline void copy_lane(const CandidateLanes& source, std::uint32_t from, CandidateLanes& target,
-                      std::uint32_t to) {
-    target.beyond.set(to, source.beyond.row(from));
-    target.u.set(to, source.u.row(from));
-    target.v.set(to, source.v.row(from));
-    target.w.set(to, source.w.row(from));
-    target.margin.at[to] = source.margin.at[from];
-    target.origin_u.at[to] = source.origin_u.at[from];
-    target.origin_v.at[to] = source.origin_v.at[from];
-    target.origin_s.at[to] = source.origin_s.at[from];
-    target.triangle[to] = source.triangle[from];
+    return {bits_of(none), bits_of(full)};
 }
 
 }  // namespace mir::detail

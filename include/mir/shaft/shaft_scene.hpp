@@ -14,17 +14,18 @@ class ShaftScene {
     /// @throws Error what WideBvh throws.
     template <Executor E>
     ShaftScene(const WorldGeometry& geometry, E& executor, const WideBvhOptions& options = {})
-        : scene_(geometry, executor, options) {}
+        : scene_(geometry, executor, options), lanes_(make_triangle_lanes(bvh().triangles())) {}
 
     /// Builds on the calling thread.
-    explicit ShaftScene(const WorldGeometry& geometry) : scene_(geometry) {}
+    explicit ShaftScene(const WorldGeometry& geometry) : scene_(geometry), lanes_(make_triangle_lanes(bvh().triangles())) {}
 
-    [[nodiscard]] ShaftVisibility visibility() const { return {bvh().view(), {}}; }
+    [[nodiscard]] ShaftVisibility visibility() const { return {bvh().view(), lanes_.data(), {}}; }
     [[nodiscard]] WideRayCaster<Space::host> ray_caster() const { return scene_.ray_caster(); }
     [[nodiscard]] const WideBvh& bvh() const { return scene_.bvh(); }
 
  private:
     WideBvhScene scene_;
+    std::vector<TriangleLanes> lanes_;
 };
 
 }  // namespace mir

@@ -18,6 +18,7 @@ struct ShaftVisibility {
     };
 
     WideBvhView<Space::host> bvh;
+    const TriangleLanes* lanes = nullptr;  ///< make_triangle_lanes() of its triangles
     CascadeLimits limits;
 
     [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b); }
@@ -33,7 +34,7 @@ struct ShaftVisibility {
 
     /// Not inlined: it is compiled for each instruction set once, and not again for every caller.
     [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& mask) const {
-        run_with(b.instructions, [&] { BlockCascade(bvh, b.records, origin, limits).decide(mask); });
+        run_with(b.instructions, [&] { BlockCascade(bvh, lanes, b.records, origin, limits).decide(mask); });
     }
 };
 
