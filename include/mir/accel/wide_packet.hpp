@@ -18,37 +18,59 @@ namespace mir {
 namespace detail {
 
 /// Segments of a packet as slabs are tested against them: SlabSegment, lane by lane.
-struct PacketSlabs {
-    LaneFloats inverse[3];
-    LaneFloats offset[3];
-
-    PacketSlabs(Vec3 origin, const PointPacket& points, float reach) {
+class PacketSlabs {
+ public:
+    /// Lanes out of `active` decide on which side slabs are entered.
+    PacketSlabs(Vec3 origin, const PointPacket& points, std::uint32_t active, float reach) {
         const float shortest = shortest_step(reach);
         const float* const to[3] = {points.x, points.y, points.z};
-        for (int axis = 0; axis < 3; ++axis)
+        for (int axis = 0; axis < 3; ++axis) {
             for (std::uint32_t k = 0; k < lane_count; ++k) {
                 const AxisStep step = axis_step(origin[axis], to[axis][k], shortest);
-                inverse[axis].at[k] = step.inverse;
-                offset[axis].at[k] = step.offset;
+                inverse_[axis].at[k] = step.inverse;
+                offset_[axis].at[k] = step.offset;
             }
+            const std::uint32_t back =
+                active & lanes_where([&](std::uint32_t k) { return inverse_[axis].at[k] < 0.0f; });
+            near_[axis] = 2 * axis + (back == active ? 1 : 0);
+            far_[axis] = 2 * axis + (back == active ? 0 : 1);
+            mixed_ = mixed_ || (back != 0 && back != active);
+        }
     }
 
     /// Lanes whose segments meet the box of a child: those that met_children() finds.
     [[nodiscard]] std::uint32_t met(const WideNode& node, std::uint32_t slot) const {
-        const float low[3] = {node.low(0, slot), node.low(1, slot), node.low(2, slot)};
-        const float high[3] = {node.high(0, slot), node.high(1, slot), node.high(2, slot)};
+        return mixed_ ? met<true>(node, slot) : met<false>(node, slot);
+    }
+
+ private:
+    template <bool Mixed>
+    [[nodiscard]] std::uint32_t met(const WideNode& node, std::uint32_t slot) const {
+        const Vec3 a(node.planes[near_[0]][slot], node.planes[near_[1]][slot],
+                     node.planes[near_[2]][slot]);
+        const Vec3 b(node.planes[far_[0]][slot], node.planes[far_[1]][slot],
+                     node.planes[far_[2]][slot]);
         return lanes_where([&](std::uint32_t k) {
-            float first = 0.0f;
-            float last = 1.0f;
-            for (int axis = 0; axis < 3; ++axis) {
-                const float a = loose::mul_sub(low[axis], inverse[axis].at[k], offset[axis].at[k]);
-                const float b = loose::mul_sub(high[axis], inverse[axis].at[k], offset[axis].at[k]);
-                first = larger(first, smaller(a, b));
-                last = smaller(last, larger(a, b));
-            }
+            const auto at = [&](int axis, float plane) {
+                return loose::mul_sub(plane, inverse_[axis].at[k], offset_[axis].at[k]);
+            };
+            const Vec3 u(at(0, a.x), at(1, a.y), at(2, a.z));
+            const Vec3 v(at(0, b.x), at(1, b.y), at(2, b.z));
+            const auto enter = [](float s, float t) { return Mixed ? smaller(s, t) : s; };
+            const auto leave = [](float s, float t) { return Mixed ? larger(s, t) : t; };
+            const float first = larger(larger(enter(u.x, v.x), enter(u.y, v.y)),
+                                       larger(enter(u.z, v.z), 0.0f));
+            const float last = smaller(smaller(leave(u.x, v.x), leave(u.y, v.y)),
+                                       smaller(leave(u.z, v.z), 1.0f));
             return first <= last;
         });
     }
+
+    LaneFloats inverse_[3];
+    LaneFloats offset_[3];
+    int near_[3];         ///< plane of a node through which all lanes enter, by axis
+    int far_[3];          ///< and through which they leave
+    bool mixed_ = false;  ///< on some axis lanes go both ways
 };
 
 /// Every child may be met.
@@ -67,7 +89,7 @@ class WidePacketWalk {
           hull_(hull),
           origin_(origin),
           points_(points),
-          slabs_(origin, points, bvh.reach),
+          slabs_(origin, points, active, bvh.reach),
           open_(active) {}
 
     /// Lanes of `active` that meet no triangle below some nodes.
@@ -93,13 +115,18 @@ class WidePacketWalk {
 
     void enter(const WideNode& node, Waiting* stack, std::uint32_t& waiting) {
         MIR_N(20, 1);
-        std::uint32_t leaves = 0;
-        for (std::uint32_t rest = hull_.met(node); rest != 0;) {
+        std::uint32_t met[WideNode::width];
+        const std::uint32_t slots = hull_.met(node);
+        for (std::uint32_t rest = slots; rest != 0;) {
             const std::uint32_t k = pop_lowest(rest);
-            if (node.count[k] == WideNode::empty) continue;
             MIR_N(21, 1);
-            const std::uint32_t lanes = open_ & slabs_.met(node, k);
-            if (lanes == 0) continue;
+            met[k] = slabs_.met(node, k);
+        }
+        std::uint32_t leaves = 0;
+        for (std::uint32_t rest = slots; rest != 0;) {
+            const std::uint32_t k = pop_lowest(rest);
+            const std::uint32_t lanes = open_ & met[k];
+            if (lanes == 0 || node.count[k] == WideNode::empty) continue;
             if (node.is_inner(k)) {
                 fetch(bvh_.nodes + node.ref[k], sizeof(WideNode));
                 stack[waiting++] = {node.ref[k], lanes};

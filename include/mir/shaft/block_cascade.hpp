@@ -210,7 +210,7 @@ class BlockCascade {
         detail::WaitingNodes waiting(of_block);
         std::uint32_t any_lanes = 0;
         bool covered = narrow(part, block_choice, chosen, any_lanes);
-        if (!covered && waiting.size != 0 && part.within)
+        if (BlockRecords::parts != 1 && !covered && waiting.size != 0 && part.within)
             covered = search(part, waiting.size + limits_.part_nodes, detail::LaneList::capacity,
                              waiting, chosen);
         MIR_N(4 + (covered ? 1 : waiting.size ? 3 : 2), 1);

@@ -10,7 +10,7 @@ namespace mir {
 /// for all VPLs.
 struct BlockRecords {
     static constexpr std::uint32_t packets = BlockMask::packets;
-    static constexpr std::uint32_t parts = 4;
+    static constexpr std::uint32_t parts = 1;
     static constexpr std::uint32_t part_packets = packets / parts;
 
     /// A cluster as a shaft's end and as a pyramid's base.
