@@ -4,16 +4,11 @@
 #include "mir/accel/packet_hits.hpp"
 #include "mir/accel/wide_traverse.hpp"
 
-#ifdef MIR_CASCADE_COUNT  // TEMP
-namespace mir { inline long cascade_count[32]; }
-#define MIR_N(i, n) (MIR_CASCADE_COUNT ? (void)(cascade_count[i] += (n)) : (void)0)
-#else
-#define MIR_N(i, n) ((void)0)
-#endif
 namespace mir {
 
-// Sixteen segments from one origin walk a wide hierarchy together: a node is fetched once, its
-// children are tested against all lanes at the same time. Loops over lanes have no branches.
+// Sixteen segments from one origin walk a wide hierarchy together: a node is fetched once, and each
+// of its children is tested against all lanes at the same time, by the numbers and with the proof of
+// wide_traverse.hpp. Loops over lanes have no branches.
 
 namespace detail {
 
@@ -78,11 +73,19 @@ struct AllSlots {
     [[nodiscard]] static std::uint32_t met(const WideNode&) { return 0xFFu; }
 };
 
+/// Asks the cache for what will be read soon.
+inline void prefetch(const void* from, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; i += 64)
+        __builtin_prefetch(static_cast<const char*>(from) + i);
+}
+
 /// The packet, and which of its lanes have met a triangle. `Hull` says which children of a node the
 /// lanes may meet at all, met(node), and spares asking all lanes about the others.
 template <class Hull>
 class WidePacketWalk {
  public:
+    static constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
+
     WidePacketWalk(const WideBvhView<Space::host>& bvh, const Hull& hull, Vec3 origin,
                    const PointPacket& points, std::uint32_t active)
         : bvh_(bvh),
@@ -92,20 +95,26 @@ class WidePacketWalk {
           slabs_(origin, points, active, bvh.reach),
           open_(active) {}
 
-    /// Lanes of `active` that meet no triangle below some nodes.
+    /// Lanes of `active` that meet no triangle below some nodes, which wait as a walk of this kind
+    /// leaves them. Nodes wait on a stack with the lanes that meet them, at most seven per level.
     std::uint32_t run(const std::uint32_t* roots, std::uint32_t count) {
-        Waiting stack[(WideNode::width - 1) * WideBvhView<Space::host>::max_depth + 1];
-        for (std::uint32_t i = 0; i < count; ++i) stack[i] = {roots[i], open_};
-        for (std::uint32_t waiting = count; waiting != 0 && open_ != 0;) {
-            const Waiting next = stack[--waiting];
-            if ((next.lanes & open_) != 0) enter(bvh_.nodes[next.node], stack, waiting);
+        for (std::uint32_t i = 0; i < count; ++i) stack_[i] = {roots[i], open_};
+        waiting_ = count;
+        while (waiting_ != 0 && open_ != 0) {
+            const Waiting next = stack_[--waiting_];
+            if ((next.lanes & open_) != 0) enter(bvh_.nodes[next.node]);
         }
         return open_;
     }
+
+    /// The same below the root.
     std::uint32_t run() {
         const std::uint32_t root = WideBvhView<Space::host>::root;
         return run(&root, 1);
     }
+
+    /// Place of the last triangle that was met, or no_triangle.
+    [[nodiscard]] std::uint32_t blocker() const { return blocker_; }
 
  private:
     struct Waiting {
@@ -113,13 +122,13 @@ class WidePacketWalk {
         std::uint32_t lanes;
     };
 
-    void enter(const WideNode& node, Waiting* stack, std::uint32_t& waiting) {
-        MIR_N(20, 1);
+    /// Asks all lanes about all children before it decides anything, so that no test waits for the
+    /// outcome of another.
+    void enter(const WideNode& node) {
         std::uint32_t met[WideNode::width];
         const std::uint32_t slots = hull_.met(node);
         for (std::uint32_t rest = slots; rest != 0;) {
             const std::uint32_t k = pop_lowest(rest);
-            MIR_N(21, 1);
             met[k] = slabs_.met(node, k);
         }
         std::uint32_t leaves = 0;
@@ -128,11 +137,11 @@ class WidePacketWalk {
             const std::uint32_t lanes = open_ & met[k];
             if (lanes == 0 || node.count[k] == WideNode::empty) continue;
             if (node.is_inner(k)) {
-                fetch(bvh_.nodes + node.ref[k], sizeof(WideNode));
-                stack[waiting++] = {node.ref[k], lanes};
+                prefetch(bvh_.nodes + node.ref[k], sizeof(WideNode));
+                stack_[waiting_++] = {node.ref[k], lanes};
             } else {
-                fetch(bvh_.triangles + node.ref[k],
-                      static_cast<std::size_t>(node.count[k]) * sizeof(TriangleRows));
+                prefetch(bvh_.triangles + node.ref[k],
+                         static_cast<std::size_t>(node.count[k]) * sizeof(TriangleRows));
                 leaves |= 1u << k;
             }
         }
@@ -142,23 +151,14 @@ class WidePacketWalk {
         }
     }
 
-    static void fetch(const void* from, std::size_t bytes) {
-        for (std::size_t i = 0; i < bytes; i += 64)
-            __builtin_prefetch(static_cast<const char*>(from) + i);
-    }
-
     void test_leaf(std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t t = first; t < first + count; ++t) {
             const TriangleRows& rows = bvh_.triangles[t];
-            MIR_N(22, 1);
             const std::uint32_t hit = hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
-            if (hit != 0) blocker = t;
+            if (hit != 0) blocker_ = t;
             open_ &= ~hit;
         }
     }
- public:
-    std::uint32_t blocker = ~0u;
- private:
 
     const WideBvhView<Space::host>& bvh_;
     const Hull& hull_;
@@ -166,6 +166,9 @@ class WidePacketWalk {
     const PointPacket& points_;
     PacketSlabs slabs_;
     std::uint32_t open_;  ///< lanes that still ask
+    std::uint32_t blocker_ = no_triangle;
+    std::uint32_t waiting_ = 0;
+    Waiting stack_[WideBvhView<Space::host>::most_waiting];
 };
 
 }  // namespace detail

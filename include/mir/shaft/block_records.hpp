@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/concepts/visibility.hpp"
 #include "mir/shaft/candidate_lanes.hpp"
 
 namespace mir {
 
 /// What the cascade of the host knows about the 256 luxels of a block: their positions in packets
-/// of sixteen, and records of the block, of its quarters and of its packets. Made once per block,
-/// for all VPLs.
+/// of sixteen, and records of the block and of its packets. Made once per block, for all VPLs.
 struct BlockRecords {
     static constexpr std::uint32_t packets = BlockMask::packets;
-    static constexpr std::uint32_t parts = 1;
-    static constexpr std::uint32_t part_packets = packets / parts;
 
     /// A cluster as a shaft's end and as a pyramid's base.
     struct Cluster {
@@ -22,20 +20,18 @@ struct BlockRecords {
 
     PointPacket points[packets];
     Cluster packet[packets];
-    Cluster part[parts];
     Cluster all;
     float sigma = 0.0f;  ///< of the scene, metres
 
-    /// Of the first 256 luxels of `hits`. `reach` as for the hierarchy, metres.
+    /// Of the first 256 luxels of `hits`, finite or not. `reach` as for the hierarchy and `sigma`
+    /// as for records of clusters, metres.
     BlockRecords(const SoaView<const Hit>& hits, float reach, float scene_sigma)
         : all(cluster(hits, 0, BlockMask::luxels, reach, scene_sigma)), sigma(scene_sigma) {
-        constexpr std::uint32_t luxels = PointPacket::width;
-        for (std::uint32_t p = 0; p < parts; ++p)
-            part[p] = cluster(hits, p * part_packets * luxels, part_packets * luxels, reach, sigma);
+        constexpr std::uint32_t width = PointPacket::width;
         for (std::uint32_t g = 0; g < packets; ++g) {
-            packet[g] = cluster(hits, g * luxels, luxels, reach, sigma);
-            for (std::uint32_t k = 0; k < luxels; ++k) {
-                const Vec3 p = hits.load(g * luxels + k).position;
+            packet[g] = cluster(hits, g * width, width, reach, sigma);
+            for (std::uint32_t k = 0; k < width; ++k) {
+                const Vec3 p = hits.load(g * width + k).position;
                 points[g].x[k] = p.x;
                 points[g].y[k] = p.y;
                 points[g].z[k] = p.z;

@@ -53,7 +53,6 @@ struct CandidateLanes {
     LaneFloats origin_v;
     LaneFloats origin_s;
     std::uint32_t group;  ///< the triangles are those at 16 group + lane in the hierarchy
-    std::uint32_t used;   ///< bit k: lane k counts
 
     [[nodiscard]] OriginRows origin(std::uint32_t k) const {
         return {origin_u.at[k], origin_v.at[k], origin_s.at[k]};
