@@ -33,30 +33,42 @@ class PacketSlabs {
         }
     }
 
-    /// Lanes whose segments meet the box of a child: those that met_children() finds.
-    [[nodiscard]] std::uint32_t met(const WideNode& node, std::uint32_t slot) const {
-        return mixed_ ? met<true>(node, slot) : met<false>(node, slot);
+    /// Lanes whose segments meet the boxes of some children, those that met_children() finds: a
+    /// word for each of `slots`, the others stay as they are.
+    void meet(const WideNode& node, std::uint32_t slots, std::uint32_t* lanes) const {
+        mixed_ ? meet<true>(node, slots, lanes) : meet<false>(node, slots, lanes);
     }
 
  private:
     template <bool Mixed>
-    [[nodiscard]] std::uint32_t met(const WideNode& node, std::uint32_t slot) const {
-        const Vec3 a(node.planes[near_[0]][slot], node.planes[near_[1]][slot],
-                     node.planes[near_[2]][slot]);
-        const Vec3 b(node.planes[far_[0]][slot], node.planes[far_[1]][slot],
-                     node.planes[far_[2]][slot]);
-        return lanes_where([&](std::uint32_t k) {
+    void meet(const WideNode& node, std::uint32_t slots, std::uint32_t* lanes) const {
+        const float* const near_x = node.planes[near_[0]];
+        const float* const near_y = node.planes[near_[1]];
+        const float* const near_z = node.planes[near_[2]];
+        const float* const far_x = node.planes[far_[0]];
+        const float* const far_y = node.planes[far_[1]];
+        const float* const far_z = node.planes[far_[2]];
+        while (slots != 0) {
+            const std::uint32_t k = pop_lowest(slots);
+            lanes[k] = meet<Mixed>({near_x[k], near_y[k], near_z[k]}, {far_x[k], far_y[k], far_z[k]});
+        }
+    }
+
+    /// For the planes of one box. If `Mixed`, which of them lanes enter by is found lane by lane.
+    template <bool Mixed>
+    [[nodiscard]] std::uint32_t meet(Vec3 near, Vec3 far) const {
+        return lanes_where([&](std::uint32_t lane) {
             const auto at = [&](int axis, float plane) {
-                return loose::mul_sub(plane, inverse_[axis].at[k], offset_[axis].at[k]);
+                return loose::mul_sub(plane, inverse_[axis].at[lane], offset_[axis].at[lane]);
             };
-            const Vec3 u(at(0, a.x), at(1, a.y), at(2, a.z));
-            const Vec3 v(at(0, b.x), at(1, b.y), at(2, b.z));
+            const Vec3 a(at(0, near.x), at(1, near.y), at(2, near.z));
+            const Vec3 b(at(0, far.x), at(1, far.y), at(2, far.z));
             const auto enter = [](float s, float t) { return Mixed ? smaller(s, t) : s; };
             const auto leave = [](float s, float t) { return Mixed ? larger(s, t) : t; };
-            const float first = larger(larger(enter(u.x, v.x), enter(u.y, v.y)),
-                                       larger(enter(u.z, v.z), 0.0f));
-            const float last = smaller(smaller(leave(u.x, v.x), leave(u.y, v.y)),
-                                       smaller(leave(u.z, v.z), 1.0f));
+            const float first = larger(larger(enter(a.x, b.x), enter(a.y, b.y)),
+                                       larger(enter(a.z, b.z), 0.0f));
+            const float last = smaller(smaller(leave(a.x, b.x), leave(a.y, b.y)),
+                                       smaller(leave(a.z, b.z), 1.0f));
             return first <= last;
         });
     }
@@ -127,10 +139,7 @@ class WidePacketWalk {
     void enter(const WideNode& node) {
         std::uint32_t met[WideNode::width];
         const std::uint32_t slots = hull_.met(node);
-        for (std::uint32_t rest = slots; rest != 0;) {
-            const std::uint32_t k = pop_lowest(rest);
-            met[k] = slabs_.met(node, k);
-        }
+        slabs_.meet(node, slots, met);
         std::uint32_t leaves = 0;
         for (std::uint32_t rest = slots; rest != 0;) {
             const std::uint32_t k = pop_lowest(rest);
