@@ -64,8 +64,8 @@ struct alignas(64) BlockMask {
 /// origins. What an engine wants to know about a block is found once, `block(luxels, set)`, from
 /// its luxels in planes, padded with empty ones, which must outlive it; `set` is the instruction
 /// set that its loops may use. Then visible_block(block, origin, mask) clears the bits of luxels
-/// that do not see the origin; no bit of an empty luxel may be set. A block may be shared by
-/// threads.
+/// that do not see the origin; no bit may be set of a luxel that is empty or not a number. A block
+/// may be shared by threads.
 ///
 /// Axioms (tests/conformance/block_suite.hpp):
 ///  1. what is left is set in the mask that was given;
