@@ -55,8 +55,8 @@ void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const
 
 /// Fills an empty `matrix` of the same tiles and VPLs: bit = faces() and visible(). Packets and
 /// blocks are used where the visibility has them and the G-buffer has planes; then the bits are
-/// those of visible() as far as the visibility keeps the axioms of those faces. Black VPLs and surfaces
-/// are traced like others. The bits do not depend on `executor` or `instructions`.
+/// those of visible() as far as the visibility keeps the axioms of those faces. Black VPLs and
+/// surfaces are traced like others. The bits do not depend on `executor` or `instructions`.
 /// @throws Error(invalid_argument) when the matrix belongs to other tiles or VPLs.
 template <TiledGBuffer G, VplSet P, Visibility V, Executor E>
 void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visibility, E& executor,

@@ -47,8 +47,8 @@ std::size_t wrong_bits(const V& visibility, const std::vector<mir::Hit>& luxels,
     for (std::uint32_t i = 0; i < mir::BlockMask::luxels; ++i) {
         const std::uint32_t bit = 1u << i % mir::PointPacket::width;
         const std::uint32_t packet = i / mir::PointPacket::width;
-        const bool wanted = (asked.packet[packet] & bit) != 0 &&
-                            visibility.visible(origin, luxels[i].position);
+        const bool wanted =
+            (asked.packet[packet] & bit) != 0 && visibility.visible(origin, luxels[i].position);
         wrong += wanted != ((found.packet[packet] & bit) != 0) ? 1 : 0;
     }
     return wrong;

@@ -25,8 +25,8 @@ TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms of Scheduler with every in
     }
 }
 
-TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms by whole blocks with every instruction set", "",
-                   mir::Lambert, mir::CookTorrance) {
+TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms by whole blocks with every instruction set",
+                   "", mir::Lambert, mir::CookTorrance) {
     const mirtest::Stage<TestType, mir::ShaftScene> stage({100, 70}, {48, 32}, 37);
     mir::InlineExecutor executor;
     for (mir::InstructionSet set : mirtest::instruction_sets()) {

@@ -73,10 +73,9 @@ Answers ask(const mirtest::World& world, int draws, float factor = 1.0f) {
             const bool all = std::all_of(d.luxels.begin(), d.luxels.end(), is_hit);
             answers.none += none ? 1 : 0;
             answers.full += full ? 1 : 0;
-            answers.fewer += !none && !full &&
-                                     occlusion(bvh.triangles()[t], pyramid) != Occlusion::partial
-                                 ? 1
-                                 : 0;
+            answers.fewer +=
+                !none && !full && occlusion(bvh.triangles()[t], pyramid) != Occlusion::partial ? 1
+                                                                                               : 0;
             answers.wrong += (none && any) || (full && !all) ? 1 : 0;
         }
     }

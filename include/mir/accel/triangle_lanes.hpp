@@ -39,7 +39,9 @@ struct TriangleLanes {
     detail::LaneRows v;
     detail::LaneRows s;
 
-    [[nodiscard]] TriangleRows rows(std::uint32_t k) const { return {u.row(k), v.row(k), s.row(k)}; }
+    [[nodiscard]] TriangleRows rows(std::uint32_t k) const {
+        return {u.row(k), v.row(k), s.row(k)};
+    }
 };
 
 /// The triangles of a hierarchy once more, in lanes. The last ones are filled up with triangles

@@ -7,8 +7,8 @@
 namespace mir {
 
 // Sixteen segments from one origin walk a wide hierarchy together: a node is fetched once, and each
-// of its children is tested against all lanes at the same time, by the numbers and with the proof of
-// wide_traverse.hpp. Loops over lanes have no branches.
+// of its children is tested against all lanes at the same time, by the numbers and with the proof
+// of wide_traverse.hpp. Loops over lanes have no branches.
 
 namespace detail {
 
@@ -50,7 +50,8 @@ class PacketSlabs {
         const float* const far_z = node.planes[far_[2]];
         while (slots != 0) {
             const std::uint32_t k = pop_lowest(slots);
-            lanes[k] = meet<Mixed>({near_x[k], near_y[k], near_z[k]}, {far_x[k], far_y[k], far_z[k]});
+            lanes[k] =
+                meet<Mixed>({near_x[k], near_y[k], near_z[k]}, {far_x[k], far_y[k], far_z[k]});
         }
     }
 
@@ -65,10 +66,10 @@ class PacketSlabs {
             const Vec3 b(at(0, far.x), at(1, far.y), at(2, far.z));
             const auto enter = [](float s, float t) { return Mixed ? smaller(s, t) : s; };
             const auto leave = [](float s, float t) { return Mixed ? larger(s, t) : t; };
-            const float first = larger(larger(enter(a.x, b.x), enter(a.y, b.y)),
-                                       larger(enter(a.z, b.z), 0.0f));
-            const float last = smaller(smaller(leave(a.x, b.x), leave(a.y, b.y)),
-                                       smaller(leave(a.z, b.z), 1.0f));
+            const float first =
+                larger(larger(enter(a.x, b.x), enter(a.y, b.y)), larger(enter(a.z, b.z), 0.0f));
+            const float last =
+                smaller(smaller(leave(a.x, b.x), leave(a.y, b.y)), smaller(leave(a.z, b.z), 1.0f));
             return first <= last;
         });
     }
@@ -199,8 +200,7 @@ class WidePacketWalk {
             seen |= 1u << k;
     }
     if (together == 0) return seen;
-    return seen |
-           detail::WidePacketWalk(bvh, detail::AllSlots{}, origin, points, together).run();
+    return seen | detail::WidePacketWalk(bvh, detail::AllSlots{}, origin, points, together).run();
 }
 
 }  // namespace mir

@@ -20,10 +20,9 @@ class BlockCascade {
     void decide(BlockMask& mask, const CascadeLimits& limits) {
         const bool provable =
             is_proved_scale(bvh_.reach) && block_.all.within && within_reach(apex_, bvh_.reach);
-        const bool covered =
-            provable &&
-            detail::LaneSearcher(bvh_, triangles_, block_.all, apex_, block_.sigma, search_)
-                .run(limits);
+        const bool covered = provable && detail::LaneSearcher(bvh_, triangles_, block_.all, apex_,
+                                                              block_.sigma, search_)
+                                             .run(limits);
         if (provable && !covered && search_.finds_nothing()) return;
         for (std::uint32_t g = 0; g < BlockMask::packets; ++g) {
             std::uint32_t& open = mask.packet[g];
@@ -82,8 +81,8 @@ class BlockCascade {
         for (const std::uint32_t t : blockers_) {
             if (t == Walk::no_triangle) continue;
             const TriangleRows& rows = bvh_.triangles[t];
-            open &= ~detail::hit_lanes(rows, detail::origin_rows(rows, apex_), block_.points[g],
-                                       open);
+            open &=
+                ~detail::hit_lanes(rows, detail::origin_rows(rows, apex_), block_.points[g], open);
         }
         if (open == 0) return 0;
         const SlotShaft shaft(make_shaft(block_.packet[g].record, apex_, block_.sigma));

@@ -44,8 +44,8 @@ inline AffineRow subtract_rows(AffineRow f, AffineRow g, AffineRow h) {
 /// occlusion.hpp, once for all clusters that are asked about. Left uninitialised, because there are
 /// many for each pair and most are not used.
 struct CandidateLanes {
-    LaneRows beyond;      ///< s': distance beyond the plane as seen from the VPL, metres
-    LaneRows u;           ///< U, V, W: not negative where the segment crosses inside
+    LaneRows beyond;  ///< s': distance beyond the plane as seen from the VPL, metres
+    LaneRows u;       ///< U, V, W: not negative where the segment crosses inside
     LaneRows v;
     LaneRows w;
     LaneFloats margin;    ///< of U, V and W; infinite where nothing may be shown

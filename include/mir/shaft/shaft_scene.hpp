@@ -17,7 +17,8 @@ class ShaftScene {
         : scene_(geometry, executor, options), lanes_(make_triangle_lanes(bvh().triangles())) {}
 
     /// Builds on the calling thread.
-    explicit ShaftScene(const WorldGeometry& geometry) : scene_(geometry), lanes_(make_triangle_lanes(bvh().triangles())) {}
+    explicit ShaftScene(const WorldGeometry& geometry)
+        : scene_(geometry), lanes_(make_triangle_lanes(bvh().triangles())) {}
 
     [[nodiscard]] ShaftVisibility visibility() const { return {bvh().view(), lanes_.data(), {}}; }
     [[nodiscard]] WideRayCaster<Space::host> ray_caster() const { return scene_.ray_caster(); }

@@ -34,7 +34,8 @@ struct ShaftVisibility {
 
     /// Not inlined: it is compiled for each instruction set once, and not again for every caller.
     [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& mask) const {
-        run_with(b.instructions, [&] { BlockCascade(bvh, lanes, b.records, origin).decide(mask, limits); });
+        run_with(b.instructions,
+                 [&] { BlockCascade(bvh, lanes, b.records, origin).decide(mask, limits); });
     }
 };
 

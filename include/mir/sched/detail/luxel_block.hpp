@@ -148,8 +148,8 @@ inline void load_points(SoaView<const Hit> group, PointPacket& points) {
 [[gnu::always_inline]] inline BlockMask facing_mask(const HitBlock& block, const Vpl& vpl) {
     BlockMask mask;
     for (std::uint32_t group = 0; group < groups_per_block; ++group)
-        mask.packet[group] = facing_mask(starting_at(block.hits, group * group_size), vpl) &
-                             block.candidates[group];
+        mask.packet[group] =
+            facing_mask(starting_at(block.hits, group * group_size), vpl) & block.candidates[group];
     return mask;
 }
 
