@@ -35,27 +35,28 @@ void fill_block_by_segments(VisibilityMatrix& matrix, const G& gbuffer, const P&
     }
 }
 
-/// The same by packets, after VPLs that the whole block cannot face were thrown away.
+/// The same by packets or whole, after VPLs that the block cannot face were thrown away.
 template <TiledGBuffer G, VplSet P, PacketVisibility V>
-void fill_block_by_packets(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls,
-                           const V& visibility, sched::detail::Block b) {
+void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const V& visibility,
+                InstructionSet instructions, sched::detail::Block b) {
     using namespace sched::detail;
     const HitBlock block(gbuffer.view(b.tile).hits, b, [](std::uint32_t) { return true; });
+    const BlockSight<V> sight(block, visibility, instructions);
     for (VplIndex j = 0; j < vpls.size(); ++j) {
         const Vpl vpl = vpls[j];
         if (block.cannot_face(vpl)) continue;
+        const BlockMask mask = sight(vpl);
         for (std::uint32_t g = 0; g < groups_per_block; ++g)
-            matrix.store(b.tile, b.block * groups_per_block + g, j,
-                         visible_mask(block, g, vpl, visibility));
+            matrix.store(b.tile, b.block * groups_per_block + g, j, mask.packet[g]);
     }
 }
 
 }  // namespace detail
 
-/// Fills an empty `matrix` of the same tiles and VPLs: bit = faces() and visible(). Packets are
-/// used where the visibility has them and the G-buffer has planes; then the bits are those of
-/// visible() as far as the visibility keeps the axiom of PacketVisibility. Black VPLs and surfaces
-/// are traced like others. The bits do not depend on `executor` or `instructions`.
+/// Fills an empty `matrix` of the same tiles and VPLs: bit = faces() and visible(). Packets and
+/// blocks are used where the visibility has them and the G-buffer has planes; then the bits are
+/// those of visible() as far as the visibility keeps the axioms of those faces. Black VPLs and
+/// surfaces are traced like others. The bits do not depend on `executor` or `instructions`.
 /// @throws Error(invalid_argument) when the matrix belongs to other tiles or VPLs.
 template <TiledGBuffer G, VplSet P, Visibility V, Executor E>
 void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visibility, E& executor,
@@ -71,7 +72,7 @@ void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visib
         const sched::detail::Block block = blocks[i];
         if constexpr (by_packets)
             run_with(instructions, [&] {
-                detail::fill_block_by_packets(matrix, gbuffer, vpls, visibility, block);
+                detail::fill_block(matrix, gbuffer, vpls, visibility, instructions, block);
             });
         else
             detail::fill_block_by_segments(matrix, gbuffer, vpls, visibility, block);

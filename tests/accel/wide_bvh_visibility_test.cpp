@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/accel/wide_bvh_visibility.hpp"
 
+#include "conformance/packet_suite.hpp"
 #include "conformance/ray_caster_suite.hpp"
 #include "conformance/visibility_suite.hpp"
 #include "mir/accel/wide_bvh_scene.hpp"
@@ -9,6 +10,8 @@
 TEST_CASE("A wide tree's visibility keeps the axioms") {
     mirtest::visibility_suite<mir::WideBvhScene>();
 }
+
+TEST_CASE("A wide tree's packets keep the axiom") { mirtest::packet_suite<mir::WideBvhScene>(); }
 
 TEST_CASE("A wide tree's ray caster keeps the axioms") {
     mirtest::ray_caster_suite<mir::WideBvhScene>();

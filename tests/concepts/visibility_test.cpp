@@ -15,6 +15,8 @@ static_assert(mir::Visibility<archetype::Visibility>);
 static_assert(mir::Visibility<archetype::DeviceVisibility>);
 static_assert(!mir::PacketVisibility<archetype::Visibility>);
 static_assert(mir::PacketVisibility<archetype::PacketVisibility>);
+static_assert(!mir::BlockVisibility<archetype::PacketVisibility>);
+static_assert(mir::BlockVisibility<archetype::BlockVisibility>);
 static_assert(mir::AccessibleFrom<archetype::Visibility, mir::Space::host>);
 static_assert(!mir::AccessibleFrom<archetype::DeviceVisibility, mir::Space::host>);
 

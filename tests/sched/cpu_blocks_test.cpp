@@ -3,18 +3,12 @@
 
 #include "conformance/brute_force.hpp"
 #include "conformance/scheduler_suite.hpp"
+#include "mir/fill_visibility.hpp"
+#include "mir/shaft/shaft_scene.hpp"
 #include "support/catch.hpp"
+#include "support/instruction_sets.hpp"
 
 namespace {
-
-/// Instruction sets of this processor, the plainest first.
-std::vector<mir::InstructionSet> instruction_sets() {
-    using mir::InstructionSet;
-    std::vector<InstructionSet> sets;
-    for (auto set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512})
-        if (set <= mir::best_instruction_set()) sets.push_back(set);
-    return sets;
-}
 
 template <mir::Bsdf B>
 using BruteStage = mirtest::Stage<B, mirtest::BruteForceScene>;
@@ -25,9 +19,39 @@ TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms of Scheduler with every in
                    mir::Lambert, mir::CookTorrance) {
     const BruteStage<TestType> stage({100, 70}, {48, 32}, 37);
     mir::InlineExecutor executor;
-    for (mir::InstructionSet set : instruction_sets()) {
+    for (mir::InstructionSet set : mirtest::instruction_sets()) {
         INFO("instruction set " << static_cast<int>(set));
         mirtest::scheduler_suite(mir::sched::CpuBlocks{executor, nullptr, set}, stage);
+    }
+}
+
+TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms by whole blocks with every instruction set",
+                   "", mir::Lambert, mir::CookTorrance) {
+    const mirtest::Stage<TestType, mir::ShaftScene> stage({100, 70}, {48, 32}, 37);
+    mir::InlineExecutor executor;
+    for (mir::InstructionSet set : mirtest::instruction_sets()) {
+        INFO("instruction set " << static_cast<int>(set));
+        mirtest::scheduler_suite(mir::sched::CpuBlocks{executor, nullptr, set}, stage);
+    }
+}
+
+TEST_CASE("A matrix filled by whole blocks has the bits of single segments") {
+    const mirtest::Stage<mir::Lambert, mir::ShaftScene> stage({100, 70}, {48, 32}, 37);
+    mir::InlineExecutor executor;
+    for (mir::InstructionSet set : mirtest::instruction_sets()) {
+        mir::VisibilityMatrix matrix(stage.gbuffer().tiles(), stage.vpls().size());
+        fill_visibility(matrix, stage.gbuffer(), stage.vpls(), stage.visibility(), executor, set);
+        std::size_t wrong = 0;
+        for (mir::TileIndex t = 0; t < stage.gbuffer().tiles().size(); ++t)
+            for (mir::LuxelIndex i = 0; i < stage.gbuffer().view(t).size(); ++i)
+                for (mir::VplIndex j = 0; j < stage.vpls().size(); ++j) {
+                    const mir::Hit hit = stage.gbuffer().view(t).hit(i);
+                    const mir::Vpl vpl = stage.vpls()[j];
+                    const bool wanted =
+                        faces(hit, vpl) && stage.visibility().visible(vpl.position, hit.position);
+                    wrong += matrix.view().sees(t, i, j) != wanted ? 1 : 0;
+                }
+        CHECK(wrong == 0);
     }
 }
 

@@ -192,8 +192,8 @@ void add_execution(CLI::App& app, RenderOptions& o) {
     add_choice<mir::Acceleration>(
         app, "--accel", s.acceleration,
         {{"kdtree", mir::Acceleration::kd_tree}, {"bvh", mir::Acceleration::bvh}},
-        "What rays are traced through: the kd-tree (default on a GPU) or Embree's hierarchy "
-        "(default on the processor)");
+        "What rays are traced through: the kd-tree (default on a GPU) or the wide hierarchy with "
+        "shafts (processor alone); else Embree's hierarchy");
     app.add_option("--scheduler", s.scheduler,
                    "cpu-blocks, tuned (default of the processor); cpu, the plain loop; os, rc or "
                    "rcvp (default of GPUs), the paper's; the picture is the same")

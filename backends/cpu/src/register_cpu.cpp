@@ -3,12 +3,14 @@
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/register.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/shaft/shaft_scene.hpp"
 #include "render_on_host.hpp"
 
 namespace mir::cpu {
 
 extern template RenderResult render_any(const HostRender&, const EmbreeScene&);
 extern template RenderResult render_any(const HostRender&, const KdTreeScene&);
+extern template RenderResult render_any(const HostRender&, const ShaftScene&);
 
 namespace {
 
@@ -47,33 +49,38 @@ class CpuRenderer : public Renderer {
             geometry.emplace(scene, settings.limits);
         }
         const HostRender render{scene, settings, *geometry, executor, monitor, scheduler_};
-        const bool uses_tree = settings.acceleration == Acceleration::kd_tree;
-        RenderResult result = uses_tree ? trace_tree(render, build) : trace_embree(render, build);
-        result.statistics.acceleration = uses_tree ? "kdtree" : "bvh";
+        RenderResult result = trace(render, build);
         result.statistics.triangles = geometry->triangles().size();
         result.statistics.dropped_triangles = geometry->dropped_triangles();
         result.statistics.seconds.build = build;
         return result;
     }
 
-    static RenderResult trace_tree(const HostRender& render, double& build) {
-        std::optional<KdTreeScene> engine;
-        {
-            const Stopwatch watch(build);
-            engine.emplace(render.geometry, render.executor);
+    static RenderResult trace(const HostRender& render, double& build) {
+        switch (render.settings.acceleration) {
+            case Acceleration::kd_tree:
+                return trace_by<KdTreeScene>("kdtree", render, build, render.executor);
+            case Acceleration::bvh:
+                return trace_by<ShaftScene>("bvh", render, build, render.executor);
+            case Acceleration::automatic:
+                break;
         }
-        if (render.monitor != nullptr) render.monitor->check();
-        return render_any(render, *engine);
+        return trace_by<EmbreeScene>("embree", render, build);
     }
 
-    static RenderResult trace_embree(const HostRender& render, double& build) {
-        std::optional<EmbreeScene> engine;
+    /// Builds the engine, and renders with it.
+    template <class Engine, class... Options>
+    static RenderResult trace_by(const char* name, const HostRender& render, double& build,
+                                 Options&... options) {
+        std::optional<Engine> engine;
         {
             const Stopwatch watch(build);
-            engine.emplace(render.geometry);
+            engine.emplace(render.geometry, options...);
         }
         if (render.monitor != nullptr) render.monitor->check();
-        return render_any(render, *engine);
+        RenderResult result = render_any(render, *engine);
+        result.statistics.acceleration = name;
+        return result;
     }
 
     std::string name_;

@@ -48,6 +48,11 @@ namespace mir {
     return 32.0 * 0x1p-24 * static_cast<double>(magnitude);
 }
 
+/// sigma_of() a scene that is known by its reach_of() alone, up to rounding.
+[[nodiscard]] inline float sigma_of_reach(float reach) {
+    return static_cast<float>(sigma_of(reach) / 1.5);
+}
+
 namespace detail {
 
 /// Where segments are accepted, projected on the triangle's plane: a triangle around the triangle.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/accel/kd_traverse.hpp"
-#include "mir/concepts/visibility.hpp"
+#include "mir/accel/packet_hits.hpp"
 
 namespace mir {
 
@@ -12,23 +12,6 @@ namespace mir {
 // set.
 
 namespace detail {
-
-inline constexpr std::uint32_t packet_lanes = PointPacket::width;
-
-/// A number per lane.
-struct alignas(64) LaneFloats {
-    float at[packet_lanes];
-};
-
-/// One mask bit per lane: lane k where `test(k)`.
-template <class Test>
-std::uint32_t lanes_where(Test test) {
-    std::int32_t bits[packet_lanes];
-    for (std::uint32_t k = 0; k < packet_lanes; ++k) bits[k] = test(k) ? 1 << k : 0;
-    std::int32_t all = 0;
-    for (const std::int32_t bit : bits) all |= bit;
-    return static_cast<std::uint32_t>(all);
-}
 
 /// Part of each lane's segment inside a cell; empty where begin > end.
 struct LaneIntervals {
@@ -48,7 +31,7 @@ class PacketWalk {
                std::uint32_t active)
         : tree_(tree), origin_(origin), points_(points), open_(active) {
         const float shortest = shortest_step(tree.reach);
-        for (std::uint32_t k = 0; k < packet_lanes; ++k) {
+        for (std::uint32_t k = 0; k < lane_count; ++k) {
             inverse_[0].at[k] = inverse_step(points.x[k] - origin.x, shortest);
             inverse_[1].at[k] = inverse_step(points.y[k] - origin.y, shortest);
             inverse_[2].at[k] = inverse_step(points.z[k] - origin.z, shortest);
@@ -61,7 +44,6 @@ class PacketWalk {
  private:
     std::uint32_t enter_children(KdNode node, LaneIntervals& part);
     void test_leaf(KdNode leaf);
-    [[nodiscard]] std::uint32_t hit_lanes(const TriangleRows& rows) const;
 
     const KdTreeView<Space::host>& tree_;
     Vec3 origin_;
@@ -79,7 +61,7 @@ inline std::uint32_t PacketWalk::enter_children(KdNode node, LaneIntervals& part
     const float gap = node.split() - origin_[static_cast<int>(node.axis())];
     const bool starts_below = gap >= 0.0f;
     LaneIntervals far;
-    for (std::uint32_t k = 0; k < packet_lanes; ++k) {
+    for (std::uint32_t k = 0; k < lane_count; ++k) {
         // Lanes that move away from the plane never cross it.
         const bool towards = (inverse[k] > 0.0f) == starts_below;
         const float t = towards ? gap * inverse[k] : 2.0f;
@@ -101,32 +83,17 @@ inline std::uint32_t PacketWalk::enter_children(KdNode node, LaneIntervals& part
     return near_child;
 }
 
-inline std::uint32_t PacketWalk::hit_lanes(const TriangleRows& rows) const {
-    const float s_from = row_at(rows.s, origin_);
-    LaneFloats s_to;
-    for (std::uint32_t k = 0; k < packet_lanes; ++k)
-        s_to.at[k] = row_at(rows.s, {points_.x[k], points_.y[k], points_.z[k]});
-    const std::uint32_t crossing_lanes =
-        open_ & lanes_where([&](std::uint32_t k) { return opposite(s_from, s_to.at[k]); });
-    if (crossing_lanes == 0) return 0;
-    const float u_from = row_at(rows.u, origin_);
-    const float v_from = row_at(rows.v, origin_);
-    return crossing_lanes & lanes_where([&](std::uint32_t k) {
-               const Vec3 to{points_.x[k], points_.y[k], points_.z[k]};
-               return is_inside(crossing(u_from, v_from, s_from, row_at(rows.u, to),
-                                         row_at(rows.v, to), s_to.at[k]));
-           });
-}
-
 inline void PacketWalk::test_leaf(KdNode leaf) {
     const std::uint32_t* reference = tree_.references + leaf.first();
-    for (const std::uint32_t* end = reference + leaf.count(); reference != end; ++reference)
-        open_ &= ~hit_lanes(tree_.triangles[*reference]);
+    for (const std::uint32_t* end = reference + leaf.count(); reference != end; ++reference) {
+        const TriangleRows& rows = tree_.triangles[*reference];
+        open_ &= ~hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
+    }
 }
 
 inline std::uint32_t PacketWalk::run() {
     LaneIntervals part;
-    for (std::uint32_t k = 0; k < packet_lanes; ++k) {
+    for (std::uint32_t k = 0; k < lane_count; ++k) {
         part.begin.at[k] = 0.0f;
         part.end.at[k] = 1.0f;
     }

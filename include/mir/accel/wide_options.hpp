@@ -13,7 +13,10 @@ struct WideBvhOptions {
     /// Most nodes on the way from the root to a triangle; traversal has a stack of that size.
     static constexpr std::uint32_t depth_limit = 32;
 
-    std::uint32_t leaf_size = 4;  ///< most triangles of a leaf; 1 to 8
+    /// Most triangles that a leaf may hold, whatever the options say.
+    static constexpr std::uint32_t largest_leaf = 8;
+
+    std::uint32_t leaf_size = 4;  ///< most triangles of a leaf; 1 to largest_leaf
     std::uint32_t bins = 32;      ///< in which large nodes look for a plane, per axis; 4 to 32
 
     /// Most nodes on the way from the root to a triangle, raised to what a balanced tree needs.
@@ -23,7 +26,7 @@ struct WideBvhOptions {
 
 /// @throws Error(invalid_argument) when an option is out of its range.
 inline void check(const WideBvhOptions& options) {
-    expects(options.leaf_size >= 1 && options.leaf_size <= 8,
+    expects(options.leaf_size >= 1 && options.leaf_size <= WideBvhOptions::largest_leaf,
             "the wide tree's leaf_size must lie between 1 and 8 (a leaf is one slot of a node); "
             "choose one there");
     expects(options.bins >= 4 && options.bins <= 32,

@@ -72,7 +72,7 @@ struct DeviceVisibility : Value {
     [[nodiscard]] bool visible(Vec3, Vec3) const { return true; }
 };
 
-/// Visibility with the block face.
+/// Visibility with the packet face.
 struct PacketVisibility : Visibility {
     using Visibility::Visibility;
 
@@ -80,6 +80,17 @@ struct PacketVisibility : Visibility {
                                                std::uint32_t active) const {
         return active;
     }
+};
+
+/// Visibility with the block face.
+struct BlockVisibility : PacketVisibility {
+    using PacketVisibility::PacketVisibility;
+    using Block = Pinned;
+
+    [[nodiscard]] Block block(const SoaView<const Hit>&, InstructionSet) const {
+        return Block{make};
+    }
+    void visible_block(const Block&, Vec3, BlockMask&) const {}
 };
 
 /// Surface data of Shading and GBuffer. Whoever shades must know it only by reference.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/instruction_set.hpp"
 #include "mir/core/math.hpp"
 #include "mir/core/space.hpp"
+#include "mir/data/luxel.hpp"
+#include "mir/data/soa.hpp"
 
 #include <concepts>
 #include <cstdint>
@@ -31,7 +34,7 @@ struct alignas(64) PointPacket {
     float z[width];
 };
 
-/// The block face of Visibility: one origin against up to sixteen points. Bit i of the result is
+/// The packet face of Visibility: one origin against up to sixteen points. Bit i of the result is
 /// set when bit i of `active` is set and point i sees the origin.
 ///
 /// Axiom: bit i equals visible(origin, point i). Engines of our own keep it always; Embree keeps it
@@ -41,6 +44,39 @@ template <class V>
 concept PacketVisibility = Visibility<V> &&
     requires(const V v, Vec3 origin, const PointPacket& points, std::uint32_t m) {
     { v.visible_packet(origin, points, m) } -> std::same_as<std::uint32_t>;
+};
+
+/// Luxels of a block of 256, a bit each: word g is for the packet of luxels 16 g to 16 g + 15.
+struct alignas(64) BlockMask {
+    static constexpr std::uint32_t luxels = 256;
+    static constexpr std::uint32_t packets = luxels / PointPacket::width;
+
+    std::uint32_t packet[packets] = {};
+
+    [[nodiscard]] bool any() const {
+        std::uint32_t bits = 0;
+        for (const std::uint32_t p : packet) bits |= p;
+        return bits != 0;
+    }
+};
+
+/// The block face of Visibility: one origin against up to 256 luxels, which is asked for many
+/// origins. What an engine wants to know about a block is found once, `block(luxels, set)`, from
+/// its luxels in planes, padded with empty ones, which must outlive it; `set` is the instruction
+/// set that its loops may use. Then visible_block(block, origin, mask) clears the bits of luxels
+/// that do not see the origin; no bit may be set of a luxel that is empty or not a number. A block
+/// may be shared by threads.
+///
+/// Axioms (tests/conformance/block_suite.hpp):
+///  1. what is left is set in the mask that was given;
+///  2. a bit that was set stays if and only if visible(origin, position of the luxel), bit for bit,
+///     whatever other bits are set and whatever the instruction set.
+template <class V>
+concept BlockVisibility = PacketVisibility<V> &&
+    requires(const V v, const typename V::Block& block, const SoaView<const Hit>& luxels,
+             InstructionSet set, Vec3 origin, BlockMask& mask) {
+    { v.block(luxels, set) } -> std::same_as<typename V::Block>;
+    { v.visible_block(block, origin, mask) } -> std::same_as<void>;
 };
 
 }  // namespace mir

@@ -26,10 +26,10 @@ enum class BackendKind {
 
 /// What finds out where rays end.
 enum class Acceleration {
-    automatic,  ///< the backend's own choice: bvh on the processor; shafts, and kd_tree for single
-                ///< segments, on a GPU
+    automatic,  ///< the backend's own choice: Embree on the processor; shafts, and the kd-tree for
+                ///< single segments, on a GPU
     kd_tree,    ///< the kd-tree of this library, the same bits on every backend
-    bvh         ///< a bounding volume hierarchy: Embree's on the processor
+    bvh         ///< its wide bounding volume hierarchy, with shafts; the kd-tree's bits
 };
 
 /// What makes the picture.

@@ -11,10 +11,11 @@
 namespace mir::sched {
 
 /// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
-/// luxels are found, their rays traced in packets of sixteen that start at the VPL, and the lit
-/// ones shaded, sixteen to a register. Same image as sched::Cpu in every bit where the visibility's
-/// packet face gives the bits of its single face, provided that the caller compiles with
-/// -ffp-contract=off. Given a KnownVisibility it traces no ray.
+/// luxels are found, their rays traced, and the lit ones shaded, sixteen to a register. A
+/// BlockVisibility is asked for whole blocks, others for packets of sixteen rays that start at the
+/// VPL. Same image as sched::Cpu in every bit where those faces give the bits of the single one,
+/// provided that the caller compiles with -ffp-contract=off. Given a KnownVisibility it traces no
+/// ray.
 template <Executor E>
 struct CpuBlocks {
     E& executor;
@@ -38,13 +39,13 @@ struct CpuBlocks {
 
      private:
         using F = decltype(In::shading);
+        using V = std::remove_const_t<decltype(In::visibility)>;
         using LuxelBlock = detail::LuxelBlock<F>;
 
         void run(detail::Block b) const;
-        void add_vpl(const LuxelBlock& block, VplIndex j, const Vpl& vpl,
-                     detail::BlockRadiance& sum) const;
-        [[nodiscard]] std::uint32_t lit_mask(const LuxelBlock& block, std::uint32_t group,
-                                             VplIndex j, const Vpl& vpl) const;
+        template <class LitMask>
+        void add_vpls(const LuxelBlock& block, detail::BlockRadiance& sum,
+                      const LitMask& lit_mask) const;
         void store(detail::Block b, const detail::BlockRadiance& sum) const;
 
         /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing.
@@ -94,35 +95,36 @@ void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
     const auto view = in_.gbuffer.view(b.tile);
     const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
     detail::BlockRadiance sum;
-    for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
-        const Vpl vpl = in_.vpls[j];
-        if (!is_out_of_reach(block, vpl)) add_vpl(block, j, vpl, sum);
+    if constexpr (KnownVisibility<V>) {
+        add_vpls(block, sum, [&](VplIndex j, const Vpl&) {
+            return detail::known_mask(block, j, in_.visibility);
+        });
+    } else {
+        const detail::BlockSight<V> sight(block, in_.visibility, scheduler_.instructions);
+        add_vpls(block, sum, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
     }
     store(b, sum);
 }
 
+/// Adds all VPLs; `lit_mask(j, vpl)` says to which luxels of the block.
 template <Executor E>
 template <class In>
-void CpuBlocks<E>::Pipeline<In>::add_vpl(const LuxelBlock& block, VplIndex j, const Vpl& vpl,
-                                         detail::BlockRadiance& sum) const {
-    for (std::uint32_t group = 0; group < detail::groups_per_block; ++group) {
-        const std::uint32_t lit = lit_mask(block, group, j, vpl);
-        if (lit == 0) continue;
-        const std::uint32_t first = group * detail::group_size;
-        detail::add_shaded(detail::starting_at(block.hits, first),
-                           detail::starting_at(block.surfaces, first), vpl, in_.shading, lit,
-                           sum.r + first, sum.g + first, sum.b + first);
+template <class LitMask>
+void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::BlockRadiance& sum,
+                                          const LitMask& lit_mask) const {
+    for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
+        const Vpl vpl = in_.vpls[j];
+        if (is_out_of_reach(block, vpl)) continue;
+        const BlockMask mask = lit_mask(j, vpl);
+        for (std::uint32_t group = 0; group < detail::groups_per_block; ++group) {
+            const std::uint32_t lit = mask.packet[group];
+            if (lit == 0) continue;
+            const std::uint32_t first = group * detail::group_size;
+            detail::add_shaded(detail::starting_at(block.hits, first),
+                               detail::starting_at(block.surfaces, first), vpl, in_.shading, lit,
+                               sum.r + first, sum.g + first, sum.b + first);
+        }
     }
-}
-
-template <Executor E>
-template <class In>
-std::uint32_t CpuBlocks<E>::Pipeline<In>::lit_mask(const LuxelBlock& block, std::uint32_t group,
-                                                   VplIndex j, const Vpl& vpl) const {
-    if constexpr (KnownVisibility<decltype(In::visibility)>)
-        return detail::known_mask(block, group, j, in_.visibility);
-    else
-        return detail::visible_mask(block, group, vpl, in_.visibility);
 }
 
 template <Executor E>

@@ -101,7 +101,7 @@ TEST_CASE("Metropolis sampling on the GPU brings the light that it brings with E
             by_gpu.add(
                 mirtest::mean_luminance(render(*scene, s, BackendKind::cuda, "rcvp").indirect));
             s.seed = seed + 100;
-            s.acceleration = mir::Acceleration::bvh;
+            s.acceleration = mir::Acceleration::automatic;
             by_embree.add(mirtest::mean_luminance(
                 render(*scene, s, BackendKind::cpu, "cpu-blocks").indirect));
         }

@@ -3,6 +3,8 @@
 
 #include "mir/concepts/known_visibility.hpp"
 #include "mir/concepts/shading.hpp"
+#include "mir/concepts/visibility.hpp"
+#include "mir/core/lanes.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/soa.hpp"
 #include "mir/sched/detail/block_list.hpp"
@@ -13,7 +15,8 @@ namespace mir::sched::detail {
 
 /// Sixteen neighbouring luxels: one vector register, one ray packet.
 inline constexpr std::uint32_t group_size = PointPacket::width;
-inline constexpr std::uint32_t groups_per_block = BlockedLayout::block_size / group_size;
+inline constexpr std::uint32_t groups_per_block = BlockMask::packets;
+static_assert(groups_per_block * group_size == BlockedLayout::block_size);
 
 /// Radiance of one block while VPLs are added to it, structure of arrays.
 struct alignas(64) BlockRadiance {
@@ -133,34 +136,81 @@ inline void load_points(SoaView<const Hit> group, PointPacket& points) {
 /// Bit k: luxel k of the group faces the VPL. The arithmetic is that of faces(), bit for bit;
 /// empty luxels have a zero normal and never face anything.
 [[gnu::always_inline]] inline std::uint32_t facing_mask(SoaView<const Hit> group, Vpl vpl) {
-    std::uint32_t mask = 0;
-    for (std::uint32_t k = 0; k < group_size; ++k) {
+    return mir::detail::lanes_where([&](std::uint32_t k) {
         const Hit hit = group.load(k);
         const Vec3 d = vpl.position - hit.position;
-        const std::uint32_t above_luxel = glm::dot(d, hit.normal) > 0.0f ? 1u << k : 0u;
-        const std::uint32_t above_vpl = glm::dot(d, vpl.normal) < 0.0f ? 1u << k : 0u;
-        mask |= above_luxel & above_vpl;
-    }
+        return (static_cast<int>(glm::dot(d, hit.normal) > 0.0f) &
+                static_cast<int>(glm::dot(d, vpl.normal) < 0.0f)) != 0;
+    });
+}
+
+/// Luxels of a block that count and face the VPL.
+[[gnu::always_inline]] inline BlockMask facing_mask(const HitBlock& block, const Vpl& vpl) {
+    BlockMask mask;
+    for (std::uint32_t group = 0; group < groups_per_block; ++group)
+        mask.packet[group] =
+            facing_mask(starting_at(block.hits, group * group_size), vpl) & block.candidates[group];
     return mask;
 }
 
-/// Bit k: luxel k of the group counts, faces and sees the VPL.
+/// Which luxels of one block count, face and see VPLs. Block and visibility must outlive it.
 template <PacketVisibility V>
-[[gnu::always_inline]] inline std::uint32_t visible_mask(const HitBlock& block, std::uint32_t group,
-                                                         const Vpl& vpl, const V& visibility) {
-    const auto hits = starting_at(block.hits, group * group_size);
-    const std::uint32_t facing = facing_mask(hits, vpl) & block.candidates[group];
-    if (facing == 0) return 0;
-    PointPacket points;
-    load_points(hits, points);
-    return visibility.visible_packet(vpl.position, points, facing);
-}
+class BlockSight {
+ public:
+    BlockSight(const HitBlock& block, const V& visibility, InstructionSet)
+        : block_(block), visibility_(visibility) {}
 
-/// The same from what is known. `V` keeps masks of groups of sixteen.
+    [[nodiscard]] BlockMask operator()(const Vpl& vpl) const {
+        BlockMask mask = facing_mask(block_, vpl);
+        for (std::uint32_t group = 0; group < groups_per_block; ++group) {
+            std::uint32_t& lit = mask.packet[group];
+            if (lit == 0) continue;
+            PointPacket points;
+            load_points(starting_at(block_.hits, group * group_size), points);
+            lit = visibility_.visible_packet(vpl.position, points, lit);
+        }
+        return mask;
+    }
+
+ private:
+    const HitBlock& block_;
+    const V& visibility_;
+};
+
+/// The same by the block face; `set` is for its loops.
+template <BlockVisibility V>
+class BlockSight<V> {
+ public:
+    BlockSight(const HitBlock& block, const V& visibility, InstructionSet set)
+        : block_(block), visibility_(visibility), known_(visibility.block(block.hits, set)) {}
+
+    [[nodiscard]] BlockMask operator()(const Vpl& vpl) const {
+        BlockMask mask = facing_mask(block_, vpl);
+        if (mask.any()) visibility_.visible_block(known_, vpl.position, mask);
+        return mask;
+    }
+
+ private:
+    const HitBlock& block_;
+    const V& visibility_;
+    typename V::Block known_;
+};
+
+/// Luxels of a group that count and see a VPL, from what is known. `V` keeps masks of groups of
+/// sixteen.
 template <KnownVisibility V>
 std::uint32_t known_mask(const HitBlock& block, std::uint32_t group, VplIndex j, const V& known) {
     return known.mask(block.place.tile, block.place.block * groups_per_block + group, j) &
            block.candidates[group];
+}
+
+/// The same for the whole block.
+template <KnownVisibility V>
+BlockMask known_mask(const HitBlock& block, VplIndex j, const V& known) {
+    BlockMask mask;
+    for (std::uint32_t group = 0; group < groups_per_block; ++group)
+        mask.packet[group] = known_mask(block, group, j, known);
+    return mask;
 }
 
 /// Adds the VPL to the luxels of a group whose bit is set in `lit`. Every lane is computed and

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/triangle_rows.hpp"
+#include "mir/concepts/visibility.hpp"
+#include "mir/core/lanes.hpp"
+
+namespace mir::detail {
+
+static_assert(PointPacket::width == lane_count);
+
+/// The common origin of a packet as a triangle's rows see it: row_at() of each.
+struct OriginRows {
+    float u = 0.0f;
+    float v = 0.0f;
+    float s = 0.0f;
+};
+
+inline OriginRows origin_rows(const TriangleRows& rows, Vec3 origin) {
+    return {row_at(rows.u, origin), row_at(rows.v, origin), row_at(rows.s, origin)};
+}
+
+/// Lanes of `open` whose segments from the origin the triangle hits: hits_segment(), bit for bit.
+/// Where the ends lie on opposite sides the sign of the crossing's d is that of -s at the origin,
+/// which is why the edges are asked for that side alone.
+inline std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from,
+                               const PointPacket& points, std::uint32_t open) {
+    const float side = from.s < 0.0f ? 1.0f : -1.0f;
+    return open & lanes_where([&](std::uint32_t k) {
+               const Vec3 to{points.x[k], points.y[k], points.z[k]};
+               const float s_to = row_at(rows.s, to);
+               const PlaneCrossing c =
+                   crossing(from.u, from.v, from.s, row_at(rows.u, to), row_at(rows.v, to), s_to);
+               const float w = strict::sub(strict::sub(c.d, c.u), c.v);
+               return (static_cast<int>(opposite(from.s, s_to)) &
+                       static_cast<int>(side * c.u >= 0.0f) & static_cast<int>(side * c.v >= 0.0f) &
+                       static_cast<int>(side * w >= 0.0f)) != 0;
+           });
+}
+
+}  // namespace mir::detail

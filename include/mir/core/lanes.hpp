@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace mir::detail {
+
+// Loops over sixteen lanes without branches: compilers make vector instructions of the caller's
+// instruction set of them (core/instruction_set.hpp). What they do not find by themselves is how
+// truths of lanes become the bits of a word.
+
+inline constexpr std::uint32_t lane_count = 16;
+
+/// A number per lane.
+struct alignas(64) LaneFloats {
+    float at[lane_count];
+};
+
+/// A truth per lane: 0 or -1.
+struct alignas(64) LaneTruths {
+    std::int32_t at[lane_count];
+};
+
+#if defined(__SSE2__)
+/// Bit k: lane k is true. By the instructions that every x86-64 has, which pack 32 bits to 8 and
+/// gather signs; what surrounds them may use wider ones.
+inline std::uint32_t bits_of(const LaneTruths& truths) {
+    const auto quad = [&](std::uint32_t k) {
+        return _mm_load_si128(reinterpret_cast<const __m128i*>(truths.at + 4 * k));
+    };
+    const __m128i low = _mm_packs_epi32(quad(0), quad(1));
+    const __m128i high = _mm_packs_epi32(quad(2), quad(3));
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(low, high)));
+}
+#else
+/// Bit k: lane k is true.
+inline std::uint32_t bits_of(const LaneTruths& truths) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < lane_count; ++k)
+        bits |= static_cast<std::uint32_t>(truths.at[k]) & 1u << k;
+    return bits;
+}
+#endif
+
+/// One bit per lane: lane k where `test(k)`. A test without branches, `&` in place of `&&`, makes
+/// one loop of it.
+template <class Test>
+std::uint32_t lanes_where(const Test& test) {
+    LaneTruths truths;
+    for (std::uint32_t k = 0; k < lane_count; ++k) truths.at[k] = test(k) ? -1 : 0;
+    return bits_of(truths);
+}
+
+/// A truth for each child of a wide node, which are half as many.
+struct alignas(32) SlotTruths {
+    static constexpr std::uint32_t count = lane_count / 2;
+    std::int32_t at[count];
+};
+
+#if defined(__SSE2__)
+/// Bit k: slot k is true.
+inline std::uint32_t bits_of(const SlotTruths& truths) {
+    const auto* quads = reinterpret_cast<const __m128i*>(truths.at);
+    const __m128i words = _mm_packs_epi32(_mm_load_si128(quads), _mm_load_si128(quads + 1));
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(words, words))) & 0xFFu;
+}
+#else
+/// Bit k: slot k is true.
+inline std::uint32_t bits_of(const SlotTruths& truths) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < SlotTruths::count; ++k)
+        bits |= static_cast<std::uint32_t>(truths.at[k]) & 1u << k;
+    return bits;
+}
+#endif
+
+/// Takes the lowest bit of a word that has one: its number.
+inline std::uint32_t pop_lowest(std::uint32_t& bits) {
+    const auto k = static_cast<std::uint32_t>(__builtin_ctz(bits));
+    bits &= bits - 1;
+    return k;
+}
+
+}  // namespace mir::detail

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/wide_bvh_scene.hpp"
+#include "mir/shaft/shaft_visibility.hpp"
+
+namespace mir {
+
+/// A scene to trace through by way of a wide bounding volume hierarchy, whole blocks of luxels by
+/// shafts: owns the hierarchy, hands out the ray caster and the visibility that read it. The
+/// geometry must outlive it. Const use from any thread.
+class ShaftScene {
+ public:
+    /// @throws Error what WideBvh throws.
+    template <Executor E>
+    ShaftScene(const WorldGeometry& geometry, E& executor, const WideBvhOptions& options = {})
+        : scene_(geometry, executor, options), lanes_(make_triangle_lanes(bvh().triangles())) {}
+
+    /// Builds on the calling thread.
+    explicit ShaftScene(const WorldGeometry& geometry)
+        : scene_(geometry), lanes_(make_triangle_lanes(bvh().triangles())) {}
+
+    [[nodiscard]] ShaftVisibility visibility() const { return {bvh().view(), lanes_.data(), {}}; }
+    [[nodiscard]] WideRayCaster<Space::host> ray_caster() const { return scene_.ray_caster(); }
+    [[nodiscard]] const WideBvh& bvh() const { return scene_.bvh(); }
+
+ private:
+    WideBvhScene scene_;
+    std::vector<TriangleLanes> lanes_;
+};
+
+}  // namespace mir

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/shaft/block_cascade.hpp"
+
+namespace mir {
+
+/// Answers from a wide bounding volume hierarchy in host memory, segment by segment, for packets,
+/// and for blocks of luxels by shafts. Model of BlockVisibility. All faces give the bits of
+/// hits_segment() asked of every triangle. The hierarchy must outlive it. Thread-safe.
+struct ShaftVisibility {
+    static constexpr Space space = Space::host;
+
+    /// What is known of the luxels of a block.
+    struct Block {
+        BlockRecords records;
+        InstructionSet instructions;
+    };
+
+    WideBvhView<Space::host> bvh;
+    const TriangleLanes* lanes = nullptr;  ///< make_triangle_lanes() of its triangles
+    CascadeLimits limits;
+
+    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b); }
+
+    [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
+                                               std::uint32_t active) const {
+        return visible_in_packet(bvh, origin, points, active);
+    }
+
+    [[nodiscard]] Block block(const SoaView<const Hit>& luxels, InstructionSet set) const {
+        return {BlockRecords(luxels, bvh.reach, sigma_of_reach(bvh.reach)), set};
+    }
+
+    /// Not inlined: it is compiled for each instruction set once, and not again for every caller.
+    [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& mask) const {
+        run_with(b.instructions,
+                 [&] { BlockCascade(bvh, lanes, b.records, origin).decide(mask, limits); });
+    }
+};
+
+static_assert(BlockVisibility<ShaftVisibility>);
+
+}  // namespace mir

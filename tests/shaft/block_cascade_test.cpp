@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "mir/shaft/block_cascade.hpp"
+
+#include "accel/hard_segments.hpp"
+#include "shaft/block_words.hpp"
+#include "support/catch.hpp"
+
+#include <limits>
+
+// Words by whole blocks against every triangle asked, bit for bit: docs/shafts.md.
+
+namespace {
+
+using mirtest::by_blocks;
+using mirtest::different_bits;
+using mirtest::Lit;
+using mirtest::ShaftStage;
+
+mirtest::World soup(bool needles, float scale = 1.0f, float x = 0.0f) {
+    const mir::Vec3 move(x, 0.3f * x, -x);
+    return needles ? mirtest::needle_soup(60, 17, scale, move)
+                   : mirtest::triangle_soup(60, 18, scale, move);
+}
+
+ShaftStage stage_of(const mirtest::World& world, std::uint32_t luxels, std::uint32_t vpls,
+                    std::uint64_t seed = 19) {
+    const Lit lit = mirtest::random_lit(world.geometry, luxels, vpls, mirtest::test_random(seed));
+    return {world.geometry, mirtest::clustered(lit)};
+}
+
+}  // namespace
+
+TEST_CASE("Blocks give the bits of every triangle asked") {
+    const auto [scale, x] =
+        GENERATE(table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}}));
+    const bool needles = GENERATE(false, true);
+    INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
+    const mirtest::World world = soup(needles, scale, x);
+    const ShaftStage stage = stage_of(world, 2000, 40);
+    const std::vector<std::uint32_t> truth = stage.by_brute_force();
+    for (mir::InstructionSet set : mirtest::instruction_sets())
+        CHECK(different_bits(by_blocks(stage, {}, set), truth) == 0);
+}
+
+TEST_CASE("Blocks in closed rooms give the bits of every triangle asked") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 2000, 60);
+    const std::vector<std::uint32_t> truth = stage.by_brute_force();
+    for (mir::InstructionSet set : mirtest::instruction_sets())
+        CHECK(different_bits(by_blocks(stage, {}, set), truth) == 0);
+}
+
+TEST_CASE("No limit of the cascade changes a bit") {
+    const int kind = GENERATE(0, 1, 2);
+    const mirtest::World world = kind == 2 ? mirtest::sphere_in_box() : soup(kind == 1);
+    const ShaftStage stage = stage_of(world, 700, 30);
+    const std::vector<std::uint32_t> truth = stage.by_segments();
+    for (std::uint32_t nodes : {0u, 1u, 2u, 3u, 5u, 8u, 1000u})
+        for (std::uint32_t batches : {0u, 1u, 2u, 7u, 16u, 1000u}) {
+            CAPTURE(nodes, batches);
+            CHECK(different_bits(by_blocks(stage, {nodes, batches}), truth) == 0);
+        }
+}
+
+TEST_CASE("Leaves of any size are right") {
+    const mirtest::World world = soup(false);
+    const Lit lit = mirtest::random_lit(world.geometry, 512, 30, mirtest::test_random(25));
+    for (std::uint32_t leaf : {1u, 8u}) {
+        mir::WideBvhOptions options;
+        options.leaf_size = leaf;
+        const ShaftStage stage(world.geometry, lit, options);
+        CHECK(different_bits(by_blocks(stage), stage.by_brute_force()) == 0);
+    }
+}
+
+TEST_CASE("Blocks of any number of luxels are right") {
+    const mirtest::World world = soup(false);
+    for (std::uint32_t luxels : {0u, 1u, 15u, 17u, 256u, 257u, 513u})
+        for (std::uint32_t vpls : {0u, 1u, 33u}) {
+            CAPTURE(luxels, vpls);
+            const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
+            CHECK(different_bits(by_blocks(stage), stage.by_brute_force()) == 0);
+        }
+}
+
+TEST_CASE("Luxels that are scattered over the scene give the same bits") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    Lit lit = mirtest::random_lit(world.geometry, 1024, 40, mirtest::test_random(26));
+    Lit dealt = lit;
+    for (std::size_t i = 0; i < dealt.luxels.size(); ++i)
+        dealt.luxels[i] = lit.luxels[i * 353 % lit.luxels.size()];
+    const ShaftStage stage(world.geometry, dealt);
+    CHECK(different_bits(by_blocks(stage), stage.by_brute_force()) == 0);
+}
+
+TEST_CASE("Luxels and VPLs beyond reach give the bits of single segments") {
+    const mirtest::World world = soup(false);
+    Lit lit = mirtest::random_lit(world.geometry, 500, 40, mirtest::test_random(22));
+    for (std::size_t i = 0; i < lit.luxels.size(); i += 5) lit.luxels[i].position *= 40.0f;
+    for (std::size_t j = 0; j < lit.vpls.size(); j += 3) lit.vpls[j].position *= 1e4f;
+    const ShaftStage stage(world.geometry, mirtest::clustered(lit));
+    CHECK(different_bits(by_blocks(stage), stage.by_segments()) == 0);
+}
+
+TEST_CASE("Scenes larger than the proofs reach give the bits of single segments") {
+    constexpr float scale = 2e18f;
+    const mirtest::World small = soup(false);
+    const mirtest::World world = soup(false, scale);
+    Lit lit = mirtest::random_lit(small.geometry, 500, 20, mirtest::test_random(24));
+    for (mir::Hit& hit : lit.luxels) hit.position *= scale;
+    for (mir::Vpl& vpl : lit.vpls) vpl.position *= scale;
+    const ShaftStage stage(world.geometry, mirtest::clustered(lit));
+    CHECK(different_bits(by_blocks(stage), stage.by_segments()) == 0);
+}
+
+TEST_CASE("A luxel that is not a number changes no bit of the block around it") {
+    const mirtest::World world = soup(false);
+    const Lit lit =
+        mirtest::clustered(mirtest::random_lit(world.geometry, 512, 30, mirtest::test_random(23)));
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t first : {0u, 1u, 16u, 40u})
+        for (int axis = 0; axis < 3; ++axis) {
+            CAPTURE(first, axis);
+            Lit broken = lit;
+            for (std::size_t i = first; i < broken.luxels.size(); i += 48)
+                broken.luxels[i].position[axis] = nan;
+            const ShaftStage stage(world.geometry, broken);
+            CHECK(different_bits(by_blocks(stage), stage.by_segments()) == 0);
+            CHECK(different_bits(by_blocks(stage, {1, 1}), stage.by_segments()) == 0);
+        }
+}
+
+TEST_CASE("A block in a world without triangles sees everything it faces") {
+    const mirtest::World world{mir::Scene{}};
+    Lit lit;
+    lit.luxels.assign(40, {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}});
+    lit.vpls.push_back({{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}, {1.0f, 1.0f, 1.0f}});
+    const ShaftStage stage(world.geometry, lit);
+    CHECK(by_blocks(stage) == std::vector<std::uint32_t>{~0u, 0xFFu, 0, 0, 0, 0, 0, 0});
+}
+
+namespace {
+
+/// What a search of the whole block leaves for its packets.
+struct Outcomes {
+    std::size_t covered = 0;
+    std::size_t clear = 0;
+    std::size_t listed = 0;  ///< completely
+    std::size_t waiting = 0;
+    std::size_t forgotten = 0;  ///< luxels hidden by what waits alone
+};
+
+Outcomes search_blocks(const ShaftStage& stage, const mir::CascadeLimits& limits) {
+    Outcomes outcomes;
+    const auto triangles = mir::make_triangle_lanes(stage.bvh().triangles());
+    const mirtest::HitRun run(stage.lit().luxels);
+    const auto view = stage.bvh().view();
+    for (std::size_t first = 0; first < run.size(); first += mir::BlockMask::luxels) {
+        const mir::BlockRecords block({run.view().planes + first, run.view().stride}, view.reach,
+                                      stage.sigma());
+        if (!block.all.within) continue;
+        for (const mir::Vpl& vpl : stage.lit().vpls) {
+            mir::detail::LaneSearch search;
+            mir::detail::LaneSearcher searcher(view, triangles.data(), block.all, vpl.position,
+                                               stage.sigma(), search);
+            if (searcher.run(limits)) {
+                ++outcomes.covered;
+                continue;
+            }
+            outcomes.clear += search.finds_nothing() ? 1 : 0;
+            outcomes.listed += search.batches != 0 && search.waiting_nodes == 0 ? 1 : 0;
+            outcomes.waiting += search.waiting_nodes != 0 ? 1 : 0;
+            for (std::size_t i = first; i < first + mir::BlockMask::luxels; ++i) {
+                const mir::Hit& hit = stage.lit().luxels[i];
+                if (is_empty(hit) || !is_hidden(view, vpl.position, hit.position)) continue;
+                bool listed = false;
+                for (std::uint32_t b = 0; b < search.batches; ++b)
+                    for (std::uint32_t lanes = search.chosen.lanes[b]; lanes != 0;) {
+                        const std::uint32_t k = mir::detail::pop_lowest(lanes);
+                        listed |= hits_segment(triangles[search.batch[b].group].rows(k),
+                                               vpl.position, hit.position);
+                    }
+                outcomes.forgotten += listed ? 0 : 1;
+            }
+        }
+    }
+    return outcomes;
+}
+
+}  // namespace
+
+TEST_CASE("A search lists all that hides a luxel unless nodes wait, which must be noticed") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 30000, 20);
+    const Outcomes all = search_blocks(stage, {100000, 16});
+    CHECK(all.covered > 10);
+    CHECK(all.clear > 0);
+    CHECK(all.listed > 10);
+    const Outcomes few = search_blocks(stage, {2, 16});
+    CHECK(few.waiting > 10);
+    CHECK(few.forgotten > 10);
+    const mirtest::World small = soup(false);
+    const Outcomes complete = search_blocks(stage_of(small, 2000, 20), {100000, 16});
+    CHECK(complete.waiting == 0);
+    CHECK(complete.forgotten == 0);
+}
