@@ -42,12 +42,12 @@ class PacketSlabs {
  private:
     template <bool Mixed>
     void meet(const WideNode& node, std::uint32_t slots, std::uint32_t* lanes) const {
-        const float* const near_x = node.planes[near_[0]];
-        const float* const near_y = node.planes[near_[1]];
-        const float* const near_z = node.planes[near_[2]];
-        const float* const far_x = node.planes[far_[0]];
-        const float* const far_y = node.planes[far_[1]];
-        const float* const far_z = node.planes[far_[2]];
+        const ChildRow& near_x = node.planes[near_[0]];
+        const ChildRow& near_y = node.planes[near_[1]];
+        const ChildRow& near_z = node.planes[near_[2]];
+        const ChildRow& far_x = node.planes[far_[0]];
+        const ChildRow& far_y = node.planes[far_[1]];
+        const ChildRow& far_z = node.planes[far_[2]];
         while (slots != 0) {
             const std::uint32_t k = pop_lowest(slots);
             lanes[k] =

@@ -28,12 +28,12 @@ class SlotShaft {
     /// says of empty slots means nothing.
     [[nodiscard]] std::uint32_t met(const WideNode& node) const {
         const auto& planes = node.planes;
-        const float* const leave_x = planes[leaving_[0]];
-        const float* const leave_y = planes[leaving_[1]];
-        const float* const leave_z = planes[leaving_[2]];
-        const float* const front_x = planes[foremost_[0]];
-        const float* const front_y = planes[foremost_[1]];
-        const float* const front_z = planes[foremost_[2]];
+        const ChildRow& leave_x = planes[leaving_[0]];
+        const ChildRow& leave_y = planes[leaving_[1]];
+        const ChildRow& leave_z = planes[leaving_[2]];
+        const ChildRow& front_x = planes[foremost_[0]];
+        const ChildRow& front_y = planes[foremost_[1]];
+        const ChildRow& front_z = planes[foremost_[2]];
         const Shaft s = shaft_;
         const Vec3 never(never_[0], never_[1], never_[2]);
         detail::SlotTruths truths;
