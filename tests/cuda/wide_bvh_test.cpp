@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "conformance/wide_builder_suite.hpp"
 #include "cuda/wide_bvh.hpp"
+
+#include "conformance/wide_builder_suite.hpp"
 #include "mir/cpu/backend.hpp"
 
 using namespace mirtest;
