@@ -69,7 +69,7 @@ class BackendWideBvh {
           reach_(build.reach()),
           depth_(build.depth()) {
         const WaitAtEnd wait(queue);
-        build.write(queue, nodes_.data(), rows_.data(), indices_.data());
+        build.write(queue, {nodes_.data(), rows_.data(), indices_.data()});
         queue.record().sync();
     }
 

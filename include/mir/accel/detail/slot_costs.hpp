@@ -12,7 +12,7 @@ namespace mir::detail {
 // k = 1, else the best way to share the slots between its children, or to leave one empty. What
 // fits into a leaf never becomes a node, which costs next to nothing and bounds their height.
 // Source: Ylitie, Karras and Laine, "Efficient incoherent ray traversal on GPUs through compressed
-// wide BVHs", High Performance Graphics 2017, section 3.
+// wide BVHs", High Performance Graphics 2017.
 
 /// C(v, k) of one node, in triangle tests times half surfaces.
 struct SlotCosts {

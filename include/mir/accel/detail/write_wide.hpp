@@ -7,14 +7,21 @@
 
 namespace mir::detail {
 
+/// Where a tree is written to.
+struct WideArrays {
+    WideNode* nodes = nullptr;
+    TriangleRows* rows = nullptr;
+    std::uint32_t* indices = nullptr;  ///< triangles by place
+};
+
 /// Kernel over one index: the root of a scene without triangles.
 struct WriteEmptyRoot {
-    WideNode* nodes = nullptr;
+    WideArrays to;
     float reach = 0.0f;
 
     MIR_HD void operator()(std::uint32_t /*i*/) const {
         for (std::uint32_t slot = 0; slot < WideNode::width; ++slot)
-            nodes[0].set_empty(slot, reach);
+            to.nodes[0].set_empty(slot, reach);
     }
 };
 
@@ -23,21 +30,21 @@ struct WriteWideNodes {
     const BinaryNode* binary = nullptr;
     const std::uint32_t* first = nullptr;  ///< place of the first triangle below a binary node
     WideNotes notes;
-    WideNode* nodes = nullptr;
-    std::uint32_t* indices = nullptr;  ///< triangles by place
+    WideArrays to;
     std::uint32_t leaf_size = 0;
     float reach = 0.0f;
 
     MIR_HD void operator()(std::uint32_t i) const {
         std::uint32_t next = notes.first_child[i];
+        WideNode& node = to.nodes[i];
         for (std::uint32_t slot = 0; slot < WideNode::width; ++slot) {
             const std::uint32_t child = notes.children[i].at[slot];
             if (slot >= notes.children[i].count)
-                nodes[i].set_empty(slot, reach);
+                node.set_empty(slot, reach);
             else if (binary[child].count > leaf_size)
-                set_child(nodes[i], slot, child, next++, WideNode::inner);
+                set_child(node, slot, child, next++, WideNode::inner);
             else
-                set_leaf(nodes[i], slot, child);
+                set_leaf(node, slot, child);
         }
     }
 
@@ -65,7 +72,7 @@ struct WriteWideNodes {
         while (count > 0) {
             const BinaryNode& node = binary[waiting[--count]];
             if (node.count == 1) {
-                indices[place++] = node.left;
+                to.indices[place++] = node.left;
             } else {
                 waiting[count++] = node.right;
                 waiting[count++] = node.left;
@@ -78,12 +85,11 @@ struct WriteWideNodes {
 template <Space S>
 struct WriteRows {
     GeometryView<S> geometry;
-    const std::uint32_t* indices = nullptr;
-    TriangleRows* rows = nullptr;
+    WideArrays to;
 
     MIR_HD void operator()(std::uint32_t i) const {
-        const std::uint32_t t = indices[i];
-        rows[i] =
+        const std::uint32_t t = to.indices[i];
+        to.rows[i] =
             make_triangle_rows(geometry.corner(t, 0), geometry.corner(t, 1), geometry.corner(t, 2));
     }
 };

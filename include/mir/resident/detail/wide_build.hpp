@@ -32,16 +32,15 @@ class WideBuild {
     [[nodiscard]] float reach() const { return plan_.reach; }
 
     /// Starts writing nodes() nodes, and triangles() rows and indices.
-    void write(typename B::Queue& queue, WideNode* nodes, TriangleRows* rows,
-               std::uint32_t* indices) {
+    void write(typename B::Queue& queue, const WideArrays& to) {
         if (plan_.triangles == 0) {
-            queue.for_each(1, WriteEmptyRoot{nodes, plan_.reach});
+            queue.for_each(1, WriteEmptyRoot{to, plan_.reach});
             return;
         }
         queue.for_each(collapse_.node_count(),
-                       WriteWideNodes{tree_.view().nodes, collapse_.first(), collapse_.notes(),
-                                      nodes, indices, plan_.leaf_size, plan_.reach});
-        queue.for_each(plan_.triangles, WriteRows<B::space>{uploaded_, indices, rows});
+                       WriteWideNodes{tree_.view().nodes, collapse_.first(), collapse_.notes(), to,
+                                      plan_.leaf_size, plan_.reach});
+        queue.for_each(plan_.triangles, WriteRows<B::space>{uploaded_, to});
     }
 
  private:
