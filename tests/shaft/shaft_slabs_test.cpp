@@ -28,6 +28,7 @@ Scale scale_of(float size) { return {size, 0x1p-24f * size / 1.5f}; }
 /// The node of the draw, grown, in a slot among others.
 mir::WideNode node_with(const ShaftDraw& d, float grow, std::uint32_t slot) {
     mir::WideNode node;
+    for (std::int32_t& count : node.count) count = 1;
     for (std::uint32_t k = 0; k < mir::WideNode::width; ++k)
         for (int axis = 0; axis < 3; ++axis)
             node.set_bounds(axis, k, d.node.low[axis] - (k == slot ? grow : -1.0f),
@@ -46,6 +47,33 @@ struct Wrong {
     std::size_t met = 0;
     std::size_t refused = 0;  ///< of those that are met
 };
+
+/// Whether the child is met in a node's quantised boxes, whose planes are moved `inwards`.
+bool met_quantised(const ShaftDraw& d, Scale scale, std::uint32_t inwards, std::uint32_t slot) {
+    const ShaftSlabs s =
+        mir::make_shaft_slabs(d.cluster, d.apex, mirtest::float_sigma(scale.reach), scale.reach);
+    mir::QuantisedNode node =
+        mir::quantised(node_with(d, 14.0f * scale.unit, slot), 0x1p-20f * scale.reach);
+    for (int axis = 0; axis < 3; ++axis)
+        for (std::uint32_t w = 0; w < mir::QuantisedNode::words_per_row; ++w) {
+            node.rows[2 * axis][w] += inwards * 0x01010101u;
+            node.rows[2 * axis + 1][w] -= inwards * 0x01010101u;
+        }
+    return (mir::met_slots(node, s) >> slot & 1u) != 0;
+}
+
+std::size_t quantised_refusals(std::uint32_t inwards, int draws) {
+    std::size_t refused = 0;
+    mir::Random random = mirtest::test_random(4);
+    for (int i = 0; i < draws; ++i) {
+        const Scale scale = scale_of(std::pow(10.0f, static_cast<float>(i % 3 - 1) * 3.0f));
+        const ShaftDraw d = mirtest::draw_shaft(random, scale.reach);
+        if (mirtest::meets(d.node, 0, d.apex, d.luxel) &&
+            !met_quantised(d, scale, inwards, static_cast<std::uint32_t>(i) % 8))
+            ++refused;
+    }
+    return refused;
+}
 
 /// Of children that hold a point of a segment by `units` of e M, at three scales.
 Wrong refusals(float units, Change change, int draws) {
@@ -121,6 +149,12 @@ TEST_CASE("Slabs refuse every child that they miss by a thousandth of the way") 
     CHECK(loosely_accepted(no_change, 500000) == 0);
     CHECK(loosely_accepted(without_others, 200000) > 500);
     CHECK(loosely_accepted(without_far_planes, 200000) > 1000);
+}
+
+TEST_CASE("No slabs refuse a child of quantised boxes that holds a point of a segment") {
+    CHECK(quantised_refusals(0, 500000) == 0);
+    CHECK(quantised_refusals(1, 200000) > 100);
+    CHECK(quantised_refusals(2, 200000) > 1000);
 }
 
 TEST_CASE("Slabs keep the half-space of the shaft") {
