@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cuda/shafts.hpp"
 
+#include "accel/hard_segments.hpp"
 #include "mir/cuda/device.hpp"
 #include "shaft/shaft_stage.hpp"
 #include "support/catch.hpp"
