@@ -17,3 +17,9 @@ TEST_CASE("points outside the unit cube get the code of its nearest cell") {
     CHECK(morton_code({1.0f, 2.0f, 1e9f}) == (1u << 30) - 1);
     CHECK(morton_code({-1.0f, 0.0f, 0.0f}) == 0);
 }
+
+TEST_CASE("The fine code has 21 bits on each axis") {
+    CHECK(mir::fine_morton_code({0.5f, 0.0f, 0.0f}) == std::uint64_t{1} << 60);
+    CHECK(mir::fine_morton_code({0.0f, 0.0f, 0x1p-21f}) == 0b100);
+    CHECK(mir::fine_morton_code({1.0f, 2.0f, 1e9f}) == (std::uint64_t{1} << 63) - 1);
+}
