@@ -191,9 +191,12 @@ void add_execution(CLI::App& app, RenderOptions& o) {
                                  "Machine: a GPU where there is one (default), or one of them");
     add_choice<mir::Acceleration>(
         app, "--accel", s.acceleration,
-        {{"kdtree", mir::Acceleration::kd_tree}, {"bvh", mir::Acceleration::bvh}},
-        "What rays are traced through: the kd-tree (default on a GPU) or the wide hierarchy with "
-        "shafts (processor alone); else Embree's hierarchy");
+        {{"auto", mir::Acceleration::automatic},
+         {"kdtree", mir::Acceleration::kd_tree},
+         {"bvh", mir::Acceleration::bvh}},
+        "What rays are traced through: the kd-tree, the wide hierarchy with shafts (processor "
+        "alone), or the best for the machine (default): Embree's hierarchy, or on a GPU shafts and "
+        "the kd-tree");
     app.add_option("--scheduler", s.scheduler,
                    "cpu-blocks, tuned (default of the processor); cpu, the plain loop; os, rc or "
                    "rcvp (default of GPUs), the paper's; the picture is the same")

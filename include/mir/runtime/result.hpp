@@ -48,7 +48,7 @@ struct RenderStatistics {
     double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed
     std::string backend;                ///< "cpu" or "cuda"
     std::string device;                 ///< name of the GPU; empty on the processor
-    std::string acceleration;           ///< "bvh", "embree" or "kdtree"
+    std::string acceleration;           ///< "bvh", "embree", "kdtree" or "kdtree+shafts"
     std::string scheduler;
     std::string scene_hash;
     StageSeconds seconds;
