@@ -12,8 +12,8 @@ namespace mir {
 
 /// What the cascade of the host may cost. Any numbers are right: they decide speed alone.
 struct CascadeLimits {
-    std::uint32_t nodes = 16;   ///< visited by the shaft of 256 luxels
-    std::uint32_t batches = 8;  ///< of sixteen triangles each that it may list; 16 count
+    std::uint32_t nodes = 8;    ///< visited by the shaft of 256 luxels
+    std::uint32_t batches = 4;  ///< of sixteen triangles each that it may list; 16 count
 };
 
 namespace detail {
