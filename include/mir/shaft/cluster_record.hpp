@@ -20,6 +20,7 @@ struct alignas(16) ClusterRecord {
     Vec3 low{0};                  ///< of the luxels' box grown by sigma, metres
     Vec3 high{0};
     std::uint32_t luxels = 0;  ///< that are not empty; the box says nothing when there are none
+    std::uint32_t unused = 0;  ///< so that the third word is written whole
 };
 
 /// True when the proofs of docs/shafts.md hold for the cluster's luxels: segments to others may be

@@ -38,10 +38,12 @@ struct WriteWideNodes {
         std::uint32_t next = notes.first_child[i];
         WideNode& node = to.nodes[i];
         for (std::uint32_t slot = 0; slot < WideNode::width; ++slot) {
-            const std::uint32_t child = notes.children[i].at[slot];
-            if (slot >= notes.children[i].count)
+            if (slot >= notes.children[i].count) {
                 node.set_empty(slot, reach);
-            else if (binary[child].count > leaf_size)
+                continue;
+            }
+            const std::uint32_t child = notes.children[i].at[slot];
+            if (binary[child].count > leaf_size)
                 set_child(node, slot, child, next++, WideNode::inner);
             else
                 set_leaf(node, slot, child);
