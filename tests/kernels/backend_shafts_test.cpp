@@ -119,6 +119,41 @@ TEST_CASE("Luxels and VPLs beyond reach, and those that are no number, are asked
     CHECK(different_bits(words(stage), stage.by_segments()) == 0);
 }
 
+TEST_CASE("A luxel that is no number changes no bit of its neighbours by a backend's shafts") {
+    const bool room = GENERATE(false, true);
+    const mirtest::World world = room ? mirtest::sphere_in_box() : soup(false, 1.0f, 0.0f);
+    Lit lit =
+        mirtest::clustered(mirtest::random_lit(world.geometry, 5120, 60, mirtest::test_random(23)));
+    const std::size_t first = GENERATE(std::size_t{0}, 1, 16, 40);
+    const int axis = GENERATE(0, 1, 2);
+    CAPTURE(room, first, axis);
+    for (std::size_t i = first; i < lit.luxels.size(); i += 48)
+        lit.luxels[i].position[axis] = std::numeric_limits<float>::quiet_NaN();
+    const ShaftStage stage(world.geometry, lit);
+    CHECK(different_bits(words(stage), stage.by_segments()) == 0);
+}
+
+TEST_CASE("Shafts of a backend refuse what they have no room for") {
+    mir::InlineExecutor executor;
+    const HostBackend backend(executor);
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const ShaftStage stage = stage_of(world, 500, 9);
+    auto queue = backend.queue();
+    const mir::UploadedWideBvh<HostBackend> bvh(backend, queue, stage.bvh());
+    const mir::ClusterVisibility<mir::WideBvhVisibility<mir::Space::host>> visibility{
+        bvh.quantised(), stage.sigma(), {bvh.view()}};
+    std::vector<std::uint32_t> out(512 / 32 * 9);
+    const auto fill = [&](std::uint32_t luxels, std::uint32_t vpls, std::uint32_t asked) {
+        mir::BackendShafts<HostBackend> shafts(backend, luxels, vpls);
+        shafts.fill(queue, mir::SoaView<const mir::Hit>{stage.hits().planes, asked},
+                    mir::span_of(stage.lit().vpls), visibility, out.data());
+    };
+    CHECK_NOTHROW(fill(512, 9, 512));
+    CHECK_THROWS_AS(fill(256, 9, 512), mir::Error);
+    CHECK_THROWS_AS(fill(512, 8, 512), mir::Error);
+    CHECK_THROWS_AS(fill(512, 9, 500), mir::Error);
+}
+
 TEST_CASE("Shafts of a backend that runs late, or on many threads, give the same words") {
     const mirtest::World world = mirtest::sphere_in_box();
     const ShaftStage stage = stage_of(world, 5000, 30);

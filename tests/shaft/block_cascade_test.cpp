@@ -150,39 +150,51 @@ struct Outcomes {
     std::size_t forgotten = 0;  ///< luxels hidden by what waits alone
 };
 
+using Triangles = decltype(mir::make_triangle_lanes(std::span<const mir::TriangleRows>()));
+
+/// Whether a triangle of the search's list hits the segment.
+bool is_listed(const mir::detail::LaneSearch& search, const Triangles& triangles, mir::Vec3 vpl,
+               mir::Vec3 luxel) {
+    for (std::uint32_t b = 0; b < search.batches; ++b)
+        for (std::uint32_t lanes = search.chosen.lanes[b]; lanes != 0;) {
+            const std::uint32_t k = mir::detail::pop_lowest(lanes);
+            if (hits_segment(triangles[search.batch[b].group].rows(k), vpl, luxel)) return true;
+        }
+    return false;
+}
+
+/// Adds what the search for one block and one VPL comes to.
+void search_block(const ShaftStage& stage, const Triangles& triangles,
+                  const mir::BlockRecords& block, std::size_t first, mir::Vec3 vpl,
+                  const mir::CascadeLimits& limits, Outcomes& outcomes) {
+    const auto view = stage.bvh().view();
+    mir::detail::LaneSearch search;
+    mir::detail::LaneSearcher searcher(view, triangles.data(), block.all, vpl, stage.sigma(),
+                                       search);
+    if (searcher.run(limits)) {
+        ++outcomes.covered;
+        return;
+    }
+    outcomes.clear += search.finds_nothing() ? 1 : 0;
+    outcomes.listed += search.batches != 0 && search.waiting_nodes == 0 ? 1 : 0;
+    outcomes.waiting += search.waiting_nodes != 0 ? 1 : 0;
+    for (std::size_t i = first; i < first + mir::BlockMask::luxels; ++i) {
+        const mir::Hit& hit = stage.lit().luxels[i];
+        if (is_empty(hit) || !is_hidden(view, vpl, hit.position)) continue;
+        outcomes.forgotten += is_listed(search, triangles, vpl, hit.position) ? 0 : 1;
+    }
+}
+
 Outcomes search_blocks(const ShaftStage& stage, const mir::CascadeLimits& limits) {
     Outcomes outcomes;
-    const auto triangles = mir::make_triangle_lanes(stage.bvh().triangles());
+    const Triangles triangles = mir::make_triangle_lanes(stage.bvh().triangles());
     const mirtest::HitRun run(stage.lit().luxels);
-    const auto view = stage.bvh().view();
     for (std::size_t first = 0; first < run.size(); first += mir::BlockMask::luxels) {
-        const mir::BlockRecords block({run.view().planes + first, run.view().stride}, view.reach,
-                                      stage.sigma());
+        const mir::BlockRecords block({run.view().planes + first, run.view().stride},
+                                      stage.bvh().view().reach, stage.sigma());
         if (!block.all.within) continue;
-        for (const mir::Vpl& vpl : stage.lit().vpls) {
-            mir::detail::LaneSearch search;
-            mir::detail::LaneSearcher searcher(view, triangles.data(), block.all, vpl.position,
-                                               stage.sigma(), search);
-            if (searcher.run(limits)) {
-                ++outcomes.covered;
-                continue;
-            }
-            outcomes.clear += search.finds_nothing() ? 1 : 0;
-            outcomes.listed += search.batches != 0 && search.waiting_nodes == 0 ? 1 : 0;
-            outcomes.waiting += search.waiting_nodes != 0 ? 1 : 0;
-            for (std::size_t i = first; i < first + mir::BlockMask::luxels; ++i) {
-                const mir::Hit& hit = stage.lit().luxels[i];
-                if (is_empty(hit) || !is_hidden(view, vpl.position, hit.position)) continue;
-                bool listed = false;
-                for (std::uint32_t b = 0; b < search.batches; ++b)
-                    for (std::uint32_t lanes = search.chosen.lanes[b]; lanes != 0;) {
-                        const std::uint32_t k = mir::detail::pop_lowest(lanes);
-                        listed |= hits_segment(triangles[search.batch[b].group].rows(k),
-                                               vpl.position, hit.position);
-                    }
-                outcomes.forgotten += listed ? 0 : 1;
-            }
-        }
+        for (const mir::Vpl& vpl : stage.lit().vpls)
+            search_block(stage, triangles, block, first, vpl.position, limits, outcomes);
     }
     return outcomes;
 }

@@ -118,13 +118,13 @@ std::size_t wrong_at_edges(const mirtest::World& world, float factor) {
         const Vec3 apex = places.anywhere(random);
         const Vec3 luxel = apex + 1.3f * (places.on_edge(random) - apex);
         const float spread = mir::max_abs(luxel - apex);
-        for (std::size_t g = 0; g < groups.size(); ++g) {
+        for (const auto& group : groups) {
             CandidateLanes lanes;
-            prepare_lanes(groups[g], apex, spread, sigma, lanes);
+            prepare_lanes(group, apex, spread, sigma, lanes);
             for (float& margin : lanes.margin.at) margin *= factor;
             const auto found = occlusion(lanes, {luxel, Vec3(0.0f)}, sigma);
             for (std::uint32_t k = 0; k < mir::detail::lane_count; ++k) {
-                const bool hit = hits_segment(groups[g].rows(k), apex, luxel);
+                const bool hit = hits_segment(group.rows(k), apex, luxel);
                 wrong += ((found.none >> k & 1u) != 0 && hit) ? 1 : 0;
                 wrong += ((found.full >> k & 1u) != 0 && !hit) ? 1 : 0;
             }

@@ -56,8 +56,8 @@ bool met_quantised(const ShaftDraw& d, Scale scale, std::uint32_t inwards, std::
         mir::quantised(node_with(d, 14.0f * scale.unit, slot), 0x1p-20f * scale.reach);
     for (int axis = 0; axis < 3; ++axis)
         for (std::uint32_t w = 0; w < mir::QuantisedNode::words_per_row; ++w) {
-            node.rows[2 * axis][w] += inwards * 0x01010101u;
-            node.rows[2 * axis + 1][w] -= inwards * 0x01010101u;
+            node.rows[mir::QuantisedNode::row_of(axis, false)][w] += inwards * 0x01010101u;
+            node.rows[mir::QuantisedNode::row_of(axis, true)][w] -= inwards * 0x01010101u;
         }
     return (mir::met_slots(node, s) >> slot & 1u) != 0;
 }

@@ -29,9 +29,13 @@ struct alignas(64) QuantisedNode {
         memcpy(&value, &bits, sizeof value);
         return value;
     }
+    /// Place of the planes that bound children on one side.
+    [[nodiscard]] MIR_HD static std::size_t row_of(int axis, bool upper) {
+        return 2 * static_cast<std::size_t>(axis) + (upper ? 1 : 0);
+    }
     /// Number of the plane that bounds child `slot`.
     [[nodiscard]] MIR_HD std::uint32_t plane(int axis, bool upper, std::uint32_t slot) const {
-        return rows[2 * axis + (upper ? 1 : 0)][slot / 4] >> 8 * (slot % 4) & 0xFFu;
+        return rows[row_of(axis, upper)][slot / 4] >> 8 * (slot % 4) & 0xFFu;
     }
 };
 
@@ -86,8 +90,8 @@ MIR_HD inline void quantise_axis(const WideNode& node, int axis, float margin, Q
         // Empty slots: turned inside out, which next to no shaft meets.
         const std::uint32_t from = is_empty ? 255u : plane_beyond(grid, child_low, false);
         const std::uint32_t to = is_empty ? 0u : plane_beyond(grid, child_high, true);
-        q.rows[2 * axis][k / 4] |= from << 8 * (k % 4);
-        q.rows[2 * axis + 1][k / 4] |= to << 8 * (k % 4);
+        q.rows[QuantisedNode::row_of(axis, false)][k / 4] |= from << 8 * (k % 4);
+        q.rows[QuantisedNode::row_of(axis, true)][k / 4] |= to << 8 * (k % 4);
     }
 }
 

@@ -29,7 +29,7 @@ struct alignas(64) LaneTruths {
 /// Bit k: lane k is true. By the instructions that every x86-64 has, which pack 32 bits to 8 and
 /// gather signs; what surrounds them may use wider ones.
 inline std::uint32_t bits_of(const LaneTruths& truths) {
-    const auto quad = [&](std::uint32_t k) {
+    const auto quad = [&](std::size_t k) {
         return _mm_load_si128(reinterpret_cast<const __m128i*>(truths.at + 4 * k));
     };
     const __m128i low = _mm_packs_epi32(quad(0), quad(1));

@@ -23,8 +23,9 @@ struct BackendShaftOptions {
 };
 
 /// Fills words of visibility on a backend by shafts, for luxels in memory order: the better
-/// neighbours lie together, the faster. Holds the memory between the stages: 9 bytes per luxel and
-/// VPL of a batch at most, divided by 32. One queue at a time.
+/// neighbours lie together, the faster. Holds the memory between the stages: 33 bytes for each 32
+/// luxels and each VPL of a batch at most, of which 24 are for leaves and stop growing at
+/// BackendShaftOptions::leaves. One queue at a time.
 template <Backend B>
 class BackendShafts {
  public:
@@ -33,7 +34,9 @@ class BackendShafts {
     ///         has no memory left.
     BackendShafts(const B& backend, std::uint32_t luxels, std::uint32_t vpls,
                   const BackendShaftOptions& options = {})
-        : options_(checked(options)),
+        : options_(fitted(options, luxels)),
+          luxels_(luxels),
+          vpls_(vpls),
           blocks_(backend.template buffer<ClusterRecord>(luxels / block_luxels)),
           clusters_(backend.template buffer<ClusterRecord>(luxels / cluster_luxels)),
           open_blocks_(backend.template buffer<OpenPair>(pairs(luxels / block_luxels, vpls))),
@@ -44,12 +47,17 @@ class BackendShafts {
           counters_(backend.template buffer<std::uint32_t>(7)) {}
 
     /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`: bit for bit
-    /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are a multiple of
-    /// 256, padded with empty ones, and no more than it was made for.
+    /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are padded with
+    /// empty ones.
+    /// @throws Error(invalid_argument) when `hits` are no multiple of 256, or more than it was made
+    ///         for, or VPLs are.
     template <VplSet P, ShaftableVisibility V>
         requires AccessibleFrom<V, B::space>
     void fill(typename B::Queue& queue, SoaView<const Hit> hits, P vpls, const V& visibility,
               std::uint32_t* words) {
+        expects(hits.stride % block_luxels == 0 && hits.stride <= luxels_ && vpls.size() <= vpls_,
+                "shafts were asked for luxels or VPLs that they have no room for, or for a part of "
+                "a block of 256; make them for as many, and pad the luxels");
         const std::uint32_t block_count = hits.stride / block_luxels;
         const std::uint32_t cluster_count = hits.stride / cluster_luxels;
         queue.for_each_group(block_count,
@@ -63,9 +71,13 @@ class BackendShafts {
     }
 
  private:
-    [[nodiscard]] static BackendShaftOptions checked(const BackendShaftOptions& options) {
+    /// The options with so few VPLs at a time that leaves are counted in 32 bits.
+    [[nodiscard]] static BackendShaftOptions fitted(BackendShaftOptions options,
+                                                    std::uint32_t luxels) {
+        constexpr std::uint32_t most_pairs = 1u << 27;
         expects(options.vpls >= 1 && options.groups >= 1,
                 "shafts were to work on no VPL, or by no group, at a time; choose 1 or more");
+        options.vpls = std::min(options.vpls, most_pairs / std::max(luxels / cluster_luxels, 1u));
         return options;
     }
     [[nodiscard]] std::size_t pairs(std::uint32_t runs, std::uint32_t vpls) const {
@@ -108,6 +120,8 @@ class BackendShafts {
     }
 
     BackendShaftOptions options_;
+    std::uint32_t luxels_;
+    std::uint32_t vpls_;
     typename B::template Buffer<ClusterRecord> blocks_;
     typename B::template Buffer<ClusterRecord> clusters_;
     typename B::template Buffer<OpenPair> open_blocks_;

@@ -101,7 +101,8 @@ struct ClusterShafts {
         });
         const std::uint32_t lists =
             group.ballot([&](std::uint32_t lane) { return place[lane] > 0; });
-        if (lists == 0) return 0;
+        // Asked before more is added: so the count cannot wrap around.
+        if (lists == 0 || group.add(*pool.used, 0) > pool.capacity) return lists;
         const std::uint32_t total = group.sums_before(place);
         const std::uint32_t first = group.add(*pool.used, total);
         const std::uint32_t fitting = group.ballot([&](std::uint32_t lane) {

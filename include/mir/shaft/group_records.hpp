@@ -40,6 +40,12 @@ struct GroupRecords {
 
     using Floats = LaneGroup::PerLane<float>;
 
+    /// Luxels that are no number face nothing; comparing with one would lose those before it.
+    MIR_HD static bool is_number(const Hit& hit) {
+        const Vec3 p = hit.position;
+        return fabsf(p.x) >= 0.0f && fabsf(p.y) >= 0.0f && fabsf(p.z) >= 0.0f;
+    }
+
     MIR_HD static float smallest(const LaneGroup& group, Floats values) {
         return group.combined(values, [](float a, float b) { return smaller(a, b); });
     }
@@ -58,7 +64,7 @@ struct GroupRecords {
             own[lane] = {Vec3(infinity), Vec3(-infinity), Vec3(0.0f), 0};
             for (std::uint32_t k = lane; k < run; k += LaneGroup::width) {
                 const Hit hit = hits.load(first + k);
-                if (!is_empty(hit)) own[lane].add(hit);
+                if (!is_empty(hit) && is_number(hit)) own[lane].add(hit);
             }
             counts[lane] = own[lane].luxels;
         });

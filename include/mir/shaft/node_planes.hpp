@@ -12,7 +12,7 @@ namespace mir::detail {
 
 /// Row `upper` of an axis of a WideNode: coordinates, metres.
 MIR_HD inline const ChildRow& plane_row(const WideNode& node, int axis, bool upper) {
-    return node.planes[2 * axis + (upper ? 1 : 0)];
+    return node.planes[QuantisedNode::row_of(axis, upper)];
 }
 
 MIR_HD inline AxisStep adapted(const WideNode&, int /*axis*/, AxisStep step) { return step; }
@@ -42,8 +42,8 @@ struct PlaneWords {
 
 /// Both rows of an axis are there already: words are chosen, not fetched.
 MIR_HD inline PlaneWords plane_row(const QuantisedNode& node, int axis, bool upper) {
-    const std::uint32_t* const low = node.rows[2 * axis];
-    const std::uint32_t* const high = node.rows[2 * axis + 1];
+    const std::uint32_t* const low = node.rows[QuantisedNode::row_of(axis, false)];
+    const std::uint32_t* const high = node.rows[QuantisedNode::row_of(axis, true)];
     return {{upper ? high[0] : low[0], upper ? high[1] : low[1]}};
 }
 

@@ -43,5 +43,7 @@ struct OpenSegments {
         });
     }
 };
+template <class P, class V>
+OpenSegments(SoaView<const Hit>, P, V, std::uint32_t*, WorkQueue<OpenPair>) -> OpenSegments<P, V>;
 
 }  // namespace mir
