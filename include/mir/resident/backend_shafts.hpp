@@ -86,6 +86,7 @@ class BackendShafts {
 
     template <class P, class V>
     void fill_batch(typename B::Queue& queue, SoaView<const Hit> hits, P vpls, const V& visibility,
+                    // Kernels write to it. NOLINTNEXTLINE(readability-non-const-parameter)
                     VplBatch batch, std::uint32_t* words) {
         constexpr Space space = B::space;
         const std::uint32_t block_count = hits.stride / block_luxels;
