@@ -13,8 +13,7 @@ namespace mir {
 /// Backend::Queue::for_each_group() are written for all lanes at once: what differs from lane to
 /// lane is a PerLane, what each lane does a function of the lane's number, and everything else is
 /// the same for all, loops above all. Source, and the results of kernels that only combine lanes
-/// by the members below, are the same on both. (Beside mir/core/strict_float.hpp the one place
-/// where host and device read different lines.)
+/// by the members below, are the same on both.
 ///
 /// Every member must be called by all lanes together: never inside of each(), nor behind a
 /// condition that differs between lanes.
