@@ -68,9 +68,9 @@ struct BlockShafts {
         const std::uint32_t undecided = group.ballot([&](std::uint32_t lane) {
             return states[lane] == PairState::unknown || states[lane] == PairState::listed;
         });
-        open.append(group, undecided, [&](std::uint32_t lane) {
+        static_cast<void>(open.append(group, undecided, [&](std::uint32_t lane) {
             return OpenPair{first + lane, j};
-        });
+        }));
     }
 
  private:

@@ -39,7 +39,7 @@ struct ClusterLists {
     MIR_HD void decide(const LaneGroup& group, const ListedPair& list, Workspace& space) const {
         const std::uint32_t count = unpack(group, list, space);
         if (count != too_many) return resolve(group, list.pair, count, space);
-        open.append(group, 1u, [&](std::uint32_t) { return list.pair; });
+        static_cast<void>(open.append(group, 1u, [&](std::uint32_t) { return list.pair; }));
     }
 
     /// Writes the triangles of a pair's leaves to the workspace, a slot of a node per lane; returns

@@ -70,7 +70,8 @@ struct ClusterShafts {
             return tasks[lane].is_alive && searches[lane].state != LeafSearchState::complete;
         });
         undecided |= store(group, tasks, searches, space);
-        open.append(group, undecided, [&](std::uint32_t lane) { return tasks[lane].pair; });
+        static_cast<void>(
+            open.append(group, undecided, [&](std::uint32_t lane) { return tasks[lane].pair; }));
     }
 
     [[nodiscard]] MIR_HD Task task_of(std::uint32_t first, std::uint32_t count,
@@ -91,9 +92,10 @@ struct ClusterShafts {
 
     /// Queues the pairs of all lanes that have a complete list. Returns the lanes for which there
     /// was no room.
-    MIR_HD std::uint32_t store(const LaneGroup& group, const LaneGroup::PerLane<Task>& tasks,
-                               const LaneGroup::PerLane<LeafSearch>& searches,
-                               const Workspace& space) const {
+    [[nodiscard]] MIR_HD std::uint32_t store(const LaneGroup& group,
+                                             const LaneGroup::PerLane<Task>& tasks,
+                                             const LaneGroup::PerLane<LeafSearch>& searches,
+                                             const Workspace& space) const {
         LaneGroup::PerLane<std::uint32_t> place;
         group.each([&](std::uint32_t lane) {
             const bool is_complete = searches[lane].state == LeafSearchState::complete;

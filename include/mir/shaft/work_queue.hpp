@@ -21,8 +21,8 @@ struct WorkQueue {
     /// Adds item_of(lane) for the lanes whose bit is set. Returns those for which there was no
     /// room.
     template <class ItemOf>
-    MIR_HD std::uint32_t append(const LaneGroup& group, std::uint32_t lanes,
-                                const ItemOf& item_of) const {
+    [[nodiscard]] MIR_HD std::uint32_t append(const LaneGroup& group, std::uint32_t lanes,
+                                              const ItemOf& item_of) const {
         if (lanes == 0) return 0;
         const std::uint32_t first = group.add(*count, LaneGroup::count(lanes));
         return lanes & group.ballot([&](std::uint32_t lane) {
