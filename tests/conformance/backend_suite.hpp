@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "conformance/backend_kernels.hpp"
 #include "mir/concepts/backend.hpp"
 
 #include <algorithm>
@@ -18,89 +19,6 @@ namespace mirtest {
 struct Finding {
     std::string experiment;
     std::size_t wrong = 0;
-};
-
-/// A number that has no pattern. Source: the finaliser of MurmurHash3, public domain.
-MIR_HD inline std::uint32_t scrambled(std::uint32_t x) {
-    x ^= x >> 16;
-    x *= 0x85ebca6bu;
-    x ^= x >> 13;
-    x *= 0xc2b2ae35u;
-    return x ^ (x >> 16);
-}
-
-/// Adds one to element i.
-struct CountVisit {
-    std::uint32_t* visits = nullptr;
-    MIR_HD void operator()(std::uint32_t i) const { ++visits[i]; }
-};
-
-/// Element i of `to` becomes a function of element n - 1 - i of `from`.
-struct MoveAcross {
-    const std::uint32_t* from = nullptr;
-    std::uint32_t* to = nullptr;
-    std::uint32_t n = 0;
-    MIR_HD void operator()(std::uint32_t i) const { to[i] = scrambled(from[n - 1 - i] + i); }
-};
-
-/// Writes element i after a while: `steps` scrambles of it.
-struct SlowScramble {
-    std::uint32_t* out = nullptr;
-    std::uint32_t steps = 0;
-    MIR_HD void operator()(std::uint32_t i) const {
-        std::uint32_t x = i;
-        for (std::uint32_t k = 0; k < steps; ++k) x = scrambled(x + k);
-        out[i] = x;
-    }
-};
-
-/// Bits without pattern, some found soon and some late, so that the rows of a word part ways.
-struct ScrambledBits {
-    [[nodiscard]] MIR_HD std::uint32_t row(std::uint32_t i) const { return scrambled(i); }
-    [[nodiscard]] MIR_HD bool operator()(std::uint32_t row, std::uint32_t column) const {
-        std::uint32_t x = scrambled(row ^ column);
-        for (std::uint32_t k = x % 17; k > 0; --k) x = scrambled(x + column);
-        return (x & 1u) != 0;
-    }
-};
-
-/// Every member of LaneGroup once, with what lanes write to their workspace read by others; adds
-/// what comes out to element i, and the number of lanes to a counter that all groups share.
-struct GroupVisit {
-    struct Workspace {
-        std::uint32_t words[mir::LaneGroup::width];
-    };
-
-    std::uint32_t* out = nullptr;
-    std::uint32_t* lanes = nullptr;
-
-    MIR_HD void operator()(const mir::LaneGroup& group, std::uint32_t i, Workspace& space) const {
-        constexpr std::uint32_t width = mir::LaneGroup::width;
-        mir::LaneGroup::PerLane<std::uint32_t> values;
-        group.each([&](std::uint32_t lane) { space.words[lane] = scrambled(i + lane) % 100; });
-        group.each([&](std::uint32_t lane) { values[lane] = space.words[width - 1 - lane]; });
-        const std::uint32_t odd =
-            group.ballot([&](std::uint32_t lane) { return values[lane] % 2 == 1; });
-        const std::uint32_t sum = group.sums_before(values);
-        const std::uint32_t last = group.broadcast(values, 17);
-        static_cast<void>(group.add(*lanes, mir::LaneGroup::count(mir::LaneGroup::all)));
-        group.each([&](std::uint32_t lane) {
-            if (lane == 0)
-                out[i] += odd + sum + last + (odd != 0 ? mir::LaneGroup::lowest(odd) : 0);
-        });
-    }
-
-    /// What comes out, written without groups.
-    static std::uint32_t expected(std::uint32_t i) {
-        std::uint32_t odd = 0, sum = 0, last = 0, lowest = 0;
-        for (std::uint32_t lane = 32; lane-- > 0;) {
-            const std::uint32_t value = scrambled(i + 31 - lane) % 100;
-            if (value % 2 == 1) odd |= 1u << lane, lowest = lane;
-            sum += value;
-            if (lane < 17) last += value;
-        }
-        return odd + sum + last + lowest;
-    }
 };
 
 /// The experiments, each on new queues and buffers.

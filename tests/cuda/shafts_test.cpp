@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cuda/shafts.hpp"
 
-#include "accel/hard_segments.hpp"
 #include "mir/cuda/device.hpp"
 #include "shaft/shaft_stage.hpp"
 #include "support/catch.hpp"
@@ -12,13 +11,8 @@ namespace {
 
 using mirtest::different_bits;
 using mirtest::ShaftStage;
-
-ShaftStage stage_of(const mirtest::World& world, std::uint32_t luxels, std::uint32_t vpls,
-                    std::uint64_t seed = 19) {
-    const mirtest::Lit lit =
-        mirtest::random_lit(world.geometry, luxels, vpls, mirtest::test_random(seed));
-    return {world.geometry, mirtest::clustered(lit)};
-}
+using mirtest::soup;
+using mirtest::stage_of;
 
 std::vector<std::uint32_t> words(const ShaftStage& stage,
                                  const mir::BackendShaftOptions& options = {}) {
@@ -34,9 +28,7 @@ TEST_CASE("The GPU's shafts give the bits of every triangle asked on the host") 
          {std::pair{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}})
         for (const bool needles : {false, true}) {
             INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
-            const mir::Vec3 move(x, 0.3f * x, -x);
-            const mirtest::World world = needles ? mirtest::needle_soup(60, 17, scale, move)
-                                                 : mirtest::triangle_soup(60, 18, scale, move);
+            const mirtest::World world = soup(needles, scale, x);
             const ShaftStage stage = stage_of(world, 2000, 40);
             CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
         }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/resident/backend_shafts.hpp"
 
-#include "accel/hard_segments.hpp"
 #include "mir/cpu/backend.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "shaft/shaft_stage.hpp"
@@ -16,19 +15,9 @@ namespace {
 using mirtest::different_bits;
 using mirtest::Lit;
 using mirtest::ShaftStage;
+using mirtest::soup;
+using mirtest::stage_of;
 using HostBackend = mir::cpu::Backend<mir::InlineExecutor>;
-
-mirtest::World soup(bool needles, float scale, float x) {
-    const mir::Vec3 move(x, 0.3f * x, -x);
-    return needles ? mirtest::needle_soup(60, 17, scale, move)
-                   : mirtest::triangle_soup(60, 18, scale, move);
-}
-
-ShaftStage stage_of(const mirtest::World& world, std::uint32_t luxels, std::uint32_t vpls,
-                    std::uint64_t seed = 19) {
-    const Lit lit = mirtest::random_lit(world.geometry, luxels, vpls, mirtest::test_random(seed));
-    return {world.geometry, mirtest::clustered(lit)};
-}
 
 mirtest::ShaftInput input(const ShaftStage& stage) {
     return {stage.hits(), stage.lit().vpls, &stage.bvh(), stage.sigma()};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/block_cascade.hpp"
 
-#include "accel/hard_segments.hpp"
 #include "shaft/block_words.hpp"
 #include "support/catch.hpp"
 
@@ -15,18 +14,8 @@ using mirtest::by_blocks;
 using mirtest::different_bits;
 using mirtest::Lit;
 using mirtest::ShaftStage;
-
-mirtest::World soup(bool needles, float scale = 1.0f, float x = 0.0f) {
-    const mir::Vec3 move(x, 0.3f * x, -x);
-    return needles ? mirtest::needle_soup(60, 17, scale, move)
-                   : mirtest::triangle_soup(60, 18, scale, move);
-}
-
-ShaftStage stage_of(const mirtest::World& world, std::uint32_t luxels, std::uint32_t vpls,
-                    std::uint64_t seed = 19) {
-    const Lit lit = mirtest::random_lit(world.geometry, luxels, vpls, mirtest::test_random(seed));
-    return {world.geometry, mirtest::clustered(lit)};
-}
+using mirtest::soup;
+using mirtest::stage_of;
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "accel/hard_segments.hpp"
 #include "conformance/worlds.hpp"
 #include "mir/accel/wide_build.hpp"
 #include "mir/data/visibility_words.hpp"
@@ -157,6 +158,18 @@ inline Lit clustered(const Lit& lit) {
     for (const std::uint32_t i : mir::cluster_order(run.view(), {}, executor))
         moved.luxels.push_back(lit.luxels[i]);
     return moved;
+}
+
+/// Sixty triangles, or sixty needles, of that size, moved aside.
+inline World soup(bool needles, float scale = 1.0f, float x = 0.0f) {
+    const mir::Vec3 move(x, 0.3f * x, -x);
+    return needles ? needle_soup(60, 17, scale, move) : triangle_soup(60, 18, scale, move);
+}
+
+/// A world with random luxels in cluster order, and random VPLs.
+inline ShaftStage stage_of(const World& world, std::uint32_t luxels, std::uint32_t vpls,
+                           std::uint64_t seed = 19) {
+    return {world.geometry, clustered(random_lit(world.geometry, luxels, vpls, test_random(seed)))};
 }
 
 }  // namespace mirtest
