@@ -3,11 +3,12 @@
 
 #include "mir/accel/kd_ray_finder.hpp"
 #include "mir/accel/wide_bvh_visibility.hpp"
+#include "mir/resident/backend_wide_bvh.hpp"
+#include "mir/resident/quantised_boxes.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_kd_tree.hpp"
 #include "mir/resident/uploaded_surfaces.hpp"
-#include "mir/resident/uploaded_wide_bvh.hpp"
 #include "mir/shaft/cluster_visibility.hpp"
 #include "paper_scene.hpp"
 
@@ -20,9 +21,10 @@ class SceneOnBackend {
     SceneOnBackend(const B& backend, const PaperScene& scene)
         : queue_(backend.queue()),
           tree_(backend, queue_, scene.tree()),
-          bvh_(backend, queue_, scene.bvh()),
-          sigma_(scene.sigma()),
           geometry_(backend, queue_, scene.geometry()),
+          bvh_(backend, queue_, scene.geometry(), geometry_.view()),
+          boxes_(backend, queue_, bvh_.view(), bvh_.node_count()),
+          sigma_(scene.sigma()),
           surfaces_(backend, queue_, scene.surfaces()),
           rays_(scene.camera_rays().luxel_rays()) {
         queue_.record().sync();
@@ -35,7 +37,7 @@ class SceneOnBackend {
     /// Shafts that leave segments to `rays`.
     template <mir::Visibility V>
     [[nodiscard]] mir::ClusterVisibility<V> with_shafts(const V& rays) const {
-        return {bvh_.quantised(), sigma_, rays};
+        return {{bvh_.view(), boxes_.data()}, sigma_, rays};
     }
 
     /// Starts to trace all luxels on `queue`.
@@ -48,9 +50,10 @@ class SceneOnBackend {
  private:
     typename B::Queue queue_;
     mir::UploadedKdTree<B> tree_;
-    mir::UploadedWideBvh<B> bvh_;
-    float sigma_;
     mir::UploadedGeometry<B> geometry_;
+    mir::BackendWideBvh<B> bvh_;
+    mir::QuantisedBoxes<B> boxes_;
+    float sigma_;
     mir::UploadedSurfaces<B, Bsdf> surfaces_;
     mir::LuxelRays rays_;
 };

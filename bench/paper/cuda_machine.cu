@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "backend_machine.hpp"
 #include "mir/cuda/backend.cuh"
+#include "mir/cuda/sort.cuh"
 
 namespace mirpaper {
 

@@ -3,7 +3,6 @@
 
 #include "mir/accel/accept_box.hpp"
 #include "mir/accel/kd_build.hpp"
-#include "mir/accel/wide_build.hpp"
 #include "mir/core/morton.hpp"
 #include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/paths/path_world.hpp"
@@ -48,7 +47,6 @@ PaperScene::PaperScene(const std::string& name, mir::Extent size, const mir::KdT
       hash_(mir::SceneHash(scene_).hex()),
       geometry_(scene_),
       tree_(geometry_, tree, executor),
-      bvh_(geometry_, {}, executor),
       lights_(scene_, geometry_),
       surfaces_(scene_),
       luxels_(size, size) {

@@ -4,7 +4,6 @@
 #include "mir/accel/kd_ray_caster.hpp"
 #include "mir/accel/kd_tree.hpp"
 #include "mir/accel/kd_tree_visibility.hpp"
-#include "mir/accel/wide_bvh.hpp"
 #include "mir/data/gbuffer.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/fill_gbuffer.hpp"
@@ -37,7 +36,6 @@ class PaperScene {
     [[nodiscard]] const std::string& hash() const { return hash_; }
     [[nodiscard]] const mir::WorldGeometry& geometry() const { return geometry_; }
     [[nodiscard]] const mir::KdTree& tree() const { return tree_; }
-    [[nodiscard]] const mir::WideBvh& bvh() const { return bvh_; }
     /// As shafts want it, metres.
     [[nodiscard]] float sigma() const;
     [[nodiscard]] mir::KdTreeVisibility<mir::Space::host> visibility() const {
@@ -76,7 +74,6 @@ class PaperScene {
     std::string hash_;
     mir::WorldGeometry geometry_;
     mir::KdTree tree_;
-    mir::WideBvh bvh_;
     mir::LightTable lights_;
     mir::SurfaceTable<Bsdf> surfaces_;
     GBuffer luxels_;

@@ -153,6 +153,7 @@
 #include "mir/resident/backend_visibility.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
 #include "mir/resident/chain_batch.hpp"
+#include "mir/resident/quantised_boxes.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_array.hpp"
 #include "mir/resident/uploaded_geometry.hpp"

@@ -2,6 +2,7 @@
 #include "mir/shading/ggx.hpp"
 
 #include "mir/core/random.hpp"
+#include "mir/core/warp.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"
 
@@ -139,8 +140,8 @@ TEST_CASE("height-correlated shadowing is symmetric and at most the masking of e
     for (float alpha : {0.05f, 0.4f, 1.0f})
         for (float i : {0.05f, 0.4f, 1.0f})
             for (float o : {0.05f, 0.3f, 0.9f}) {
-                const float g2 = mir::ggx_v(i, o, alpha) * 4 * i * o;
-                CHECK(g2 == Approx(mir::ggx_v(o, i, alpha) * 4 * i * o));
+                const float g2 = 2 * i * o / mir::smith_sum(i, o, alpha);
+                CHECK(g2 == Approx(2 * i * o / mir::smith_sum(o, i, alpha)));
                 CHECK(g2 <= std::min(mir::ggx_g1(i, alpha), mir::ggx_g1(o, alpha)) * 1.00001f);
                 CHECK(g2 >= mir::ggx_g1(i, alpha) * mir::ggx_g1(o, alpha) * 0.99999f);
             }
@@ -179,4 +180,56 @@ TEST_CASE("chi-square catches a wrong lobe", "[statistical]") {
     };
     CHECK(normals(at, 33, mir::ggx_sample_reflection).against(on_square(at, unmasked), 4).p_value <
           level);
+}
+
+TEST_CASE("D V by the half vector's parts is D V by its cosine") {
+    const Vec3 n(0, 0, 1);
+    mir::Random random(41, mir::Stream::test, 0);
+    for (float alpha : {0.05f, 0.4f, 1.0f})
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 wi = mir::square_to_cosine_hemisphere(random.next_2d());
+            const Vec3 wo = mir::square_to_cosine_hemisphere(random.next_2d());
+            const float cos_h = glm::normalize(wi + wo).z;
+            const mir::HalfVector half = mir::half_vector(n, wi, wo, wi.z + wo.z);
+            CHECK(half.cos_d() == Approx(glm::dot(glm::normalize(wi + wo), wo)).epsilon(1e-5));
+            CHECK(mir::ggx_dv(half, wi.z, wo.z, alpha) ==
+                  Approx(mir::ggx_d(cos_h, alpha) * 0.5f / mir::smith_sum(wi.z, wo.z, alpha))
+                      .epsilon(1e-4));
+        }
+}
+
+TEST_CASE("The narrowest lobe keeps the digits of its peak and its shoulder") {
+    const double alpha = mir::min_ggx_alpha;
+    for (double tilt : {0.0, 1.0, 3.0}) {
+        const double angle =
+            2 * tilt * alpha;  // of wi from the mirrored direction: twice that of h
+        const double incidence = 0.6;
+        const auto direction = [](double theta) {
+            return Vec3(float(std::sin(theta)), 0.0f, float(std::cos(theta)));
+        };
+        const Vec3 wo = direction(-incidence);
+        const Vec3 wi = direction(incidence + angle);
+        const double tan_h = std::tan(0.5 * angle);
+        const double cos_h = std::cos(0.5 * angle);
+        const double ratio = 1 + tan_h * tan_h / (alpha * alpha);
+        const double d =
+            1 / (3.14159265358979 * alpha * alpha * std::pow(cos_h, 4) * ratio * ratio);
+        const double v = 0.5 / double(mir::smith_sum(wi.z, wo.z, float(alpha)));
+        const mir::HalfVector half = mir::half_vector({0, 0, 1}, wi, wo, wi.z + wo.z);
+        CHECK(double(mir::ggx_dv(half, wi.z, wo.z, float(alpha))) == Approx(d * v).epsilon(3e-4));
+    }
+}
+
+TEST_CASE("D V is finite where directions are opposite and where both graze") {
+    const Vec3 n(0, 0, 1);
+    for (float alpha : {mir::min_ggx_alpha, 1.0f})
+        for (float z : {0.0f, 1e-12f, 1e-6f}) {
+            const Vec3 wi(1, 0, z);
+            for (const Vec3 wo : {Vec3(-1, 0, z), Vec3(1, 0, z), Vec3(0, 1, z)}) {
+                const mir::HalfVector half = mir::half_vector(n, wi, wo, 2 * z);
+                const float dv = mir::ggx_dv(half, z, z, alpha);
+                CHECK(std::isfinite(dv));
+                CHECK(dv >= 0.0f);
+            }
+        }
 }

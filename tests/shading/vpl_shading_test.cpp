@@ -44,9 +44,9 @@ TEST_CASE("a VPL straight above adds J rho / pi / d^2") {
 TEST_CASE("the geometry term is cos cos / d^2 and scales as 1 / length^2") {
     const Vec3 d(3, 0, 4);
     const Vec3 wi = d / 5.0f;
-    CHECK(mir::geometry_term(wi, 25.0f, up, -up) == Approx(0.8f * 0.8f / 25));
-    CHECK(mir::geometry_term(wi, 25.0f, up, Vec3(-1, 0, 0)) == Approx(0.8f * 0.6f / 25));
-    CHECK(mir::geometry_term(wi, 2500.0f, up, -up) == Approx(0.8f * 0.8f / 2500));
+    CHECK(mir::geometry_term(wi, 0.2f, up, -up) == Approx(0.8f * 0.8f / 25));
+    CHECK(mir::geometry_term(wi, 0.2f, up, Vec3(-1, 0, 0)) == Approx(0.8f * 0.6f / 25));
+    CHECK(mir::geometry_term(wi, 0.02f, up, -up) == Approx(0.8f * 0.8f / 2500));
 }
 
 TEST_CASE("nothing comes from below a horizon") {

@@ -122,22 +122,6 @@ MIR_HD inline PlaneCrossing crossing(const TriangleRows& rows, Vec3 from, Vec3 t
                     row_at(rows.v, to), s_to);
 }
 
-/// A point as a triangle's rows see it. Aligned so that the device fetches it as one word.
-struct alignas(16) RowValues {
-    float u = 0.0f;
-    float v = 0.0f;
-    float s = 0.0f;
-};
-
-MIR_HD inline RowValues row_values(const TriangleRows& rows, Vec3 p) {
-    return {row_at(rows.u, p), row_at(rows.v, p), row_at(rows.s, p)};
-}
-
-/// hits_segment() from what the rows say of both ends: callers that meet an end again keep it.
-MIR_HD inline bool hits_segment(const RowValues& from, const RowValues& to) {
-    return opposite(from.s, to.s) && is_inside(crossing(from.u, from.v, from.s, to.u, to.v, to.s));
-}
-
 }  // namespace detail
 
 /// True when the segment crosses the triangle: its ends lie strictly on opposite sides of the plane

@@ -147,9 +147,8 @@ void PathTracer<B, R, V, Rules>::trace(const Vertex& first, Random& random,
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 float PathTracer<B, R, V, Rules>::bounded_share(const Vertex& first, const Vertex& second) const {
     const Vec3 d = second.hit.position - first.hit.position;
-    const float d2 = length_squared(d);
-    const float g =
-        geometry_term(d * (1.0f / std::sqrt(d2)), d2, first.surface.normal, second.hit.normal);
+    const float inverse = 1.0f / std::sqrt(length_squared(d));
+    const float g = geometry_term(d * inverse, inverse, first.surface.normal, second.hit.normal);
     return g > options_.bound ? options_.bound / g : 1.0f;
 }
 

@@ -64,7 +64,7 @@ class BackendShafts {
                              GroupRecords{hits, block_luxels, visibility.sigma, blocks_.data()});
         queue.for_each_group(
             cluster_count, GroupRecords{hits, cluster_luxels, visibility.sigma, clusters_.data()});
-        queue.fill_bits(hits.stride, vpls.size(), FacingPass<P>{hits, vpls}, words);
+        queue.for_each_group(FacingPass<P>::groups(hits.stride), FacingPass{hits, vpls, words});
         for (std::uint32_t first = 0; first < vpls.size(); first += options_.vpls)
             fill_batch(queue, hits, vpls, visibility,
                        {first, std::min(options_.vpls, vpls.size() - first)}, words);

@@ -30,12 +30,9 @@ struct CookTorrance {
     [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
         const float cos_i = glm::dot(n, wi);
         const float cos_o = glm::dot(n, wo);
-        const Vec3 sum = wi + wo;
-        const float inv_length = 1.0f / sqrtf(larger(length_squared(sum), 1e-20f));
-        const float cos_h = smaller(glm::dot(n, sum) * inv_length, 1.0f);
-        const float cos_d = smaller(glm::dot(wo, sum) * inv_length, 1.0f);
-        const float specular = ggx_d(cos_h, p.alpha) * ggx_v(cos_i, cos_o, p.alpha);
-        return schlick(p, cos_d) * specular + diffuse(p, cos_i, cos_o);
+        const HalfVector half = half_vector(n, wi, wo, cos_i + cos_o);
+        return schlick(p, half.cos_d()) * ggx_dv(half, cos_i, cos_o, p.alpha) +
+               diffuse(p, cos_i, cos_o);
     }
 
     /// Density of sample() at `wi`, per steradian.
@@ -60,17 +57,23 @@ struct CookTorrance {
 
     /// Schlick's Fresnel term between f0 and f90.
     MIR_HD static Rgb schlick(const Params& p, float cos_theta) {
-        const float m = 1.0f - cos_theta;
-        const float m2 = m * m;
-        const float w = m2 * m2 * m;
-        const float grazing = p.f90 * w;
-        return p.f0 * (1.0f - w) + Rgb{grazing, grazing, grazing};
+        return p.f0 + (Rgb{p.f90, p.f90, p.f90} - p.f0) * schlick_weight(cos_theta);
     }
 
-    /// The diffuse part of eval().
+    /// The diffuse part of eval(). Of its factors those without cos_i come first, so that they are
+    /// multiplied once for all VPLs of a luxel.
     MIR_HD static Rgb diffuse(const Params& p, float cos_i, float cos_o) {
         const Rgb white{1.0f, 1.0f, 1.0f};
-        return p.diffuse * inv_pi * (white - schlick(p, cos_i)) * (white - schlick(p, cos_o));
+        const Rgb base = p.diffuse * inv_pi * (white - schlick(p, cos_o));
+        return base * (white - p.f0) -
+               base * (Rgb{p.f90, p.f90, p.f90} - p.f0) * schlick_weight(cos_i);
+    }
+
+    /// (1 - cos)^5
+    MIR_HD static float schlick_weight(float cos_theta) {
+        const float m = 1.0f - cos_theta;
+        const float m2 = m * m;
+        return m2 * m2 * m;
     }
 
     /// Probability with which sample() picks the specular lobe: its share of the reflected light,

@@ -19,13 +19,45 @@ MIR_HD inline float ggx_d(float cos_h, float alpha) {
     return a2 / (pi * t * t);
 }
 
-/// Height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo).
+/// 0.5 over this is height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo).
 /// Source: Heitz, "Understanding the masking-shadowing function", JCGT 3(2), 2014, eq. 99.
-MIR_HD inline float ggx_v(float cos_i, float cos_o, float alpha) {
+MIR_HD inline float smith_sum(float cos_i, float cos_o, float alpha) {
     const float a2 = alpha * alpha;
     const float li = cos_o * sqrtf(cos_i * cos_i * (1.0f - a2) + a2);
     const float lo = cos_i * sqrtf(cos_o * cos_o * (1.0f - a2) + a2);
-    return 0.5f / larger(li + lo, 1e-20f);
+    return larger(li + lo, 1e-10f);
+}
+
+/// wi + wo, of which only lengths are needed: nothing is divided before ggx_dv() divides once.
+struct HalfVector {
+    /// Squared length below which directions count as opposite, so that products stay in range.
+    static constexpr float least_squared = 1e-8f;
+
+    float along = 0.0f;           ///< its component along the normal: n.wi + n.wo
+    float across_squared = 0.0f;  ///< the square of the rest, with all digits for narrow lobes
+
+    [[nodiscard]] MIR_HD float squared() const {
+        return larger(across_squared + along * along, least_squared);
+    }
+    /// Cosine between it and either direction.
+    [[nodiscard]] MIR_HD float cos_d() const { return 0.5f * sqrtf(squared()); }
+};
+
+/// `along` is n.wi + n.wo.
+MIR_HD inline HalfVector half_vector(Vec3 n, Vec3 wi, Vec3 wo, float along) {
+    return {along, length_squared(wi + wo - along * n)};
+}
+
+/// D V: ggx_d() times masking and shadowing over 4 (n.wi)(n.wo), per steradian. With h the half
+/// vector, cos^2 = along^2 / h^2 and sin^2 = across^2 / h^2, so
+/// D = a^2 h^4 / (pi (across^2 + a^2 along^2)^2).
+MIR_HD inline float ggx_dv(const HalfVector& half, float cos_i, float cos_o, float alpha) {
+    const float a2 = alpha * alpha;
+    const float spread = larger(half.across_squared + a2 * (half.along * half.along),
+                                a2 * HalfVector::least_squared);
+    const float squared = half.squared();
+    return a2 * (0.5f * inv_pi) * (squared * squared) /
+           (spread * spread * smith_sum(cos_i, cos_o, alpha));
 }
 
 /// Smith masking of one direction, G1 in [0, 1].

@@ -10,12 +10,12 @@
 namespace mir {
 
 /// Geometry term of a luxel and a VPL, m^-2: cos cos / d^2 with the shading normal at the luxel
-/// and the geometric one at the VPL; 0 when either points away (docs/method.md, 4.2).
-MIR_HD inline float geometry_term(Vec3 wi, float distance_squared, Vec3 luxel_normal,
-                                  Vec3 vpl_normal) {
+/// and the geometric one at the VPL; 0 when either points away (docs/method.md, 4.2). `inverse` is
+/// 1 / d.
+MIR_HD inline float geometry_term(Vec3 wi, float inverse, Vec3 luxel_normal, Vec3 vpl_normal) {
     const float cos_l = larger(glm::dot(wi, luxel_normal), 0.0f);
     const float cos_v = larger(-glm::dot(wi, vpl_normal), 0.0f);
-    return cos_l * cos_v / distance_squared;
+    return cos_l * cos_v * (inverse * inverse);
 }
 
 /// J f min(G, bound): what an unoccluded VPL adds to a luxel's radiance. Model of Shading for any
@@ -33,10 +33,10 @@ struct VplShading {
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
         const Vec3 d = vpl.position - hit.position;
-        const float d2 = length_squared(d);
-        const Vec3 wi = d * (1.0f / sqrtf(d2));
-        const float g = smaller(geometry_term(wi, d2, s.normal, vpl.normal), bound);
-        return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * g;
+        const float inverse = 1.0f / sqrtf(length_squared(d));
+        const Vec3 wi = d * inverse;
+        const float g = smaller(geometry_term(wi, inverse, s.normal, vpl.normal), bound);
+        return B::eval(s.bsdf, s.normal, wi, s.wo) * (vpl.intensity * g);
     }
 };
 
@@ -51,9 +51,9 @@ struct RemovedByBound {
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
         const Vec3 d = vpl.position - hit.position;
-        const float d2 = length_squared(d);
-        const Vec3 wi = d * (1.0f / sqrtf(d2));
-        const float excess = geometry_term(wi, d2, s.normal, vpl.normal) - bound;
+        const float inverse = 1.0f / sqrtf(length_squared(d));
+        const Vec3 wi = d * inverse;
+        const float excess = geometry_term(wi, inverse, s.normal, vpl.normal) - bound;
         if (!(excess > 0.0f)) return {};
         return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * excess;
     }

@@ -12,11 +12,12 @@ namespace mir {
 template <Space S, VplSet P>
 struct ClusterLists {
     static constexpr std::uint32_t most_triangles = 192;  ///< of a pair
+    static constexpr std::uint32_t most_forms = 2 * LaneGroup::width;
 
     /// What a group works in.
     struct Workspace {
+        SegmentForms forms[most_forms];  ///< of triangles that are partial
         std::uint32_t triangles[most_triangles];
-        detail::RowValues of_apex[most_triangles];  ///< theirs at the VPL, of those kept
     };
 
     SoaView<const Hit> hits;
@@ -31,46 +32,50 @@ struct ClusterLists {
 
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace& space) const {
         const std::uint32_t count = listed.size();
-        for (std::uint32_t at = listed.take(group, 1); at < count; at = listed.take(group, 1))
-            decide(group, listed.items[at], space);
+        std::uint32_t next = listed.take(group, 1);
+        while (next < count) {
+            const ListedPair list = listed.items[next];
+            // Asked for before it is needed, because the answer takes its time.
+            next = listed.take(group, 1);
+            decide(group, list, space);
+        }
     }
 
  private:
+    static constexpr std::uint32_t too_many = 0xFFFFFFFFu;
+
     MIR_HD void decide(const LaneGroup& group, const ListedPair& list, Workspace& space) const {
         const std::uint32_t count = unpack(group, list, space);
         if (count != too_many) return resolve(group, list.pair, count, space);
         static_cast<void>(open.append(group, 1u, [&](std::uint32_t) { return list.pair; }));
     }
 
-    /// Writes the triangles of a pair's leaves to the workspace, a slot of a node per lane; returns
-    /// how many there are.
+    /// Writes the triangles of a pair's leaves to the workspace, a node per lane; returns how many
+    /// there are.
     [[nodiscard]] MIR_HD std::uint32_t unpack(const LaneGroup& group, const ListedPair& list,
                                               Workspace& space) const {
-        constexpr std::uint32_t nodes_at_once = LaneGroup::width / WideNode::width;
         std::uint32_t written = 0;
-        for (std::uint32_t first = 0; first < list.nodes; first += nodes_at_once) {
+        for (std::uint32_t first = 0; first < list.nodes; first += LaneGroup::width) {
+            LaneGroup::PerLane<MetLeaves> met;
             LaneGroup::PerLane<std::uint32_t> place;
-            LaneGroup::PerLane<Leaf> leaves;
             group.each([&](std::uint32_t lane) {
-                const std::uint32_t at = first + lane / WideNode::width;
-                leaves[lane] = at < list.nodes
-                                   ? leaf_in(pool[list.first + at], lane % WideNode::width)
-                                   : Leaf{0, 0};
-                place[lane] = leaves[lane].count;
+                met[lane] =
+                    first + lane < list.nodes ? pool[list.first + first + lane] : MetLeaves{};
+                place[lane] = 0;
+                for_each_leaf(met[lane], [&](Leaf leaf) { place[lane] += leaf.count; });
             });
             const std::uint32_t count = group.sums_before(place);
             if (written + count > most_triangles) return too_many;
             group.each([&](std::uint32_t lane) {
-                std::uint32_t* const out = space.triangles + written + place[lane];
-                for (std::uint32_t i = 0; i < leaves[lane].count; ++i)
-                    out[i] = leaves[lane].first + i;
+                std::uint32_t* out = space.triangles + written + place[lane];
+                for_each_leaf(met[lane], [&](Leaf leaf) {
+                    for (std::uint32_t i = 0; i < leaf.count; ++i) *out++ = leaf.first + i;
+                });
             });
             written += count;
         }
         return written;
     }
-
-    static constexpr std::uint32_t too_many = 0xFFFFFFFFu;
 
     /// Triangles of a leaf.
     struct Leaf {
@@ -78,79 +83,102 @@ struct ClusterLists {
         std::uint32_t count;
     };
 
-    [[nodiscard]] MIR_HD Leaf leaf_in(MetLeaves met, std::uint32_t slot) const {
-        if ((met.slots() >> slot & 1u) == 0) return {0, 0};
+    template <class F>
+    MIR_HD void for_each_leaf(MetLeaves met, const F& f) const {
         const WideNode& node = bvh.nodes[met.node()];
-        return {node.ref[slot], triangles_of_slot(node, slot)};
+        for (std::uint32_t slots = met.slots(); slots != 0; slots &= slots - 1) {
+            const std::uint32_t slot = LaneGroup::lowest(slots);
+            f(Leaf{node.ref[slot], triangles_of_slot(node, slot)});
+        }
     }
 
     /// Decides a pair by `count` triangles, which are all that matter.
     MIR_HD void resolve(const LaneGroup& group, OpenPair pair, std::uint32_t count,
                         Workspace& space) const {
-        const std::uint32_t partial =
-            keep_partial(group, pair.cluster, vpls[pair.vpl].position, count, space);
         std::uint32_t& word = words[std::size_t{pair.cluster} * vpls.size() + pair.vpl];
         const std::uint32_t before = word;
-        const std::uint32_t lit =
-            partial == covered ? 0u : lit_behind(group, pair.cluster, before, partial, space);
+        const ConeOfPair cone{make_pyramid(clusters[pair.cluster], vpls[pair.vpl].position, sigma),
+                              pair.cluster};
+        const std::uint32_t lit = lit_behind_all(group, cone, before, count, space);
         group.each([&](std::uint32_t lane) {
             if (lane == 0 && lit != before) word = lit;
         });
     }
 
-    static constexpr std::uint32_t covered = 0xFFFFFFFFu;
+    /// A pair in numbers.
+    struct ConeOfPair {
+        Pyramid pyramid;
+        std::uint32_t cluster;
+    };
 
-    /// Moves those of `count` triangles that are partial to the front of the workspace and returns
-    /// their number, or `covered` when one covers the whole cluster.
-    [[nodiscard]] MIR_HD std::uint32_t keep_partial(const LaneGroup& group, std::uint32_t cluster,
-                                                    Vec3 apex, std::uint32_t count,
-                                                    Workspace& space) const {
-        const Pyramid pyramid = make_pyramid(clusters[cluster], apex, sigma);
+    /// Luxels of `lit` whose segments none of the first `count` triangles hits.
+    [[nodiscard]] MIR_HD std::uint32_t lit_behind_all(const LaneGroup& group,
+                                                      const ConeOfPair& pair, std::uint32_t lit,
+                                                      std::uint32_t count, Workspace& space) const {
         std::uint32_t kept = 0;
         for (std::uint32_t first = 0; first < count; first += LaneGroup::width) {
-            LaneGroup::PerLane<std::uint32_t> triangle;
             LaneGroup::PerLane<Occlusion> found;
-            LaneGroup::PerLane<detail::RowValues> of_apex;
+            LaneGroup::PerLane<SegmentForms> forms;
             group.each([&](std::uint32_t lane) {
                 found[lane] = Occlusion::none;
                 if (first + lane >= count) return;
-                triangle[lane] = space.triangles[first + lane];
-                const TriangleRows rows = bvh.triangles[triangle[lane]];
-                found[lane] = occlusion(rows, pyramid);
-                of_apex[lane] = detail::row_values(rows, apex);
+                const std::uint32_t triangle = space.triangles[first + lane];
+                found[lane] = occlusion(bvh.triangles[triangle], pair.pyramid, forms[lane]);
+                forms[lane].triangle = triangle;
             });
             if (group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::full; }) !=
                 0)
-                return covered;
+                return 0;
             const std::uint32_t partial =
                 group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::partial; });
+            if (kept + LaneGroup::count(partial) > most_forms) {
+                lit = lit_behind(group, pair, lit, kept, space);
+                kept = 0;
+                if (lit == 0) return 0;
+            }
             group.each([&](std::uint32_t lane) {
-                if ((partial >> lane & 1u) == 0) return;
-                const std::uint32_t at = kept + LaneGroup::count(partial & ((1u << lane) - 1u));
-                space.triangles[at] = triangle[lane];
-                space.of_apex[at] = of_apex[lane];
+                if ((partial >> lane & 1u) != 0)
+                    space.forms[kept + LaneGroup::count(partial & ((1u << lane) - 1u))] =
+                        forms[lane];
             });
             kept += LaneGroup::count(partial);
         }
-        return kept;
+        return lit_behind(group, pair, lit, kept, space);
     }
 
-    /// Luxels of `lit` whose segments none of the first `count` triangles hits.
-    [[nodiscard]] MIR_HD std::uint32_t lit_behind(const LaneGroup& group, std::uint32_t cluster,
+    /// The same by the first `count` of the triangles that are partial, a luxel per lane.
+    [[nodiscard]] MIR_HD std::uint32_t lit_behind(const LaneGroup& group, const ConeOfPair& pair,
                                                   std::uint32_t lit, std::uint32_t count,
                                                   const Workspace& space) const {
         LaneGroup::PerLane<Vec3> luxels;
+        LaneGroup::PerLane<Vec3> ends;
         group.each([&](std::uint32_t lane) {
-            luxels[lane] = hits.load(cluster * cluster_luxels + lane).position;
+            luxels[lane] = hits.load(pair.cluster * cluster_luxels + lane).position;
+            ends[lane] = luxels[lane] - pair.pyramid.centre;
         });
+        const float plane = OcclusionMargins::plane * sigma;
         for (std::uint32_t k = 0; k < count && lit != 0; ++k) {
-            const TriangleRows rows = bvh.triangles[space.triangles[k]];
-            const detail::RowValues from = space.of_apex[k];
-            lit &= ~group.ballot([&](std::uint32_t lane) {
-                return detail::hits_segment(from, detail::row_values(rows, luxels[lane]));
+            LaneGroup::PerLane<detail::SureSign> sure;
+            group.each([&](std::uint32_t lane) {
+                sure[lane] = sure_hit(space.forms[k], ends[lane], plane);
             });
+            std::uint32_t hit =
+                group.ballot([&](std::uint32_t lane) { return sure[lane].positive; });
+            const std::uint32_t missed =
+                group.ballot([&](std::uint32_t lane) { return sure[lane].negative; });
+            if ((lit & ~hit & ~missed) != 0)
+                hit |= hit_exactly(group, pair, luxels, space.forms[k].triangle);
+            lit &= ~hit;
         }
         return lit;
+    }
+
+    [[nodiscard]] MIR_HD std::uint32_t hit_exactly(const LaneGroup& group, const ConeOfPair& pair,
+                                                   const LaneGroup::PerLane<Vec3>& luxels,
+                                                   std::uint32_t triangle) const {
+        return group.ballot([&](std::uint32_t lane) {
+            return hits_segment(bvh.triangles[triangle], pair.pyramid.apex, luxels[lane]);
+        });
     }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/shaft/cluster_record.hpp"
+#include "mir/shaft/segment_forms.hpp"
 
 namespace mir {
 
@@ -44,12 +45,6 @@ struct OcclusionMargins {
 
 namespace detail {
 
-/// Value of a row at a point for bounds, which have margins for rounding: no worse than row_at().
-MIR_HD inline float loose_at(AffineRow row, Vec3 p) {
-    const float xy = loose::mul_add(row.y, p.y, strict::mul(row.x, p.x));
-    return strict::add(loose::mul_add(row.z, p.z, xy), row.w);
-}
-
 /// An affine function over a box: value in the centre and gradient.
 struct AffineForm {
     float value = 0.0f;
@@ -57,12 +52,17 @@ struct AffineForm {
 
     /// Largest difference from `value` in a box of half edges `half`.
     [[nodiscard]] MIR_HD float extent(Vec3 half) const {
-        return loose_at({fabsf(slope.x), fabsf(slope.y), fabsf(slope.z), 0.0f}, half);
+        return loose_dot({fabsf(slope.x), fabsf(slope.y), fabsf(slope.z)}, half);
     }
 };
 
 MIR_HD inline AffineForm affine_form(AffineRow row, Vec3 centre) {
     return {loose_at(row, centre), {row.x, row.y, row.z}};
+}
+
+/// The same function of the difference from the centre.
+MIR_HD inline AffineRow row_from_centre(const AffineForm& f) {
+    return {f.slope.x, f.slope.y, f.slope.z, f.value};
 }
 
 MIR_HD inline AffineRow negated(AffineRow row) { return {-row.x, -row.y, -row.z, -row.w}; }
@@ -74,11 +74,12 @@ MIR_HD inline AffineForm combine(float a, const AffineForm& f, float b, const Af
             {mix(f.slope.x, g.slope.x), mix(f.slope.y, g.slope.y), mix(f.slope.z, g.slope.z)}};
 }
 
-/// Where an affine function keeps its sign: never above -margin, never below margin.
-struct SureSign {
-    bool negative = false;
-    bool positive = false;
-};
+/// f - g
+MIR_HD inline AffineForm subtract(const AffineForm& f, const AffineForm& g) {
+    return {strict::sub(f.value, g.value),
+            {strict::sub(f.slope.x, g.slope.x), strict::sub(f.slope.y, g.slope.y),
+             strict::sub(f.slope.z, g.slope.z)}};
+}
 
 MIR_HD inline SureSign sure_sign(const AffineForm& f, Vec3 half, float margin) {
     const float extent = f.extent(half);
@@ -109,9 +110,10 @@ MIR_HD inline float edge_margin(const TriangleRows& rows, const Pyramid& p, cons
 /// edges (positive). S is the VPL's depth, s'(p) the distance of p beyond the plane. With
 ///   U(p) = u(q) s'(p) + S u(p), V(p) = v(q) s'(p) + S v(p), W(p) = s'(p) + S - U(p) - V(p)
 /// the segment to p crosses inside when none is negative. They are affine in p, so their ranges
-/// over a box are known.
+/// over a box are known. Fills `forms` when neither is shown.
 MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
-                                  const AffineForm& beyond, const ApexRows& apex, float margin) {
+                                  const AffineForm& beyond, const ApexRows& apex, float margin,
+                                  SegmentForms& forms) {
     constexpr SureSign outside{true, false};
     const AffineForm u = combine(apex.u, beyond, apex.depth, affine_form(rows.u, p.centre));
     const SureSign edge_u = sure_sign(u, p.half, margin);
@@ -122,9 +124,14 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
     if (edge_v.negative) return outside;
 
     const AffineForm d{strict::add(beyond.value, apex.depth), beyond.slope};
-    const AffineForm w = combine(1.0f, combine(1.0f, d, -1.0f, u), -1.0f, v);
+    const AffineForm w = subtract(subtract(d, u), v);
     const SureSign edge_w = sure_sign(w, p.half, margin);
     if (edge_w.negative) return outside;
+    forms.beyond = row_from_centre(beyond);
+    forms.u = row_from_centre(u);
+    forms.v = row_from_centre(v);
+    forms.depth = apex.depth;
+    forms.margin = margin;
     return {false, edge_u.positive && edge_v.positive && edge_w.positive};
 }
 
@@ -134,8 +141,12 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
 /// operations without a division. Partial when the apex lies within sigma of the triangle's plane.
 /// Source: Reshetov, "Faster ray packets - triangle intersection through vertex culling", 2007,
 /// turned round: affine functions of the triangle over the base in place of planes over vertices.
+/// For a partial triangle `forms` say what is sure of single segments; they show nothing where the
+/// apex is that near.
 template <class Margins = OcclusionMargins>
-[[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p) {
+[[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p,
+                                         SegmentForms& forms) {
+    forms.margin = std::numeric_limits<float>::infinity();
     const float s = row_at(rows.s, p.apex);
     const float depth = fabsf(s);
     if (!(depth > p.sigma)) return Occlusion::partial;
@@ -148,9 +159,16 @@ template <class Margins = OcclusionMargins>
     const detail::ApexRows apex{detail::loose_at(rows.u, p.apex), detail::loose_at(rows.v, p.apex),
                                 depth};
     const float margin = detail::edge_margin(rows, p, apex, Margins::edge);
-    const detail::SureSign edges = detail::sure_edges(rows, p, beyond, apex, margin);
+    const detail::SureSign edges = detail::sure_edges(rows, p, beyond, apex, margin, forms);
     if (edges.negative) return Occlusion::none;
     return plane.positive && edges.positive ? Occlusion::full : Occlusion::partial;
+}
+
+/// The same where single segments are not asked about.
+template <class Margins = OcclusionMargins>
+[[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p) {
+    SegmentForms forms;
+    return occlusion<Margins>(rows, p, forms);
 }
 
 }  // namespace mir

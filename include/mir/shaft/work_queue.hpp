@@ -40,13 +40,13 @@ struct WorkQueue {
 };
 
 /// A run of luxels and a VPL whose visibility is still to be decided.
-struct OpenPair {
+struct alignas(8) OpenPair {
     std::uint32_t cluster = 0;  ///< number of the run, of 32 or of 256 luxels as the kernel says
     std::uint32_t vpl = 0;
 };
 
 /// A pair of 32 luxels and a VPL with all leaves that its shaft meets, in a pool.
-struct ListedPair {
+struct alignas(16) ListedPair {
     OpenPair pair;
     std::uint32_t first = 0;  ///< place in the pool
     std::uint32_t nodes = 0;  ///< with leaves
