@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/occlusion.hpp"
 
-#include "shaft/cluster_draws.hpp"
+#include "shaft/occlusion_draws.hpp"
 #include "support/catch.hpp"
 
 // What is said of a triangle and a pyramid is judged by hits_segment() itself, at the corners of
@@ -9,74 +9,10 @@
 
 namespace {
 
-using mir::ClusterRecord;
 using mir::Occlusion;
 using mir::TriangleRows;
 using mir::Vec3;
-
-/// A triangle, a VPL and a box; a segment between the last two passes next to an edge.
-struct Draw {
-    TriangleRows rows;
-    ClusterRecord cluster;
-    Vec3 apex{0};
-};
-
-/// From regular to needles of aspect 10^6.
-std::array<Vec3, 3> random_triangle(mir::Random& random) {
-    const Vec3 a = 0.8f * mirtest::point_in_cube(random);
-    const float size = 0.5f * std::pow(10.0f, -3.0f * random.next());
-    const float thin =
-        mirtest::chance(random, 0.5f) ? 1.0f : std::pow(10.0f, -6.0f * random.next());
-    const Vec3 along = size * mirtest::direction(random);
-    const Vec3 apex = a + random.next() * along + thin * size * mirtest::direction(random);
-    return {a, a + along, apex};
-}
-
-/// Behind the target, at times next to it, and never far outside of the scene.
-Vec3 beyond(mir::Random& random, Vec3 apex, Vec3 target) {
-    const float share =
-        mirtest::chance(random, 0.2f) ? 1.0f + 1e-3f * random.next() : 1.0f + 1.5f * random.next();
-    const Vec3 p = apex + share * (target - apex);
-    return mir::max_abs(p) < 1.0f ? p : apex + 1.01f * (target - apex);
-}
-
-/// The box has the point as a corner, or around itself.
-ClusterRecord box_at(mir::Random& random, Vec3 p) {
-    const float size = 0.2f * std::pow(10.0f, -7.0f * random.next());
-    ClusterRecord c;
-    c.luxels = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float below = mirtest::chance(random, 0.6f) ? 0.0f : size * random.next();
-        const float above = mirtest::chance(random, 0.6f) ? 0.0f : size * random.next();
-        c.low[axis] = p[axis] - below;
-        c.high[axis] = p[axis] + above;
-    }
-    return c;
-}
-
-/// All that is drawn lies within 1.5 times `scale`, the largest coordinate of the scene.
-Draw draw(mir::Random& random, float scale) {
-    const std::array<Vec3, 3> t = random_triangle(random);
-    Draw d;
-    d.rows = mir::make_triangle_rows(scale * t[0], scale * t[1], scale * t[2]);
-    const float share = 1.2f * random.next() - 0.1f;
-    const std::uint32_t k = random.next() < 0.5f ? 0 : 1;
-    const float aside = (mirtest::chance(random, 0.3f) ? -1.0f : 1.0f) *
-                        std::pow(10.0f, -8.0f * random.next() - 0.5f);
-    const Vec3 edge = (1.0f - share) * t[k] + share * t[k + 1];
-    const Vec3 target = edge + aside * (t[2 - 2 * k] - edge);
-    Vec3 apex = mirtest::point_in_cube(random);
-    if (mirtest::chance(random, 0.2f)) {  // almost in the plane of the triangle
-        const float u = 2.0f * random.next() - 1.0f;
-        apex = t[0] + u * (t[1] - t[0]) + 0.5f * (t[2] - t[0]) + 1e-4f * random.next() * apex;
-    }
-    if (mir::max_abs(apex) > 1.0f) apex /= mir::max_abs(apex);
-    d.apex = scale * apex;
-    d.cluster = box_at(random, beyond(random, apex, target));
-    d.cluster.low *= scale;
-    d.cluster.high *= scale;
-    return d;
-}
+using Draw = mirtest::OcclusionDraw;
 
 struct Wrong {
     std::size_t none = 0;
@@ -112,7 +48,7 @@ Wrong wrong_answers(Classify classify, int draws) {
     mir::Random random = mirtest::test_random(5);
     for (int i = 0; i < draws; ++i) {
         const float scale = std::pow(10.0f, static_cast<float>(i % 3 - 1) * 3.0f);
-        const Draw d = draw(random, scale);
+        const Draw d = mirtest::occlusion_draw(random, scale);
         const mir::Pyramid pyramid =
             mir::make_pyramid(d.cluster, d.apex, mirtest::float_sigma(scale));
         const Occlusion found = classify(d.rows, pyramid);

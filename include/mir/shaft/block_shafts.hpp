@@ -19,6 +19,7 @@ struct VplBatch {
 /// ones as they are, facing masks (FacingPass), and queues the rest.
 template <Space S, VplSet P>
 struct BlockShafts {
+    static constexpr std::uint32_t resident_blocks = 8;
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
     static constexpr std::uint32_t most_triangles = 32;  ///< tested for a pair
 

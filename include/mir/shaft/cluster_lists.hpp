@@ -13,6 +13,7 @@ template <Space S, VplSet P>
 struct ClusterLists {
     static constexpr std::uint32_t most_triangles = 192;  ///< of a pair
     static constexpr std::uint32_t most_forms = 2 * LaneGroup::width;
+    static constexpr std::uint32_t resident_blocks = 10;
 
     /// What a group works in.
     struct Workspace {
@@ -158,16 +159,15 @@ struct ClusterLists {
         });
         const float plane = OcclusionMargins::plane * sigma;
         for (std::uint32_t k = 0; k < count && lit != 0; ++k) {
-            LaneGroup::PerLane<detail::SureSign> sure;
-            group.each([&](std::uint32_t lane) {
-                sure[lane] = sure_hit(space.forms[k], ends[lane], plane);
-            });
-            std::uint32_t hit =
-                group.ballot([&](std::uint32_t lane) { return sure[lane].positive; });
-            const std::uint32_t missed =
-                group.ballot([&](std::uint32_t lane) { return sure[lane].negative; });
+            const SegmentForms forms = space.forms[k];
+            LaneGroup::PerLane<SegmentValues> at;
+            group.each([&](std::uint32_t lane) { at[lane] = values_at(forms, ends[lane]); });
+            std::uint32_t hit = group.ballot(
+                [&](std::uint32_t lane) { return surely_hit(at[lane], forms, plane); });
+            const std::uint32_t missed = group.ballot(
+                [&](std::uint32_t lane) { return surely_missed(at[lane], forms, plane); });
             if ((lit & ~hit & ~missed) != 0)
-                hit |= hit_exactly(group, pair, luxels, space.forms[k].triangle);
+                hit |= hit_exactly(group, pair, luxels, forms.triangle);
             lit &= ~hit;
         }
         return lit;

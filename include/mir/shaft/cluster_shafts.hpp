@@ -18,6 +18,7 @@ struct LeafPool {
 /// which there is no room without.
 template <Space S, VplSet P>
 struct ClusterShafts {
+    static constexpr std::uint32_t resident_blocks = 6;
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
     static constexpr std::uint32_t blocks_at_once = LaneGroup::width / block_words;
 

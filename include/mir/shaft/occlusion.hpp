@@ -81,6 +81,12 @@ MIR_HD inline AffineForm subtract(const AffineForm& f, const AffineForm& g) {
              strict::sub(f.slope.z, g.slope.z)}};
 }
 
+/// Where an affine function keeps its sign: never above -margin, never below margin.
+struct SureSign {
+    bool negative = false;
+    bool positive = false;
+};
+
 MIR_HD inline SureSign sure_sign(const AffineForm& f, Vec3 half, float margin) {
     const float extent = f.extent(half);
     return {strict::add(f.value, extent) < -margin, strict::sub(f.value, extent) > margin};
@@ -127,11 +133,8 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
     const AffineForm w = subtract(subtract(d, u), v);
     const SureSign edge_w = sure_sign(w, p.half, margin);
     if (edge_w.negative) return outside;
-    forms.beyond = row_from_centre(beyond);
-    forms.u = row_from_centre(u);
-    forms.v = row_from_centre(v);
-    forms.depth = apex.depth;
-    forms.margin = margin;
+    forms = {
+        row_from_centre(beyond), row_from_centre(u), row_from_centre(v), apex.depth, margin, 0, 0};
     return {false, edge_u.positive && edge_v.positive && edge_w.positive};
 }
 
@@ -146,10 +149,12 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
 template <class Margins = OcclusionMargins>
 [[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p,
                                          SegmentForms& forms) {
-    forms.margin = std::numeric_limits<float>::infinity();
     const float s = row_at(rows.s, p.apex);
     const float depth = fabsf(s);
-    if (!(depth > p.sigma)) return Occlusion::partial;
+    if (!(depth > p.sigma)) {
+        forms = SegmentForms::unsure();
+        return Occlusion::partial;
+    }
 
     const detail::AffineForm beyond =
         detail::affine_form(s > 0.0f ? detail::negated(rows.s) : rows.s, p.centre);

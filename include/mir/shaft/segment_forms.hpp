@@ -9,15 +9,21 @@ namespace mir {
 
 /// A triangle as the segments of one pyramid are tested against it: affine functions of the
 /// segments' ends, given by their difference from the centre of the pyramid's base. Source and
-/// names: occlusion.hpp. Aligned so that the device moves it in four words.
+/// names: occlusion.hpp. Aligned so that the device moves it in four words, and without defaults,
+/// which would be written for every triangle that is tested.
 struct alignas(16) SegmentForms {
     AffineRow beyond;  ///< s': distance beyond the plane as seen from the apex, metres
     AffineRow u;       ///< U and V, metres
     AffineRow v;
-    float depth = 0.0f;  ///< S: distance of the apex from the plane, metres
-    float margin = std::numeric_limits<float>::infinity();  ///< of U, V and W, metres
-    std::uint32_t triangle = 0;
-    std::uint32_t unused = 0;  ///< so that the fourth word is written whole
+    float depth;   ///< S: distance of the apex from the plane, metres
+    float margin;  ///< of U, V and W, metres
+    std::uint32_t triangle;
+    std::uint32_t unused;  ///< so that the fourth word is written whole
+
+    /// Of a triangle of which nothing is sure.
+    [[nodiscard]] MIR_HD static SegmentForms unsure() {
+        return {{}, {}, {}, 0.0f, std::numeric_limits<float>::infinity(), 0, 0};
+    }
 };
 
 namespace detail {
@@ -32,25 +38,35 @@ MIR_HD inline float loose_at(AffineRow row, Vec3 p) {
     return strict::add(loose_dot({row.x, row.y, row.z}, p), row.w);
 }
 
-/// Where an affine function keeps its sign: never above -margin, never below margin.
-struct SureSign {
-    bool negative = false;
-    bool positive = false;
-};
-
 }  // namespace detail
 
-/// Whether hits_segment() accepts (positive) or refuses (negative) the segment to the point that
-/// lies at `end` from the centre of the base; neither where rounding might decide. `plane` is the
-/// margin of s', metres. What is no number shows nothing. docs/shafts.md derives the margins.
-[[nodiscard]] MIR_HD inline detail::SureSign sure_hit(const SegmentForms& f, Vec3 end,
-                                                      float plane) {
+/// The forms at one end of a segment.
+struct SegmentValues {
+    float beyond = 0.0f;  ///< s', metres
+    float edge = 0.0f;    ///< least of U, V and W, metres; no number if one is none
+};
+
+/// At the point that lies at `end` from the centre of the base.
+[[nodiscard]] MIR_HD inline SegmentValues values_at(const SegmentForms& f, Vec3 end) {
     const float beyond = detail::loose_at(f.beyond, end);
     const float u = detail::loose_at(f.u, end);
     const float v = detail::loose_at(f.v, end);
     const float w = strict::sub(strict::sub(strict::add(beyond, f.depth), u), v);
-    return {beyond < -plane || u < -f.margin || v < -f.margin ||
-            w<-f.margin, beyond> plane && u > f.margin && v > f.margin && w > f.margin};
+    // smaller() returns what it is given second where it cannot compare: W, which is no number
+    // where U or V is none.
+    return {beyond, smaller(smaller(u, v), w)};
+}
+
+/// hits_segment() is true, whatever is rounded. `plane` is the margin of s', metres. docs/shafts.md
+/// derives the margins.
+[[nodiscard]] MIR_HD inline bool surely_hit(SegmentValues at, const SegmentForms& f, float plane) {
+    return at.beyond > plane && at.edge > f.margin;
+}
+
+/// hits_segment() is false, whatever is rounded.
+[[nodiscard]] MIR_HD inline bool surely_missed(SegmentValues at, const SegmentForms& f,
+                                               float plane) {
+    return at.beyond < -plane || at.edge < -f.margin;
 }
 
 }  // namespace mir

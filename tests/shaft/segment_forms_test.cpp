@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "mir/shaft/segment_forms.hpp"
+
+#include "shaft/occlusion_draws.hpp"
+#include "support/catch.hpp"
+
+// What forms say of single segments is judged by hits_segment() itself.
+
+namespace {
+
+using mir::SegmentForms;
+using mir::Vec3;
+
+struct Answers {
+    std::size_t asked = 0;
+    std::size_t hit = 0;     ///< surely
+    std::size_t missed = 0;  ///< surely
+    std::size_t wrong = 0;
+};
+
+/// Of draws at three scales, of triangles that are partial. `share` of the margins is kept.
+Answers answers(int draws, float share) {
+    Answers answers;
+    mir::Random random = mirtest::test_random(15);
+    for (int i = 0; i < draws; ++i) {
+        const float scale = std::pow(10.0f, static_cast<float>(i % 3 - 1) * 3.0f);
+        const mirtest::OcclusionDraw d = mirtest::occlusion_draw(random, scale);
+        const float sigma = mirtest::float_sigma(scale);
+        const mir::Pyramid pyramid = mir::make_pyramid(d.cluster, d.apex, sigma);
+        SegmentForms forms;
+        if (occlusion(d.rows, pyramid, forms) != mir::Occlusion::partial) continue;
+        forms.margin *= share;
+        const float plane = share * mir::OcclusionMargins::plane * sigma;
+        for (int k = 0; k < 8; ++k) {
+            const Vec3 p = mirtest::random_luxel(random, d.cluster);
+            const mir::SegmentValues at = values_at(forms, p - pyramid.centre);
+            const bool hit = surely_hit(at, forms, plane);
+            const bool missed = surely_missed(at, forms, plane);
+            const bool truth = mir::hits_segment(d.rows, p, d.apex);
+            ++answers.asked;
+            answers.hit += hit ? 1 : 0;
+            answers.missed += missed ? 1 : 0;
+            answers.wrong += (hit && !truth) || (missed && truth) ? 1 : 0;
+        }
+    }
+    return answers;
+}
+
+}  // namespace
+
+TEST_CASE("What forms say of a segment surely is so") {
+    const Answers found = answers(600000, 1.0f);
+    INFO(found.asked << " asked, " << found.hit << " hit, " << found.missed << " missed");
+    CHECK(found.hit > 10000);
+    CHECK(found.missed > 10000);
+    CHECK(found.wrong == 0);
+}
+
+TEST_CASE("Forms without margins say wrong things") { CHECK(answers(200000, 0.0f).wrong > 100); }
+
+TEST_CASE("Nothing is sure of a triangle in whose plane the apex lies, nor of what is no number") {
+    const mir::TriangleRows rows = mir::make_triangle_rows({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    mir::ClusterRecord cluster;
+    cluster.low = Vec3(0.1f, 0.1f, 1.0f);
+    cluster.high = Vec3(0.9f, 0.9f, 1.1f);
+    cluster.luxels = 1;
+    const auto says_something = [&](Vec3 apex, Vec3 end) {
+        const mir::Pyramid pyramid = mir::make_pyramid(cluster, apex, 1e-6f);
+        SegmentForms forms;
+        REQUIRE(occlusion(rows, pyramid, forms) == mir::Occlusion::partial);
+        const mir::SegmentValues at = values_at(forms, end);
+        return surely_hit(at, forms, 2e-6f) || surely_missed(at, forms, 2e-6f);
+    };
+    CHECK_FALSE(says_something({0.5f, -3.0f, 0.0f}, Vec3(0)));
+    CHECK(says_something({0.2f, 0.2f, -1.0f}, {-0.3f, -0.3f, 0.0f}));
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    CHECK_FALSE(says_something({0.2f, 0.2f, -1.0f}, Vec3(none)));
+}
