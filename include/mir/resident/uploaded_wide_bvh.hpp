@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/quantised_node.hpp"
 #include "mir/accel/wide_bvh.hpp"
+#include "mir/resident/quantised_boxes.hpp"
 #include "mir/resident/uploaded_array.hpp"
 
 namespace mir {
@@ -16,11 +16,8 @@ class UploadedWideBvh {
         : nodes_(backend, queue, bvh.nodes()),
           triangles_(backend, queue, bvh.triangles()),
           indices_(backend, queue, bvh.indices()),
-          boxes_(backend.template buffer<QuantisedNode>(bvh.nodes().size())),
-          reach_(bvh.view().reach) {
-        queue.for_each(static_cast<std::uint32_t>(bvh.nodes().size()),
-                       QuantiseNodes<B::space>{view(), boxes_.data()});
-    }
+          reach_(bvh.view().reach),
+          boxes_(backend, queue, view(), bvh.nodes().size()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
     [[nodiscard]] WideBvhView<B::space> view() const {
@@ -33,8 +30,8 @@ class UploadedWideBvh {
     UploadedArray<B, WideNode> nodes_;
     UploadedArray<B, TriangleRows> triangles_;
     UploadedArray<B, std::uint32_t> indices_;
-    typename B::template Buffer<QuantisedNode> boxes_;
     float reach_;
+    QuantisedBoxes<B> boxes_;
 };
 
 }  // namespace mir
