@@ -30,6 +30,7 @@ class StageClock {
     StageClock() = default;
     StageClock(const StageClock&) = delete;
     StageClock& operator=(const StageClock&) = delete;
+    ~StageClock() = default;
 
     /// Begins a stage, which lasts as long as what is returned.
     [[nodiscard]] Scope measure(Stage stage) { return {*this, stage}; }
