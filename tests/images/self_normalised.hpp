@@ -84,10 +84,11 @@ template <mir::Sampler S>
 mir::RenderResult render(const Studio<mir::Lambert>& studio, const mir::RenderSettings& settings,
                          const S& sampler) {
     mir::cpu::TbbExecutor executor;
+    mir::StageClock clock;
     const auto make = [](auto& e, mir::Monitor* m) { return mir::sched::CpuBlocks{e, m}; };
     return mir::TiledRender<mir::Lambert, mir::cpu::EmbreeScene, mir::cpu::TbbExecutor,
                             decltype(make)>(studio.scene, settings, studio.geometry, studio.engine,
-                                            executor, nullptr, make)
+                                            executor, nullptr, clock, make)
         .run(sampler);
 }
 

@@ -40,9 +40,9 @@ class Luxels {
     TileMeans direct() {
         TileMeans means(tile);
         for (std::uint64_t r = 0; r < runs; ++r)
-            means.add(mir::direct_light<Lambert>(
-                gbuffer_, studio_.lights, studio_.engine.visibility(), {0, rays_.grid, seed + r}, 8,
-                studio_.geometry.ray_offset(), executor_));
+            means.add(mir::direct_light<Lambert>(gbuffer_, studio_.lights,
+                                                 studio_.engine.visibility(),
+                                                 {0, rays_.grid, seed + r}, 8, executor_));
         return means;
     }
 

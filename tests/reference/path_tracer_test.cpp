@@ -79,8 +79,7 @@ TEST_CASE("direct light of lights without extent is that of direct_light(), exac
     const auto g = luxels(studio, rays);
     mir::InlineExecutor executor;
     const auto expected = mir::direct_light<CookTorrance>(
-        g, studio.lights, studio.engine.visibility(), {0, rays.grid, 3}, 4,
-        studio.geometry.ray_offset(), executor);
+        g, studio.lights, studio.engine.visibility(), {0, rays.grid, 3}, 4, executor);
     const auto search = GENERATE(LightSearch::mis, LightSearch::lamps, LightSearch::directions);
     mir::ReferenceOptions options;
     options.samples = options.replicates = 2;

@@ -46,8 +46,9 @@ struct Box {
     template <class Use, mir::Executor E, class Make>
     RenderResult with(const RenderSettings& s, E& executor, mir::Monitor* monitor, Make make,
                       const Use& use) const {
+        mir::StageClock clock;
         mir::TiledRender<mir::CookTorrance, mirtest::BruteForceScene, E, Make> render(
-            world.scene, s, world.geometry, engine, executor, monitor, make);
+            world.scene, s, world.geometry, engine, executor, monitor, clock, make);
         return use(render);
     }
     template <mir::Executor E, class Make>

@@ -72,8 +72,9 @@ struct Render {
     RenderSettings settings;
     mir::InlineExecutor executor;
     mir::Monitor monitor;
-    mir::RenderJob<Bsdf, Engine, mir::InlineExecutor> job{world.scene, settings, world.geometry,
-                                                          engine,      executor, &monitor};
+    mir::StageClock clock;
+    mir::RenderJob<Bsdf, Engine, mir::InlineExecutor> job{
+        world.scene, settings, world.geometry, engine, executor, &monitor, clock};
 
     explicit Render(RenderSettings s) : settings(std::move(s)) {}
 

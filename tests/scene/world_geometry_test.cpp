@@ -2,8 +2,10 @@
 #include "mir/scene/world_geometry.hpp"
 
 #include "mir/scene/builtin/shapes.hpp"
+#include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -116,6 +118,43 @@ TEST_CASE("triangles without area are dropped and counted, flattened instances t
     const WorldGeometry line(with(ball(), columns({1, 0, 0}, {0, 0, 0}, {0, 0, 0})));
     CHECK(line.triangles().empty());
     CHECK(line.dropped_triangles() == ball().triangles.size());
+}
+
+TEST_CASE("geometry is the same in any number of threads, and gaps between parts are closed") {
+    // Parts of 8192: a fifth of the triangles has no area, one part keeps none.
+    Mesh fine = builtin::sphere("fine", 0, {0, 0, 0}, 1.0f, 128, 96);
+    const std::size_t with_area = fine.triangles.size();
+    for (std::size_t i = 0; i < with_area; i += 4) fine.triangles[i] = {3, 3, 4};
+    Mesh flat = fine;
+    flat.triangles.assign(9000, {1, 1, 1});
+    Scene s = with(fine, columns({1, 0, 0}, {0, -2, 0}, {0, 0, 1}));
+    s.place(flat);
+    s.place(fine, columns({0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {5, 0, 0}));
+    const WorldGeometry one(s);
+    mirtest::BackwardsExecutor executor{3};
+    const WorldGeometry many(s, {}, executor);
+    CHECK(std::ranges::equal(one.positions(), many.positions()));
+    CHECK(std::ranges::equal(one.normals(), many.normals()));
+    CHECK(std::ranges::equal(one.triangles(), many.triangles()));
+    CHECK(std::ranges::equal(one.materials(), many.materials()));
+    CHECK(one.bounds().low == many.bounds().low);
+    CHECK(one.bounds().high == many.bounds().high);
+    CHECK(one.dropped_triangles() == many.dropped_triangles());
+    REQUIRE(one.dropped_triangles() >= 9000 + with_area / 2);
+    // Each triangle that is left is that of its mesh, in order.
+    std::size_t next = 0;
+    std::uint32_t first_vertex = 0;
+    for (const mir::Instance& instance : s.instances) {
+        const Mesh& mesh = s.meshes[instance.mesh];
+        const bool mirrored = glm::determinant(mir::Mat3(instance.to_world)) < 0.0f;
+        for (mir::TriangleIndices t : mesh.triangles) {
+            if (mirrored) std::swap(t[1], t[2]);
+            for (std::uint32_t& v : t) v += first_vertex;
+            if (next < one.triangles().size() && one.triangles()[next] == t) ++next;
+        }
+        first_vertex += static_cast<std::uint32_t>(mesh.positions.size());
+    }
+    CHECK(next == one.triangles().size());
 }
 
 TEST_CASE("an empty scene has no triangles, no bounds and no offset") {

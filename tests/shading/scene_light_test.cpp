@@ -30,8 +30,7 @@ struct Lit {
     explicit Lit(Scene s) : scene(std::move(s)) {}
 
     float from_emitters(Vec3 at, Vec3 normal, std::uint32_t samples, mir::Random& random) const {
-        const mir::EmitterLight<Lambert, FreeSight> light{
-            lights, {}, samples, geometry.ray_offset()};
+        const mir::EmitterLight<Lambert, FreeSight> light{lights, {}, samples};
         return light({at, normal}, receiver(normal), {}, random).r;
     }
     float from_deltas(Vec3 at, Vec3 normal) const {

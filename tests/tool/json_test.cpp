@@ -39,9 +39,17 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
     CHECK(all.at("indirect_luminance").get<double>() > 0.0);
     for (const char* key : {"path_luminance", "states", "dropped_share"})
         CHECK(all.at(key).get<double>() == 0.0);
-    for (const char* key : {"build", "sampling", "gbuffer", "visibility", "response", "direct",
-                            "reconstruction", "ledger", "film", "total"})
-        CHECK(all.at("seconds").at(key).get<double>() >= 0.0);
+    const json& seconds = all.at("seconds");
+    for (const char* key : {"upload", "bootstrap", "paths", "visibility", "response", "download"})
+        CHECK(seconds.at(key).get<double>() == 0.0);
+    double sum = 0.0;
+    for (const char* key : {"geometry", "build", "bound", "sampling", "gbuffer", "direct",
+                            "reconstruction", "ledger", "film", "guides", "hash", "other"}) {
+        CHECK(seconds.at(key).get<double>() > 0.0);
+        sum += seconds.at(key).get<double>();
+    }
+    CHECK(seconds.at("total").get<double>() == Approx(sum));
+    CHECK(seconds.size() == 19);
 }
 
 TEST_CASE("normalised VPLs give the image the luminance that the sampler found") {
@@ -52,6 +60,8 @@ TEST_CASE("normalised VPLs give the image the luminance that the sampler found")
     const json all = json::parse(outcome.out);
     CHECK(all.at("normalisation") == "full");
     CHECK(all.at("states").get<double>() > 0.0);
+    for (const char* key : {"bootstrap", "sampling", "visibility", "response"})
+        CHECK(all.at("seconds").at(key).get<double>() > 0.0);
     const double kept = 1.0 - all.at("dropped_share").get<double>();
     CHECK(all.at("indirect_luminance").get<double>() ==
           Approx(all.at("path_luminance").get<double>() * kept).epsilon(1e-5));

@@ -194,8 +194,8 @@ void add_execution(CLI::App& app, RenderOptions& o) {
         {{"auto", mir::Acceleration::automatic},
          {"kdtree", mir::Acceleration::kd_tree},
          {"bvh", mir::Acceleration::bvh}},
-        "What rays are traced through: the kd-tree, the wide hierarchy with shafts (processor "
-        "alone), or the best for the machine (default): Embree's hierarchy, or on a GPU shafts and "
+        "What rays are traced through: the kd-tree, the wide hierarchy with shafts, "
+        "or the best for the machine (default): Embree's hierarchy, or on a GPU shafts and "
         "the kd-tree");
     app.add_option("--scheduler", s.scheduler,
                    "cpu-blocks, tuned (default of the processor); cpu, the plain loop; os, rc or "

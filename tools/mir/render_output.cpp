@@ -88,17 +88,11 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
 }
 
 Json seconds_of(const mir::StageSeconds& t) {
-    return {{"build", t.build},
-            {"sampling", t.sampling},
-            {"paths", t.paths},
-            {"gbuffer", t.gbuffer},
-            {"visibility", t.visibility},
-            {"response", t.response},
-            {"direct", t.direct},
-            {"reconstruction", t.reconstruction},
-            {"ledger", t.ledger},
-            {"film", t.film},
-            {"total", t.total}};
+    Json out;
+    for (const mir::RenderStage& stage : mir::render_stages)
+        out[std::string(stage.name)] = t.*stage.seconds;
+    out["total"] = t.total;
+    return out;
 }
 
 /// Contributions per second of everything that pairs of luxels and VPLs cost.
@@ -197,9 +191,9 @@ void print_summary(const mir::RenderResult& r) {
                  static_cast<unsigned long long>(s.triangles),
                  static_cast<unsigned long long>(s.luxels), s.vpls,
                  static_cast<unsigned long long>(s.light_paths), s.scheduler.c_str(),
-                 s.seconds.total, s.seconds.sampling, s.seconds.gbuffer, s.seconds.direct,
-                 s.seconds.visibility, s.seconds.response, s.seconds.reconstruction,
-                 s.seconds.ledger, s.seconds.film, 1e-6 * rate_of(s));
+                 s.seconds.total, s.seconds.bootstrap + s.seconds.sampling, s.seconds.gbuffer,
+                 s.seconds.direct, s.seconds.visibility, s.seconds.response,
+                 s.seconds.reconstruction, s.seconds.ledger, s.seconds.film, 1e-6 * rate_of(s));
     if (s.health)
         std::fprintf(stderr,
                      "mir: P_c %.4g +- %.2g from %llu paths; %llu states worth %.0f, R-hat %.2f\n",

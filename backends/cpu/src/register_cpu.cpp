@@ -23,16 +23,16 @@ class CpuRenderer : public Renderer {
                         Monitor* monitor) const override {
         settings.validate();
         std::vector<std::string> warnings = check_scene(scene, settings);
-        double total = 0.0;
-        RenderResult result = [&] {
-            const Stopwatch watch(total);
-            return build_and_render(scene, settings, monitor);
-        }();
+        StageClock clock;
+        RenderResult result = build_and_render(scene, settings, monitor, clock);
         RenderStatistics& s = result.statistics;
-        s.seconds.total = total;
         s.backend = "cpu";
         s.scheduler = name_;
-        s.scene_hash = SceneHash(scene).hex();
+        {
+            const auto stage = clock.measure(&StageSeconds::hash);
+            s.scene_hash = SceneHash(scene).hex();
+        }
+        s.seconds = clock.seconds();
         add_result_warnings(result, warnings);
         result.warnings = std::move(warnings);
         return result;
@@ -40,41 +40,37 @@ class CpuRenderer : public Renderer {
 
  private:
     [[nodiscard]] RenderResult build_and_render(const Scene& scene, const RenderSettings& settings,
-                                                Monitor* monitor) const {
+                                                Monitor* monitor, StageClock& clock) const {
         TbbExecutor executor(settings.threads);
-        double build = 0.0;
-        std::optional<WorldGeometry> geometry;
-        {
-            const Stopwatch watch(build);
-            geometry.emplace(scene, settings.limits);
-        }
-        const HostRender render{scene, settings, *geometry, executor, monitor, scheduler_};
-        RenderResult result = trace(render, build);
-        result.statistics.triangles = geometry->triangles().size();
-        result.statistics.dropped_triangles = geometry->dropped_triangles();
-        result.statistics.seconds.build = build;
+        const WorldGeometry geometry = [&] {
+            const auto stage = clock.measure(&StageSeconds::geometry);
+            return WorldGeometry(scene, settings.limits, executor);
+        }();
+        RenderResult result =
+            trace({scene, settings, geometry, executor, monitor, clock, scheduler_});
+        result.statistics.triangles = geometry.triangles().size();
+        result.statistics.dropped_triangles = geometry.dropped_triangles();
         return result;
     }
 
-    static RenderResult trace(const HostRender& render, double& build) {
+    static RenderResult trace(const HostRender& render) {
         switch (render.settings.acceleration) {
             case Acceleration::kd_tree:
-                return trace_by<KdTreeScene>("kdtree", render, build, render.executor);
+                return trace_by<KdTreeScene>("kdtree", render, render.executor);
             case Acceleration::bvh:
-                return trace_by<ShaftScene>("bvh", render, build, render.executor);
+                return trace_by<ShaftScene>("bvh", render, render.executor);
             case Acceleration::automatic:
                 break;
         }
-        return trace_by<EmbreeScene>("embree", render, build);
+        return trace_by<EmbreeScene>("embree", render);
     }
 
     /// Builds the engine, and renders with it.
     template <class Engine, class... Options>
-    static RenderResult trace_by(const char* name, const HostRender& render, double& build,
-                                 Options&... options) {
+    static RenderResult trace_by(const char* name, const HostRender& render, Options&... options) {
         std::optional<Engine> engine;
         {
-            const Stopwatch watch(build);
+            const auto stage = render.clock.measure(&StageSeconds::build);
             engine.emplace(render.geometry, options...);
         }
         if (render.monitor != nullptr) render.monitor->check();

@@ -18,6 +18,7 @@ struct HostRender {
     const WorldGeometry& geometry;
     TbbExecutor& executor;
     Monitor* monitor;
+    StageClock& clock;
     HostScheduler scheduler;
 };
 
@@ -27,13 +28,13 @@ RenderResult render_with(const HostRender& r, const Engine& engine) {
     using E = decltype(cancellable);
     if (r.settings.integrator == Integrator::path)
         return PathRender<B, Engine, E>(r.scene, r.settings, r.geometry, engine, cancellable,
-                                        r.monitor)
+                                        r.monitor, r.clock)
             .run();
     const auto make = [kind = r.scheduler](E& executor, Monitor* monitor) {
         return AnyScheduler<E>{kind, executor, monitor};
     };
     return TiledRender<B, Engine, E, decltype(make)>(r.scene, r.settings, r.geometry, engine,
-                                                     cancellable, r.monitor, make)
+                                                     cancellable, r.monitor, r.clock, make)
         .run();
 }
 

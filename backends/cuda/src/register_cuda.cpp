@@ -1,19 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_engine.hpp"
-#include "mir/accel/kd_build.hpp"
-#include "mir/accel/wide_build.hpp"
+#include "mir/accel/kd_tree_scene.hpp"
 #include "mir/cpu/any_scheduler.hpp"
 #include "mir/cuda/register.hpp"
+#include "mir/resident/backend_metropolis.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/path_render.hpp"
 #include "mir/runtime/tiled_render.hpp"
 
+#include <future>
+
 namespace mir::cuda {
 namespace {
 
-constexpr std::array<std::pair<const char*, GpuScheduler>, 3> schedulers{
-    {{"os", GpuScheduler::os}, {"rc", GpuScheduler::rc}, {"rcvp", GpuScheduler::rcvp}}};
+constexpr std::array<std::pair<const char*, BackendScheduler>, 3> schedulers{
+    {{"os", BackendScheduler::os}, {"rc", BackendScheduler::rc}, {"rcvp", BackendScheduler::rcvp}}};
+
+/// What BackendEngine is to build.
+struct Structures {
+    const char* name;
+    bool kd_tree;
+    bool shafts;
+};
+constexpr Structures plain{"kdtree", true, false};
+constexpr Structures both{"kdtree+shafts", true, true};
+constexpr Structures hierarchy{"bvh", false, true};
+
+Structures structures_of(const RenderSettings& settings) {
+    switch (settings.acceleration) {
+        case Acceleration::kd_tree:
+            return plain;
+        case Acceleration::bvh:
+            return hierarchy;
+        case Acceleration::automatic:
+            break;
+    }
+    return both;
+}
 
 /// Luxels scheduled together unless the settings say: enough to fill a large GPU.
 constexpr Extent default_gpu_tile{1024, 1024};
@@ -23,50 +47,47 @@ constexpr std::uint32_t least_tile_side = 64;
 
 class CudaRenderer : public Renderer {
  public:
-    CudaRenderer(const char* name, GpuScheduler scheduler)
-        : name_(name), scheduler_(scheduler), device_(select_device()), backend_(device_) {}
+    CudaRenderer(const char* name, BackendScheduler scheduler)
+        : name_(name), scheduler_(scheduler), device_(select_device()), backend_(device_) {
+        // Wakes the GPU, which takes longer than a picture and would count as part of the first.
+        static_cast<void>(free_memory(device_.ordinal));
+    }
 
     RenderResult render(const Scene& scene, const RenderSettings& settings,
                         Monitor* monitor) const override {
         settings.validate();
-        expects(settings.acceleration != Acceleration::bvh,
-                "the CUDA backend traces no rays through a bounding volume hierarchy alone; leave "
-                "--accel away for shafts through one, use --accel kdtree, or --backend cpu");
         std::vector<std::string> warnings = check_scene(scene, settings);
-        double total = 0.0;
-        RenderResult result = [&] {
-            const Stopwatch watch(total);
-            return render_in_memory(scene, settings, monitor);
-        }();
+        StageClock clock;
+        // Beside the GPU: it takes as long as a stage.
+        auto hash = std::async(std::launch::async, [&scene] { return SceneHash(scene).hex(); });
+        RenderResult result = render_in_memory(scene, settings, monitor, clock);
         RenderStatistics& s = result.statistics;
-        s.seconds.total = total;
         s.backend = "cuda";
         s.device = device_.name;
-        s.acceleration = uses_shafts(settings) ? "kdtree+shafts" : "kdtree";
+        s.acceleration =
+            settings.integrator == Integrator::path ? plain.name : structures_of(settings).name;
         s.scheduler = name_;
-        s.scene_hash = SceneHash(scene).hex();
+        {
+            const auto stage = clock.measure(&StageSeconds::hash);
+            s.scene_hash = hash.get();
+        }
+        s.seconds = clock.seconds();
         add_result_warnings(result, warnings);
         result.warnings = std::move(warnings);
         return result;
     }
 
  private:
-    [[nodiscard]] static bool uses_shafts(const RenderSettings& settings) {
-        return settings.acceleration == Acceleration::automatic &&
-               settings.integrator == Integrator::vpl;
-    }
-
     /// Tries again with smaller tiles and bands while the GPU has too little memory.
     [[nodiscard]] RenderResult render_in_memory(const Scene& scene, RenderSettings settings,
-                                                Monitor* monitor) const {
+                                                Monitor* monitor, StageClock& clock) const {
         Extent tile = settings.tile.value_or(default_gpu_tile);
-        backend_.memory().trim();
         settings.limits.visibility_bytes =
-            std::min(settings.limits.visibility_bytes, free_memory(device_.ordinal) / 2);
+            std::min<std::uint64_t>(settings.limits.visibility_bytes, usable_memory() / 2);
         for (;;) {
             settings.tile = tile;
             try {
-                return build_and_render(scene, settings, monitor);
+                return build_and_render(scene, settings, monitor, clock);
             } catch (const Error& e) {
                 const bool is_smallest =
                     tile.width <= least_tile_side && tile.height <= least_tile_side;
@@ -80,12 +101,22 @@ class CudaRenderer : public Renderer {
         }
     }
 
+    /// Bytes of the GPU that are free, and those that are kept for this image.
+    [[nodiscard]] std::uint64_t usable_memory() const {
+        return free_memory(device_.ordinal) + backend_.memory().idle(MemoryKind::device);
+    }
+
     [[nodiscard]] RenderResult build_and_render(const Scene& scene, const RenderSettings& settings,
-                                                Monitor* monitor) const {
-        const WorldGeometry geometry(scene, settings.limits);
-        RenderResult result = is_lambertian(scene)
-                                  ? trace<Lambert>(scene, settings, geometry, monitor)
-                                  : trace<CookTorrance>(scene, settings, geometry, monitor);
+                                                Monitor* monitor, StageClock& clock) const {
+        cpu::TbbExecutor executor(settings.threads);
+        const WorldGeometry geometry = [&] {
+            const auto stage = clock.measure(&StageSeconds::geometry);
+            return WorldGeometry(scene, settings.limits, executor);
+        }();
+        RenderResult result =
+            is_lambertian(scene)
+                ? trace<Lambert>(scene, settings, geometry, executor, monitor, clock)
+                : trace<CookTorrance>(scene, settings, geometry, executor, monitor, clock);
         result.statistics.triangles = geometry.triangles().size();
         result.statistics.dropped_triangles = geometry.dropped_triangles();
         return result;
@@ -93,44 +124,41 @@ class CudaRenderer : public Renderer {
 
     template <Bsdf F>
     [[nodiscard]] RenderResult trace(const Scene& scene, const RenderSettings& settings,
-                                     const WorldGeometry& geometry, Monitor* monitor) const {
-        cpu::TbbExecutor executor(settings.threads);
-        double build = 0.0;
-        std::optional<KdTree> tree;
-        std::optional<GpuEngine<F>> engine;
-        {
-            const Stopwatch watch(build);
-            tree.emplace(geometry, KdTreeOptions::for_gpu(), executor);
-            std::optional<WideBvh> bvh;  // read while it is copied alone
-            if (uses_shafts(settings)) bvh.emplace(geometry, WideBvhOptions{}, executor);
-            engine.emplace(backend_, scene, geometry, *tree, bvh ? &*bvh : nullptr, executor,
-                           scheduler_);
-        }
-        if (monitor != nullptr) monitor->check();
+                                     const WorldGeometry& geometry, cpu::TbbExecutor& executor,
+                                     Monitor* monitor, StageClock& clock) const {
         CancellableExecutor cancellable(executor, monitor);
-        RenderResult result = run(scene, settings, geometry, *engine, cancellable, monitor);
-        result.statistics.seconds.build = build;
-        return result;
-    }
-
-    template <Bsdf F, Executor E>
-    [[nodiscard]] static RenderResult run(const Scene& scene, const RenderSettings& settings,
-                                          const WorldGeometry& geometry, const GpuEngine<F>& engine,
-                                          E& executor, Monitor* monitor) {
+        using E = decltype(cancellable);
         // The reference traces on the host, whatever the backend.
-        if (settings.integrator == Integrator::path)
-            return PathRender<F, GpuEngine<F>, E>(scene, settings, geometry, engine, executor,
-                                                  monitor)
+        if (settings.integrator == Integrator::path) {
+            const KdTreeScene engine = [&] {
+                const auto stage = clock.measure(&StageSeconds::build);
+                return KdTreeScene(geometry, executor);
+            }();
+            return PathRender<F, KdTreeScene, E>(scene, settings, geometry, engine, cancellable,
+                                                 monitor, clock)
                 .run();
-        // GpuEngine lights bands itself; no scheduler of the host is ever opened.
+        }
+        const Structures structures = structures_of(settings);
+        const BackendEngineOptions options{
+            scheduler_, structures.kd_tree, structures.shafts,
+            std::min<std::uint64_t>(usable_memory() / 4, ChainPortions{}.bytes)};
+        const GpuEngine<F> engine = [&] {
+            const auto stage = clock.measure(&StageSeconds::upload);
+            const auto make_tree = [&geometry, &executor] {
+                return KdTree(geometry, KdTreeOptions::for_gpu(), executor);
+            };
+            return GpuEngine<F>(backend_, scene, geometry, executor, make_tree, options, clock);
+        }();
+        if (monitor != nullptr) monitor->check();
+        // A GpuEngine lights bands itself; no scheduler of the host is ever opened.
         const auto none = [](E& loops, Monitor* m) { return sched::Cpu{loops, m}; };
         return TiledRender<F, GpuEngine<F>, E, decltype(none)>(scene, settings, geometry, engine,
-                                                               executor, monitor, none)
+                                                               cancellable, monitor, clock, none)
             .run();
     }
 
     const char* name_;
-    GpuScheduler scheduler_;
+    BackendScheduler scheduler_;
     Device device_;
     Backend backend_;
 };

@@ -43,8 +43,9 @@ MIR_HD constexpr float max_channel(Rgb c) {
 MIR_HD constexpr bool is_black(Rgb c) { return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f; }
 
 /// True when no channel is NaN or infinite.
-inline bool is_finite(Rgb c) {
-    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+MIR_HD constexpr bool is_finite(Rgb c) {
+    return is_finite(static_cast<double>(c.r)) && is_finite(static_cast<double>(c.g)) &&
+           is_finite(static_cast<double>(c.b));
 }
 
 }  // namespace mir

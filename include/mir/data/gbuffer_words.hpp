@@ -37,4 +37,38 @@ struct GBufferWords {
     }
 };
 
+/// The same memory as kernels read it by places in the image. A view; thread-safe.
+template <class Params>
+struct LuxelImageView {
+    using Surface = mir::Surface<Params>;
+
+    const std::uint32_t* words = nullptr;
+    TileGrid tiles;
+
+    [[nodiscard]] MIR_HD Hit hit(std::uint32_t x, std::uint32_t y) const {
+        const TileIndex t = tile(x, y);
+        return hits(t).load(index(t, x, y));
+    }
+    [[nodiscard]] MIR_HD Surface surface(std::uint32_t x, std::uint32_t y) const {
+        const TileIndex t = tile(x, y);
+        const SoaView<const Hit> before = hits(t);
+        const SoaView<const Surface> surfaces{
+            before.planes + std::size_t{before.stride} * SoaView<Hit>::words, before.stride};
+        return surfaces.load(index(t, x, y));
+    }
+
+ private:
+    [[nodiscard]] MIR_HD TileIndex tile(std::uint32_t x, std::uint32_t y) const {
+        return y / tiles.tile.height * tiles.columns() + x / tiles.tile.width;
+    }
+    [[nodiscard]] MIR_HD SoaView<const Hit> hits(TileIndex t) const {
+        return {words + GBufferWords<Params>::first_word(tiles, t),
+                BlockedLayout::of(tiles[t]).size()};
+    }
+    [[nodiscard]] MIR_HD LuxelIndex index(TileIndex t, std::uint32_t x, std::uint32_t y) const {
+        const Tile tile = tiles[t];
+        return BlockedLayout::of(tile)(x - tile.x, y - tile.y);
+    }
+};
+
 }  // namespace mir

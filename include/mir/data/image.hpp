@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/raw_allocator.hpp"
 #include "mir/data/tile.hpp"
 
 #include <cstddef>
@@ -16,6 +17,15 @@ class Image {
     Image() = default;
     explicit Image(Extent extent, T value = {})
         : extent_(extent), data_(static_cast<std::size_t>(extent.area()), value) {}
+
+    /// An image whose elements have no value yet: for those who write every one of them, from
+    /// several threads if they like.
+    static Image unwritten(Extent extent) {
+        Image image;
+        image.extent_ = extent;
+        image.data_.resize(static_cast<std::size_t>(extent.area()));
+        return image;
+    }
 
     [[nodiscard]] Extent extent() const { return extent_; }
     [[nodiscard]] std::uint32_t width() const { return extent_.width; }
@@ -33,7 +43,7 @@ class Image {
 
  private:
     Extent extent_;
-    std::vector<T> data_;
+    std::vector<T, RawAllocator<T>> data_;
 };
 
 }  // namespace mir

@@ -83,7 +83,14 @@ class Film {
     /// at the border of an image. A pixel whose weights cancel to less than a thousandth of its
     /// luxels is black too; no filter of default_filter() lets that happen.
     /// @throws Error(invalid_argument) when there is no such layer.
-    [[nodiscard]] Image<Rgb> develop(std::size_t layer = 0) const;
+    template <Executor E>
+    [[nodiscard]] Image<Rgb> develop(E& executor, std::size_t layer) const;
+
+    /// The same on the calling thread.
+    [[nodiscard]] Image<Rgb> develop(std::size_t layer = 0) const {
+        InlineExecutor executor;
+        return develop(executor, layer);
+    }
 
     [[nodiscard]] const LuxelGrid& grid() const { return grid_; }
     /// Number of layers.
@@ -193,14 +200,16 @@ inline void Film::add_luxel_row(detail::LuxelColumns& luxels, std::uint32_t bloc
     }
 }
 
-inline Image<Rgb> Film::develop(std::size_t layer) const {
+template <Executor E>
+Image<Rgb> Film::develop(E& executor, std::size_t layer) const {
     expects(layer < layers_,
             "a layer was asked for that the film does not hold (layers are numbered from 0); ask "
             "for one below layers()");
     Image<Rgb> image(grid_.pixels);
     const double least = 1e-3 * grid_.per_pixel();
     const std::uint32_t complete = rows_ / grid_.per_pixel_y;
-    for (std::uint32_t y = 0; y < complete; ++y)
+    executor.for_each(complete, [&](std::size_t row) {
+        const auto y = static_cast<std::uint32_t>(row);
         for (std::uint32_t x = 0; x < grid_.pixels.width; ++x) {
             const double* const sums = sums_.data() + sums_of(x / detail::film_columns, y);
             const double weight = sums[x % detail::film_columns];
@@ -212,6 +221,7 @@ inline Image<Rgb> Film::develop(std::size_t layer) const {
                            static_cast<float>(red[plane] / weight),
                            static_cast<float>(red[2 * plane] / weight)};
         }
+    });
     return image;
 }
 

@@ -5,7 +5,7 @@
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/image.hpp"
-#include "mir/film/luxel_grid.hpp"
+#include "mir/film/guide_pass.hpp"
 #include "mir/scene/camera.hpp"
 
 namespace mir {
@@ -21,40 +21,66 @@ struct Guides {
 
     explicit Guides(Extent pixels)
         : albedo(pixels), normal(pixels), position(pixels), depth(pixels) {}
+
+    /// Guides for those who write every pixel (Image::unwritten()).
+    static Guides unwritten(Extent pixels) {
+        Guides guides({0, 0});
+        guides.albedo = Image<Rgb>::unwritten(pixels);
+        guides.normal = Image<Vec3>::unwritten(pixels);
+        guides.position = Image<Vec3>::unwritten(pixels);
+        guides.depth = Image<float>::unwritten(pixels);
+        return guides;
+    }
 };
 
-/// Adds the luxel rows of a G-buffer, which starts at luxel row `first_row` and holds whole rows of
-/// pixels. `albedo_of(surface)` gives the reflectance of a luxel.
-template <TiledGBuffer G, Executor E, class Albedo>
-void add_guides(Guides& guides, const G& gbuffer, std::uint32_t first_row, const LuxelGrid& grid,
-                const Camera& camera, const Albedo& albedo_of, E& executor) {
-    const auto luxel_at = [&](TileIndex t, std::uint32_t x, std::uint32_t y) {
+namespace detail {
+
+/// Luxels of a tiled G-buffer by their places in the image.
+template <TiledGBuffer G>
+struct LuxelsByPlace {
+    const G& gbuffer;
+    std::uint32_t tiles_x;
+
+    [[nodiscard]] Hit hit(std::uint32_t x, std::uint32_t y) const {
+        const TileIndex t = tile(x, y);
+        return gbuffer.view(t).hit(index(t, x, y));
+    }
+    [[nodiscard]] auto surface(std::uint32_t x, std::uint32_t y) const {
+        const TileIndex t = tile(x, y);
+        return gbuffer.view(t).surface(index(t, x, y));
+    }
+
+ private:
+    [[nodiscard]] TileIndex tile(std::uint32_t x, std::uint32_t y) const {
+        return tile_holding(gbuffer.tiles(), tiles_x, x, y);
+    }
+    [[nodiscard]] LuxelIndex index(TileIndex t, std::uint32_t x, std::uint32_t y) const {
         const Tile tile = gbuffer.tiles()[t];
         return BlockedLayout::of(tile)(x - tile.x, y - tile.y);
-    };
-    const float share = 1.0f / static_cast<float>(grid.per_pixel());
-    // Tiles share pixels when a pixel's luxels straddle their border: rows of pixels are the grain,
-    // and each goes through its luxels in raster order.
-    const std::uint32_t tiles_x = tiles_per_row(gbuffer.tiles());
-    const std::uint32_t pixel_rows = gbuffer.extent().height / grid.per_pixel_y;
-    executor.for_each(pixel_rows, [&](std::size_t row) {
-        const auto y0 = static_cast<std::uint32_t>(row) * grid.per_pixel_y;
-        const std::uint32_t py = first_row / grid.per_pixel_y + static_cast<std::uint32_t>(row);
-        for (std::uint32_t y = y0; y < y0 + grid.per_pixel_y; ++y)
-            for (std::uint32_t x = 0; x < gbuffer.extent().width; ++x) {
-                const TileIndex t = tile_holding(gbuffer.tiles(), tiles_x, x, y);
-                const auto view = gbuffer.view(t);
-                const LuxelIndex i = luxel_at(t, x, y);
-                const Hit hit = view.hit(i);
-                if (is_empty(hit)) continue;
-                const auto surface = view.surface(i);
-                const std::uint32_t px = x / grid.per_pixel_x;
-                guides.albedo(px, py) += albedo_of(surface) * share;
-                guides.normal(px, py) += surface.normal * share;
-                if (guides.depth(px, py) != 0.0f) continue;
-                guides.position(px, py) = hit.position;
-                guides.depth(px, py) = camera.depth(hit.position);
-            }
+    }
+};
+
+}  // namespace detail
+
+/// Makes the guides of the pixels in a G-buffer, which starts at luxel row `first_row` and holds
+/// whole rows of pixels.
+template <Bsdf B, TiledGBuffer G, Executor E>
+void add_guides(Guides& guides, const G& gbuffer, std::uint32_t first_row, const LuxelGrid& grid,
+                const Camera& camera, E& executor) {
+    const detail::LuxelsByPlace<G> luxels{gbuffer, tiles_per_row(gbuffer.tiles())};
+    const LensPlane lens{camera.position, camera.back};
+    // Tiles share pixels when a pixel's luxels straddle their border: rows of pixels are the grain.
+    executor.for_each(gbuffer.extent().height / grid.per_pixel_y, [&](std::size_t row) {
+        const auto y = static_cast<std::uint32_t>(row);
+        const std::uint32_t py = first_row / grid.per_pixel_y + y;
+        for (std::uint32_t px = 0; px < grid.pixels.width; ++px) {
+            const GuidePixel pixel =
+                guides_of_pixel<B>(luxels, grid, lens, px * grid.per_pixel_x, y * grid.per_pixel_y);
+            guides.albedo(px, py) = pixel.albedo;
+            guides.normal(px, py) = pixel.normal;
+            guides.position(px, py) = pixel.position;
+            guides.depth(px, py) = pixel.depth;
+        }
     });
 }
 

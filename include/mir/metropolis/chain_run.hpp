@@ -3,6 +3,7 @@
 
 #include "mir/metropolis/bootstrap.hpp"
 #include "mir/metropolis/chain_walk.hpp"
+#include "mir/runtime/stopwatch.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -65,11 +66,14 @@ VplRecords run_chains(const Lights& lights, const MetropolisOptions& options, Ma
     out.health.emplace();
     if (lights.empty()) return out;
     const std::uint32_t chains = std::min(options.chains, options.states);
-    const Bootstrap seeds = grow_bootstrap(
-        options.bootstrap.for_starts(chains),
-        [&](std::uint64_t first, std::span<double> weights, std::span<std::uint32_t> places) {
-            machine.draw(first, weights, places);
-        });
+    const Bootstrap seeds = [&] {
+        const Stopwatch watch(out.bootstrap_seconds);
+        return grow_bootstrap(
+            options.bootstrap.for_starts(chains),
+            [&](std::uint64_t first, std::span<double> weights, std::span<std::uint32_t> places) {
+                machine.draw(first, weights, places);
+            });
+    }();
     out.paths = seeds.luminance.paths;
     out.health->luminance = seeds.luminance;
     if (!(seeds.luminance.mean > 0.0)) return out;

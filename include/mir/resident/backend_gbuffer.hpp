@@ -47,6 +47,9 @@ class BackendGBuffer {
     /// For kernels that fill it.
     [[nodiscard]] GBufferWords<Params> words() { return {words_.data(), grid_}; }
 
+    /// For kernels that read luxels by their places.
+    [[nodiscard]] LuxelImageView<Params> image() const { return {words_.data(), grid_}; }
+
     /// Starts copying from a G-buffer of the same tiles, which must live until that is done.
     /// @throws Error(invalid_argument) when the tiles are others.
     template <class Alloc>

@@ -16,6 +16,7 @@ class UploadedLights {
           delta_sources_(backend, queue, lights.delta_sources()),
           lamps_(backend, queue, lights.lamps()),
           cumulative_(backend, queue, lights.by_power().cumulative()),
+          cumulative_emitters_(backend, queue, lights.emitters().cumulative()),
           values_(lights.view()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
@@ -23,8 +24,10 @@ class UploadedLights {
         return {triangles_.data(),
                 values_.triangle_count,
                 delta_sources_.data(),
+                values_.delta_count,
                 lamps_.data(),
                 {cumulative_.data(), values_.by_power.size, values_.by_power.total},
+                {cumulative_emitters_.data(), values_.emitters.size, values_.emitters.total},
                 values_.centre,
                 values_.radius};
     }
@@ -34,6 +37,7 @@ class UploadedLights {
     UploadedArray<B, DeltaSource> delta_sources_;
     UploadedArray<B, LampEntry> lamps_;
     UploadedArray<B, double> cumulative_;
+    UploadedArray<B, double> cumulative_emitters_;
     LightTableView<Space::host> values_;  ///< of which only the values are used
 };
 

@@ -4,39 +4,29 @@
 namespace mir {
 
 /// An engine that keeps the luxels of a band in memory of its own and works on them there, as GPUs
-/// do; other engines leave that to the executor. All of it is const and for one thread at a time:
-///   Luxels trace(gbuffer, first_row, camera_rays)  camera rays; fills the G-buffer on the host too
-///   Luxels upload(gbuffer)                          luxels that the host has filled
-///   void find_visible(luxels, vpls, limits)         keeps with the luxels who sees which VPL
-///   Response response(extent, n)                    an empty sum; add(luxels, vpls, shading),
-///                                                   mean(), as ResponseSum
-///   Image<Rgb> light(luxels, gbuffer, vpls, shading, monitor)
-///                                                   reconstruct(), or reshade() where kept
-/// Luxels::knows_visibility() says whether find_visible() was called.
+/// do; other engines leave that to the executor. All of it is const and for one thread at a time.
+///
+/// Luxels come from trace(extent, tile, first_row, camera_rays), or from upload(gbuffer) where the
+/// host has filled them; find_visible(luxels, vpls, limits) keeps with them who sees which VPL.
+/// response(extent, n) is an empty sum, with add(luxels, vpls, shading) and mean() as ResponseSum.
+///
+/// Layers are what a HostCanvas makes of a band: black(luxels), emission(luxels), direct(luxels,
+/// lights, band, samples) and light(luxels, vpls, shading, monitor), with add(sum, layer) and
+/// row_luminances(layer).
+///
+/// picture(extent, rays, filter, layers) is an empty film with guides. film(picture, first_row,
+/// layers) and guides(picture, luxels) take a band there, bring_home(picture, guides) brings what
+/// is finished, develop(picture) are the images. visible_area(camera, aspect) is the function of
+/// that name.
+///
+/// Luxels::knows_visibility() says whether find_visible() was called, Luxels::extent() how many
+/// there are.
 template <class N>
 concept BandEngine = requires {
     typename N::Luxels;
     typename N::Response;
+    typename N::Layer;
+    typename N::Picture;
 };
-
-/// What an ImageBand holds for engines that keep nothing.
-struct NothingKept {
-    [[nodiscard]] static constexpr bool knows_visibility() { return false; }
-};
-
-namespace detail {
-template <class N>
-struct KeptBy {
-    using Type = NothingKept;
-};
-template <BandEngine N>
-struct KeptBy<N> {
-    using Type = typename N::Luxels;
-};
-}  // namespace detail
-
-/// What an ImageBand holds for an engine.
-template <class N>
-using KeptBy = typename detail::KeptBy<N>::Type;
 
 }  // namespace mir

@@ -4,25 +4,46 @@
 #include "mir/fill_visibility.hpp"
 #include "mir/runtime/band_engine.hpp"
 #include "mir/runtime/render_context.hpp"
-#include "mir/runtime/stopwatch.hpp"
 
 #include <optional>
 
 namespace mir {
 
-/// Some rows of luxels, and who of them sees which VPL where that was asked. `Kept` is what an
-/// engine keeps of them in memory of its own.
-template <Bsdf B, class Kept = NothingKept>
+/// Some rows of luxels, and who of them sees which VPL where that was asked.
+template <Bsdf B>
 struct ImageBand {
     std::uint32_t first_row = 0;
     BlockedGBuffer<typename B::Params> gbuffer;
     std::optional<VisibilityMatrix> visibility;
-    Kept kept{};
 
-    [[nodiscard]] bool knows_visibility() const {
-        return visibility.has_value() || kept.knows_visibility();
-    }
+    [[nodiscard]] bool knows_visibility() const { return visibility.has_value(); }
+    [[nodiscard]] Extent extent() const { return gbuffer.extent(); }
 };
+
+/// The same where an engine keeps them (BandEngine).
+template <BandEngine Engine>
+struct KeptBand {
+    std::uint32_t first_row = 0;
+    typename Engine::Luxels luxels;
+
+    [[nodiscard]] bool knows_visibility() const { return luxels.knows_visibility(); }
+    [[nodiscard]] Extent extent() const { return luxels.extent(); }
+};
+
+namespace detail {
+template <Bsdf B, class Engine>
+struct BandOf {
+    using Type = ImageBand<B>;
+};
+template <Bsdf B, BandEngine Engine>
+struct BandOf<B, Engine> {
+    using Type = KeptBand<Engine>;
+};
+}  // namespace detail
+
+/// A band of a render by an engine.
+template <Bsdf B, class Engine>
+using BandOf = typename detail::BandOf<B, Engine>::Type;
 
 /// Cuts the luxels of an image into bands of rows, so that memory does not grow with the image, and
 /// makes them one by one. Bands never cut blocks or pixels: nothing but memory depends on them.
@@ -30,7 +51,7 @@ template <Bsdf B, class Engine, Executor E>
 class ImageBands {
  public:
     using Context = RenderContext<B, Engine, E>;
-    using Band = ImageBand<B, KeptBy<Engine>>;
+    using Band = BandOf<B, Engine>;
 
     /// `vpls` of which the visibility will be stored, 0 for none: bands become lower until the
     /// matrix of one fits into Limits::visibility_bytes.
@@ -85,30 +106,31 @@ std::uint32_t ImageBands<B, Engine, E>::choose_rows(std::uint32_t vpls) const {
 
 template <Bsdf B, class Engine, Executor E>
 auto ImageBands<B, Engine, E>::make(std::uint32_t i) const -> Band {
-    const Stopwatch watch(context_.seconds.gbuffer);
+    const auto stage = context_.clock.measure(&StageSeconds::gbuffer);
     const std::uint32_t first_row = i * rows_;
     const Extent extent{luxels().width, std::min(rows_, luxels().height - first_row)};
-    Band band{first_row, BlockedGBuffer<typename B::Params>(extent, tile_), {}};
-    if constexpr (BandEngine<Engine>)
-        band.kept = context_.engine.trace(band.gbuffer, first_row, context_.rays);
-    else
+    if constexpr (BandEngine<Engine>) {
+        return {first_row, context_.engine.trace(extent, tile_, first_row, context_.rays)};
+    } else {
+        Band band{first_row, BlockedGBuffer<typename B::Params>(extent, tile_), {}};
         fill_gbuffer<B>(band.gbuffer, first_row, context_.rays, context_.engine.ray_caster(),
                         context_.surfaces, context_.geometry.ray_offset(), context_.executor);
-    return band;
+        return band;
+    }
 }
 
 template <Bsdf B, class Engine, Executor E>
 void ImageBands<B, Engine, E>::find_visible(Band& band, VplSpan<Space::host> vpls) const {
-    const Stopwatch watch(context_.seconds.visibility);
+    const auto stage = context_.clock.measure(&StageSeconds::visibility);
     if constexpr (BandEngine<Engine>) {
-        context_.engine.find_visible(band.kept, vpls, context_.settings.limits);
+        context_.engine.find_visible(band.luxels, vpls, context_.settings.limits);
     } else {
         band.visibility.emplace(band.gbuffer.tiles(), vpls.size(), context_.settings.limits);
         fill_visibility(*band.visibility, band.gbuffer, vpls, context_.engine.visibility(),
                         context_.executor);
     }
     if (context_.monitor != nullptr)
-        context_.monitor->contributions += band.gbuffer.extent().area() * vpls.size();
+        context_.monitor->contributions += band.extent().area() * vpls.size();
 }
 
 template <Bsdf B, class Engine, Executor E>

@@ -26,6 +26,7 @@ class NormalisationPass {
         const bool probes = context_.settings.normalisation == NormalisationPolicy::prepass;
         const std::vector<ImageResponse> responses =
             probes ? probed(vpls.span()) : over_image(vpls.span());
+        const auto stage = context_.clock.measure(&StageSeconds::response);
         return normalise(vpls, responses, path_luminance, states);
     }
 
@@ -46,9 +47,9 @@ class NormalisationPass {
             return ResponseSum(luxels, vpls);
     }
     void add(const Band& band, VplSpan<Space::host> vpls, auto& sum) const {
-        const Stopwatch watch(context_.seconds.response);
+        const auto stage = context_.clock.measure(&StageSeconds::response);
         if constexpr (BandEngine<Engine>)
-            sum.add(band.kept, vpls, shading_);
+            sum.add(band.luxels, vpls, shading_);
         else
             sum.add_band(band.gbuffer, vpls, band.visibility->view(), shading_, context_.executor);
     }
@@ -72,6 +73,7 @@ std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::over_image(
         add(band, vpls, sum);
         if (keep) kept_.push_back(std::move(band));
     }
+    const auto stage = context_.clock.measure(&StageSeconds::response);
     return sum.mean();
 }
 
@@ -80,7 +82,7 @@ template <Bsdf B, class Engine, Executor E, Shading F>
 std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::probed(VplSpan<Space::host> vpls) {
     Band probes = probe_luxels();
     bands_.find_visible(probes, vpls);
-    auto sum = no_response(probes.gbuffer.extent(), vpls.size());
+    auto sum = no_response(probes.extent(), vpls.size());
     add(probes, vpls, sum);
     std::vector<ImageResponse> responses = sum.mean();
     const std::vector<VplIndex> poor = poorly_probed(responses);
@@ -94,15 +96,17 @@ std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::probed(VplSpan<Sp
 
 template <Bsdf B, class Engine, Executor E, Shading F>
 auto NormalisationPass<B, Engine, E, F>::probe_luxels() const -> Band {
-    const Stopwatch watch(context_.seconds.gbuffer);
+    const auto stage = context_.clock.measure(&StageSeconds::gbuffer);
     const RenderSettings& s = context_.settings;
     const ProbeRays rays{context_.rays.camera, context_.aspect(), s.prepass_luxels, s.seed};
     const Extent cells = rays.cells();
-    Band band{0, BlockedGBuffer<typename B::Params>(cells, whole_blocks(cells)), {}};
-    fill_gbuffer<B>(band.gbuffer, 0, rays, context_.engine.ray_caster(), context_.surfaces,
+    BlockedGBuffer<typename B::Params> gbuffer(cells, whole_blocks(cells));
+    fill_gbuffer<B>(gbuffer, 0, rays, context_.engine.ray_caster(), context_.surfaces,
                     context_.geometry.ray_offset(), context_.executor);
-    if constexpr (BandEngine<Engine>) band.kept = context_.engine.upload(band.gbuffer);
-    return band;
+    if constexpr (BandEngine<Engine>)
+        return {0, context_.engine.upload(gbuffer)};
+    else
+        return {0, std::move(gbuffer), {}};
 }
 
 }  // namespace mir

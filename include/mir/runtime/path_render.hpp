@@ -14,8 +14,8 @@ class PathRender {
  public:
     /// What is passed in must outlive it; `monitor` may be null.
     PathRender(const Scene& scene, const RenderSettings& settings, const WorldGeometry& geometry,
-               const Engine& engine, E& executor, Monitor* monitor)
-        : job_(scene, settings, geometry, engine, executor, monitor) {}
+               const Engine& engine, E& executor, Monitor* monitor, StageClock& clock)
+        : job_(scene, settings, geometry, engine, executor, monitor, clock) {}
 
     RenderResult run();
 
@@ -38,16 +38,16 @@ RenderResult PathRender<B, Engine, E>::run() {
     const std::vector<Image<Rgb>> layers = layers_of(reference);
     Film film(job_.rays.grid, job_.settings.filter, job_.settings.seed, layers.size());
     {
-        const Stopwatch watch(s.seconds.film);
+        const auto stage = job_.clock.measure(&StageSeconds::film);
         film.add_rows(job_.executor, 0, layers);
     }
-    develop_layers(film, job_.result);
-    return std::move(job_.result);
+    develop_layers(film, job_.context(), job_.result);
+    return job_.take_result();
 }
 
 template <Bsdf B, class Engine, Executor E>
 ReferenceImage PathRender<B, Engine, E>::trace() {
-    const Stopwatch watch(job_.result.statistics.seconds.paths);
+    const auto stage = job_.clock.measure(&StageSeconds::paths);
     PathTracerOptions options;
     options.light = job_.settings.path.light;
     options.directions = job_.settings.path.directions;

@@ -5,6 +5,7 @@
 #include "mir/fill_gbuffer.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
+#include "mir/runtime/stage_clock.hpp"
 
 namespace mir {
 
@@ -19,11 +20,9 @@ struct RenderContext {
     const Engine& engine;
     E& executor;
     Monitor* monitor;  ///< may be null
-    StageSeconds& seconds;
+    StageClock& clock;
 
-    [[nodiscard]] float aspect() const {
-        return static_cast<float>(settings.image.width) / static_cast<float>(settings.image.height);
-    }
+    [[nodiscard]] float aspect() const { return settings.aspect(); }
 };
 
 }  // namespace mir

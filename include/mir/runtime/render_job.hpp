@@ -16,30 +16,41 @@ struct RenderJob {
     /// `monitor` may be null.
     RenderJob(const Scene& scene, const RenderSettings& render_settings,
               const WorldGeometry& world_geometry, const Engine& ray_engine, E& loops,
-              Monitor* progress)
+              Monitor* progress, StageClock& stage_clock)
         : settings(render_settings),
           geometry(world_geometry),
           engine(ray_engine),
           executor(loops),
           monitor(progress),
-          lights(scene, geometry),
+          clock(stage_clock),
+          lights([&] {
+              const auto stage = clock.measure(&StageSeconds::geometry);
+              return LightTable(scene, geometry);
+          }()),
           surfaces(scene),
           rays{scene.cameras[settings.camera],
                luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits),
                settings.seed},
-          result{{}, {}, {}, {}, {}, Guides(settings.image), {}, {}, {}} {}
+          result{{}, {}, {}, {}, {}, Guides::unwritten(settings.image), {}, {}, {}} {}
+
+    [[nodiscard]] float aspect() const { return settings.aspect(); }
 
     /// For the stages; a view.
     [[nodiscard]] Context context() {
-        return {settings, geometry, surfaces, rays,
-                engine,   executor, monitor,  result.statistics.seconds};
+        return {settings, geometry, surfaces, rays, engine, executor, monitor, clock};
     }
 
     /// Adds what a denoiser wants to know of the luxels of a band to the result.
-    void add_guides_of(const ImageBand<B, KeptBy<Engine>>& band) {
-        add_guides(
-            result.guides, band.gbuffer, band.first_row, rays.grid, rays.camera,
-            [](const auto& s) { return B::albedo(s.bsdf, s.normal, s.wo); }, executor);
+    void add_guides_of(const ImageBand<B>& band) {
+        const auto stage = clock.measure(&StageSeconds::guides);
+        add_guides<B>(result.guides, band.gbuffer, band.first_row, rays.grid, rays.camera,
+                      executor);
+    }
+
+    /// The finished result; leaves the job without it.
+    [[nodiscard]] RenderResult take_result() {
+        result.statistics.seconds = clock.seconds();
+        return std::move(result);
     }
 
     const RenderSettings& settings;
@@ -47,6 +58,7 @@ struct RenderJob {
     const Engine& engine;
     E& executor;
     Monitor* monitor;
+    StageClock& clock;
     LightTable lights;
     SurfaceTable<B> surfaces;
     CameraRays rays;

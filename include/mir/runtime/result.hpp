@@ -5,27 +5,13 @@
 #include "mir/data/vpl_list.hpp"
 #include "mir/film/guides.hpp"
 #include "mir/metropolis/chain_health.hpp"
+#include "mir/runtime/stage_seconds.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mir {
-
-/// Seconds of wall time spent in each stage of a render.
-struct StageSeconds {
-    double build = 0.0;           ///< world geometry and acceleration structure
-    double sampling = 0.0;        ///< VPLs
-    double paths = 0.0;           ///< camera paths of the reference
-    double gbuffer = 0.0;         ///< camera rays
-    double visibility = 0.0;      ///< stored visibility: shadow rays, where they are kept
-    double response = 0.0;        ///< what each VPL does to the image, for normalisation
-    double direct = 0.0;          ///< next-event light
-    double reconstruction = 0.0;  ///< contributions of the VPLs
-    double ledger = 0.0;          ///< measuring what the bound removed
-    double film = 0.0;            ///< filtering
-    double total = 0.0;
-};
 
 /// Numbers about a render that a user may want to judge it by.
 struct RenderStatistics {

@@ -75,23 +75,23 @@ auto with_sampler(const RenderContext<B, Engine, E>& c, const LightTable& lights
                   const Use& use) {
     const RenderSettings& s = c.settings;
     using LightPaths = InstantRadiositySampler<B, decltype(c.engine.ray_caster())>;
+    // With direct light alone, and not by VPLs, there is nothing to sample: light paths know that.
+    const bool any = s.max_bounce > 1 || s.direct == DirectLight::vpl;
+    const bool by_chains = any && s.sampler == SamplerKind::metropolis;
+    if constexpr (SamplingEngine<Engine>)
+        if (by_chains && !needs_probe(s))
+            return use(EngineMetropolis<Engine>{c.engine,
+                                                lights,
+                                                {c.rays.camera.optics(), c.aspect(), bound},
+                                                metropolis_options(s),
+                                                s.limits,
+                                                c.monitor});
     const auto paths = path_world(c, lights, bound);
     const typename LightPaths::World light_paths{c.geometry, lights, c.surfaces,
                                                  c.engine.ray_caster()};
-    // With direct light alone, and not by VPLs, there is nothing to sample: light paths know that.
-    const bool any = s.max_bounce > 1 || s.direct == DirectLight::vpl;
     if (!any || !needs_probe(s)) {
-        if (any && s.sampler == SamplerKind::metropolis) {
-            if constexpr (SamplingEngine<Engine>)
-                return use(EngineMetropolis<Engine>{c.engine,
-                                                    lights,
-                                                    {c.rays.camera.optics(), c.aspect(), bound},
-                                                    metropolis_options(s),
-                                                    s.limits,
-                                                    c.monitor});
-            else
-                return use(MetropolisSampler(paths, metropolis_options(s), s.limits));
-        }
+        if constexpr (!SamplingEngine<Engine>)
+            if (by_chains) return use(MetropolisSampler(paths, metropolis_options(s), s.limits));
         return use(LightPaths(light_paths, light_path_options(s), s.limits));
     }
     const auto probe = image_probe(c, bound);

@@ -100,6 +100,11 @@ struct RenderSettings {
     /// @throws Error(invalid_argument or limit_exceeded) that names the first bad value.
     void validate() const;
 
+    /// Width / height of the image.
+    [[nodiscard]] float aspect() const {
+        return static_cast<float>(image.width) / static_cast<float>(image.height);
+    }
+
     /// Next-event samples of one luxel: those of the pixel shared out, at least one.
     [[nodiscard]] std::uint32_t direct_samples_per_luxel() const {
         return (direct_samples + luxels_per_pixel - 1) / luxels_per_pixel;

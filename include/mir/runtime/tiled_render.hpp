@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/direct_light.hpp"
-#include "mir/film/film.hpp"
-#include "mir/runtime/film_layers.hpp"
+#include "mir/runtime/engine_canvas.hpp"
+#include "mir/runtime/host_canvas.hpp"
 #include "mir/runtime/normalisation_pass.hpp"
 #include "mir/runtime/render_job.hpp"
 #include "mir/runtime/sampler_choice.hpp"
@@ -13,16 +12,33 @@
 
 namespace mir {
 
+namespace detail {
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+struct CanvasOf {
+    using Type = HostCanvas<B, Engine, E, MakeScheduler>;
+};
+template <Bsdf B, BandEngine Engine, Executor E, class MakeScheduler>
+struct CanvasOf<B, Engine, E, MakeScheduler> {
+    using Type = EngineCanvas<B, Engine, E>;
+};
+}  // namespace detail
+
+/// Where the picture of a render by an engine grows.
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+using CanvasOf = typename detail::CanvasOf<B, Engine, E, MakeScheduler>::Type;
+
 /// One render from a Scene to a RenderResult with a given Bsdf, ray engine and executor: places
 /// VPLs, normalises them where their sampler needs it, then goes through the image in bands of
 /// luxel rows, so that memory does not grow with the number of luxels. `Engine` offers ray_caster()
-/// and visibility(); `make_scheduler(executor, monitor)` returns the Scheduler.
+/// and visibility(); `make_scheduler(executor, monitor)` returns the Scheduler, which no BandEngine
+/// needs.
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 class TiledRender {
  public:
     TiledRender(const Scene& scene, const RenderSettings& settings, const WorldGeometry& geometry,
-                const Engine& engine, E& executor, Monitor* monitor, MakeScheduler make_scheduler)
-        : job_(scene, settings, geometry, engine, executor, monitor),
+                const Engine& engine, E& executor, Monitor* monitor, StageClock& clock,
+                MakeScheduler make_scheduler)
+        : job_(scene, settings, geometry, engine, executor, monitor, clock),
           make_scheduler_(make_scheduler) {
         choose_bound();
     }
@@ -41,17 +57,18 @@ class TiledRender {
  private:
     using Bands = ImageBands<B, Engine, E>;
     using Band = typename Bands::Band;
-    using Light = VplLight<B, Engine, E, MakeScheduler>;
+    using Canvas = CanvasOf<B, Engine, E, MakeScheduler>;
 
     void choose_bound();
+    [[nodiscard]] double seen_area() const;
     void keep_statistics(const VplRecords& records, Normalisation normalisation);
     [[nodiscard]] bool must_normalise(Normalisation normalisation) const;
     void render(const VplRecords& records, Normalisation normalisation);
     void plan_progress(bool stored, bool kept);
     std::vector<Band> normalise_vpls(const Bands& bands, const VplRecords& records);
-    void render_band(Film& film, const Band& band, const Light& light);
-    void measure_removed(const Band& band, const Light& light, const Image<Rgb>& indirect);
-    [[nodiscard]] Image<Rgb> emission_of(const Band& band) const;
+    void render_band(Canvas& canvas, const Band& band, const VplLight<B>& light);
+    void measure_removed(const Canvas& canvas, const Band& band, const VplLight<B>& light,
+                         const typename Canvas::Layer& indirect);
 
     RenderJob<B, Engine, E> job_;
     MakeScheduler make_scheduler_;
@@ -61,12 +78,22 @@ class TiledRender {
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 void TiledRender<B, Engine, E, MakeScheduler>::choose_bound() {
     if (job_.settings.bound.kind == BoundPolicy::Kind::none) return;
+    const auto stage = job_.clock.measure(&StageSeconds::bound);
     shading_.bound = job_.settings.bound.kind == BoundPolicy::Kind::fixed
                          ? job_.settings.bound.value
-                         : default_bound(visible_area(job_.rays.camera, job_.context().aspect(),
-                                                      job_.engine.ray_caster()),
-                                         job_.settings.vpls);
+                         : default_bound(seen_area(), job_.settings.vpls);
     job_.result.statistics.bound = shading_.bound;
+}
+
+/// Area of the surfaces that the camera sees, m^2.
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+double TiledRender<B, Engine, E, MakeScheduler>::seen_area() const {
+    const Camera& camera = job_.rays.camera;
+    const float aspect = job_.aspect();
+    if constexpr (BandEngine<Engine>)
+        return job_.engine.visible_area(camera, aspect);
+    else
+        return visible_area(camera, aspect, job_.engine.ray_caster());
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
@@ -80,13 +107,15 @@ template <Sampler S>
 RenderResult TiledRender<B, Engine, E, MakeScheduler>::run(const S& sampler) {
     VplRecords records;
     {
-        const Stopwatch watch(job_.result.statistics.seconds.sampling);
+        const auto stage = job_.clock.measure(&StageSeconds::sampling);
         records = sampler.sample(job_.executor);
         job_.result.vpls = aggregate(records);
+        job_.clock.reassign(records.bootstrap_seconds, &StageSeconds::sampling,
+                            &StageSeconds::bootstrap);
     }
     keep_statistics(records, S::normalisation);
     render(records, S::normalisation);
-    return std::move(job_.result);
+    return job_.take_result();
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
@@ -123,15 +152,14 @@ void TiledRender<B, Engine, E, MakeScheduler>::render(const VplRecords& records,
     plan_progress(stores, bands.fit_together(job_.result.vpls.size()));
     std::vector<Band> kept;
     if (normalises) kept = normalise_vpls(bands, records);
-    const Light light(job_.context(), make_scheduler_, shading_, job_.result.vpls);
-    Film film(job_.rays.grid, job_.settings.filter, job_.settings.seed,
-              std::size_t{first_bounce_layer} + light.bounces());
+    const VplLight<B> light(job_.settings, shading_, job_.result.vpls);
+    Canvas canvas(job_, make_scheduler_, std::size_t{first_bounce_layer} + light.bounces());
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
         Band band = kept.empty() ? bands.make(i) : std::move(kept[i]);
         if (stores && !band.knows_visibility()) bands.find_visible(band, job_.result.vpls.span());
-        render_band(film, band, light);
+        render_band(canvas, band, light);
     }
-    develop_layers(film, job_.result);
+    canvas.finish();
 }
 
 /// Every VPL meets every luxel once per layer, and once more each time that bits are found.
@@ -157,49 +185,36 @@ auto TiledRender<B, Engine, E, MakeScheduler>::normalise_vpls(const Bands& bands
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-void TiledRender<B, Engine, E, MakeScheduler>::render_band(Film& film, const Band& band,
-                                                           const Light& light) {
-    std::vector<Image<Rgb>> layers;
+void TiledRender<B, Engine, E, MakeScheduler>::render_band(Canvas& canvas, const Band& band,
+                                                           const VplLight<B>& light) {
+    std::vector<typename Canvas::Layer> layers;
     {
-        const Stopwatch watch(job_.result.statistics.seconds.direct);
+        const auto stage = job_.clock.measure(&StageSeconds::direct);
         const bool sampled = job_.settings.direct == DirectLight::separate;
-        layers.push_back(direct_light<B>(band.gbuffer, job_.lights, job_.engine.visibility(),
-                                         {band.first_row, job_.rays.grid, job_.settings.seed},
-                                         sampled ? job_.settings.direct_samples_per_luxel() : 0,
-                                         job_.geometry.ray_offset(), job_.executor));
-        layers.push_back(emission_of(band));
+        layers.push_back(
+            canvas.direct(band, sampled ? job_.settings.direct_samples_per_luxel() : 0));
+        layers.push_back(canvas.emission(band));
     }
-    light.append_layers(band, layers);
-    measure_removed(band, light, layers[indirect_layer]);
-    const Stopwatch watch(job_.result.statistics.seconds.film);
-    film.add_rows(job_.executor, band.first_row, layers);
-    job_.add_guides_of(band);
+    {
+        const auto stage = job_.clock.measure(&StageSeconds::reconstruction);
+        light.append_layers(canvas, band, job_.monitor, layers);
+    }
+    measure_removed(canvas, band, light, layers[indirect_layer]);
+    canvas.put(band, layers);
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-void TiledRender<B, Engine, E, MakeScheduler>::measure_removed(const Band& band, const Light& light,
-                                                               const Image<Rgb>& indirect) {
+void TiledRender<B, Engine, E, MakeScheduler>::measure_removed(
+    const Canvas& canvas, const Band& band, const VplLight<B>& light,
+    const typename Canvas::Layer& indirect) {
     RenderStatistics& s = job_.result.statistics;
-    const Stopwatch watch(s.seconds.ledger);
+    const auto stage = job_.clock.measure(&StageSeconds::ledger);
+    // Row by row, so that bands change nothing.
     const double share = 1.0 / static_cast<double>(s.luxels);
-    for (const Rgb& c : indirect.pixels()) s.indirect_luminance += luminance(c) * share;
+    for (const double row : canvas.row_luminances(indirect)) s.indirect_luminance += row * share;
     if (job_.settings.bound.kind == BoundPolicy::Kind::none) return;
-    const Image<Rgb> removed = light.removed(band);
-    for (const Rgb& c : removed.pixels()) s.removed_luminance += luminance(c) * share;
-}
-
-template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-Image<Rgb> TiledRender<B, Engine, E, MakeScheduler>::emission_of(const Band& band) const {
-    Image<Rgb> image(band.gbuffer.extent());
-    for (TileIndex t = 0; t < band.gbuffer.tiles().size(); ++t) {
-        const Tile tile = band.gbuffer.tiles()[t];
-        const auto layout = BlockedLayout::of(tile);
-        const auto view = band.gbuffer.view(t);
-        for (std::uint32_t y = 0; y < tile.height; ++y)
-            for (std::uint32_t x = 0; x < tile.width; ++x)
-                image(tile.x + x, tile.y + y) = view.surface(layout(x, y)).emission;
-    }
-    return image;
+    for (const double row : canvas.row_luminances(light.removed(canvas, band)))
+        s.removed_luminance += row * share;
 }
 
 }  // namespace mir

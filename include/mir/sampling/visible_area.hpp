@@ -4,33 +4,70 @@
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/scene/camera.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mir {
 
-/// Area of the surfaces that a camera sees, m^2, from a fixed grid of 64 x 64 rays: the footprint
-/// of each ray is its solid angle times d^2 / cos, the cosine kept above 0.1 so that a few grazing
-/// rays do not decide. 0 when nothing is seen. Deterministic.
+/// The fixed grid of 64 x 64 rays that visible_area() looks along, for host and device.
+struct AreaRays {
+    static constexpr std::uint32_t side = 64;
+    static constexpr std::uint32_t count = side * side;
+
+    CameraOptics optics;
+    Vec3 back{0, 0, 1};  ///< unit, against the viewing direction
+    float aspect = 1.0f;
+    double cell = 0.0;  ///< solid angle of a ray along the axis, sr
+
+    AreaRays(const Camera& camera, float film_aspect)
+        : optics(camera.optics()), back(camera.back), aspect(film_aspect) {
+        const double half = std::tan(0.5 * static_cast<double>(camera.vertical_fov));
+        cell = 4.0 * half * half * static_cast<double>(aspect) / (side * side);
+    }
+
+    [[nodiscard]] MIR_HD Ray operator()(std::uint32_t i) const {
+        const Vec2 film((static_cast<float>(i % side) + 0.5f) / side,
+                        (static_cast<float>(i / side) + 0.5f) / side);
+        return optics.ray(film, aspect, {0.5f, 0.5f});
+    }
+
+    /// Footprint on `point` of the ray that saw it, m^2: its solid angle times d^2 / cos, the
+    /// cosine kept above 0.1 so that a few grazing rays do not decide.
+    [[nodiscard]] MIR_HD double area(const Ray& ray, const SurfacePoint& point) const {
+        const double axis = -static_cast<double>(glm::dot(ray.direction, back));
+        const double d2 = static_cast<double>(length_squared(point.position - ray.origin));
+        const double cosine = -static_cast<double>(glm::dot(ray.direction, point.geometric_normal));
+        return cell * axis * axis * axis * d2 / (cosine < 0.1 ? 0.1 : cosine);
+    }
+};
+
+/// Kernel over AreaRays: what each covers, m^2; 0 where it leaves the scene.
+template <PointFinder F>
+struct AreaPass {
+    AreaRays rays;
+    F finder;
+    double* out = nullptr;
+
+    MIR_HD void operator()(std::uint32_t i) const {
+        const Ray ray = rays(i);
+        SurfacePoint point;
+        out[i] = finder.find_point(ray, point) ? rays.area(ray, point) : 0.0;
+    }
+};
+
+template <class F>
+AreaPass(AreaRays, F, double*) -> AreaPass<F>;
+
+/// Area of the surfaces that a camera sees, m^2, from a fixed grid of rays (AreaRays). 0 when
+/// nothing is seen. Deterministic.
 template <RayCaster R>
 double visible_area(const Camera& camera, float aspect, const R& caster) {
-    constexpr std::uint32_t side = 64;
-    const double half = std::tan(0.5 * static_cast<double>(camera.vertical_fov));
-    const double cell = 4.0 * half * half * static_cast<double>(aspect) / (side * side);
+    const AreaRays rays(camera, aspect);
     double area = 0.0;
-    for (std::uint32_t y = 0; y < side; ++y)
-        for (std::uint32_t x = 0; x < side; ++x) {
-            const Vec2 film((static_cast<float>(x) + 0.5f) / side,
-                            (static_cast<float>(y) + 0.5f) / side);
-            const Ray ray = camera.ray(film, aspect, {0.5f, 0.5f});
-            const auto point = caster.closest_hit(ray);
-            if (!point) continue;
-            const double axis = -static_cast<double>(glm::dot(ray.direction, camera.back));
-            const double d2 = length_squared(point->position - ray.origin);
-            const double cosine =
-                -static_cast<double>(glm::dot(ray.direction, point->geometric_normal));
-            area += cell * axis * axis * axis * d2 / std::max(cosine, 0.1);
-        }
+    for (std::uint32_t i = 0; i < AreaRays::count; ++i) {
+        const Ray ray = rays(i);
+        if (const auto point = caster.closest_hit(ray)) area += rays.area(ray, *point);
+    }
     return area;
 }
 

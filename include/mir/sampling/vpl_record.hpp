@@ -54,6 +54,7 @@ struct VplRecords {
                                   ///< for, W m^-2 sr^-1; only with Normalisation::image_response
     double states = 0.0;          ///< n: summed weights of all recorded states, the same
     std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
+    double bootstrap_seconds = 0.0;     ///< wall time that they took until chains started
 };
 
 /// Algorithm 2's aggregation: consecutive records of one point become one geometric VPL.

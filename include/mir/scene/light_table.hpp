@@ -34,7 +34,9 @@ class LightTable {
     [[nodiscard]] bool has_emitters() const { return !emitters_.empty(); }
 
     /// Point on an emissive triangle: triangle by power with `u`, point uniform with `uv`.
-    [[nodiscard]] EmitterSample sample_emitter(float u, Vec2 uv) const;
+    [[nodiscard]] EmitterSample sample_emitter(float u, Vec2 uv) const {
+        return view().sample_emitter(geometry_->view(), u, uv);
+    }
 
     /// Density per m^2 with which sample_emitter() picks a point of `triangle`; 0 for others.
     [[nodiscard]] float emitter_pdf(std::uint32_t triangle) const;
@@ -68,8 +70,10 @@ class LightTable {
         return {triangles_.data(),
                 static_cast<std::uint32_t>(triangles_.size()),
                 delta_sources_.data(),
+                static_cast<std::uint32_t>(delta_sources_.size()),
                 lamps_.data(),
                 by_power_.view(),
+                emitters_.view(),
                 centre(),
                 radius()};
     }
@@ -77,6 +81,9 @@ class LightTable {
     [[nodiscard]] std::span<const DeltaSource> delta_sources() const { return delta_sources_; }
     [[nodiscard]] std::span<const LampEntry> lamps() const { return lamps_; }
     [[nodiscard]] const DiscreteDistribution& by_power() const { return by_power_; }
+    [[nodiscard]] const DiscreteDistribution& emitters() const { return emitters_; }
+    /// Where the emissive triangles are.
+    [[nodiscard]] const WorldGeometry& geometry() const { return *geometry_; }
 
  private:
     void add_triangles(std::vector<float>& power);
@@ -151,13 +158,6 @@ inline void LightTable::add_delta_lights(std::vector<float>& power) {
     for (const DirectionalLight& l : scene_->directional_lights)
         add({LightEndKind::directional, l.light_group, l.irradiance, {}, l.direction},
             luminance(l.irradiance) * pi * radius() * radius());
-}
-
-inline EmitterSample LightTable::sample_emitter(float u, Vec2 uv) const {
-    const std::uint32_t index = emitters_.sample(u);
-    EmitterSample s = point_on(index, uv);
-    s.pdf_area *= emitters_.probability(index);
-    return s;
 }
 
 inline float LightTable::emitter_pdf(std::uint32_t triangle) const {

@@ -58,10 +58,12 @@ struct LightTableView {
     const std::uint32_t* triangles = nullptr;  ///< emissive ones, ascending
     std::uint32_t triangle_count = 0;
     const DeltaSource* delta_sources = nullptr;  ///< point, spot, then directional lights
-    const LampEntry* lamps = nullptr;            ///< by material
-    DiscreteDistributionView<S> by_power;        ///< of all lights
-    Vec3 centre{0};                              ///< of the scene's bounding sphere, metres
-    float radius = 0.0f;                         ///< of the scene's bounding sphere, metres
+    std::uint32_t delta_count = 0;
+    const LampEntry* lamps = nullptr;      ///< by material
+    DiscreteDistributionView<S> by_power;  ///< of all lights
+    DiscreteDistributionView<S> emitters;  ///< of emissive triangles alone, by power
+    Vec3 centre{0};                        ///< of the scene's bounding sphere, metres
+    float radius = 0.0f;                   ///< of the scene's bounding sphere, metres
 
     [[nodiscard]] MIR_HD bool empty() const { return by_power.empty(); }
     /// Luminance of the power emitted by everything, W.
@@ -79,6 +81,18 @@ struct LightTableView {
     /// A light that is no triangle.
     [[nodiscard]] MIR_HD const DeltaSource& delta_source(std::uint32_t light) const {
         return delta_sources[light - triangle_count];
+    }
+
+    /// True when emissive triangles exist, so that sample_emitter() may be called.
+    [[nodiscard]] MIR_HD bool has_emitters() const { return !emitters.empty(); }
+
+    /// Point on an emissive triangle: triangle by power with `u`, point uniform with `uv`.
+    [[nodiscard]] MIR_HD EmitterSample sample_emitter(const GeometryView<S>& geometry, float u,
+                                                      Vec2 uv) const {
+        const std::uint32_t index = emitters.sample(u);
+        EmitterSample s = point_on(geometry, index, uv);
+        s.pdf_area *= emitters.probability(index);
+        return s;
     }
 
     /// Index, as sample_light() counts, of an emissive triangle of the WorldGeometry, or `none`.

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/concepts/executor.hpp"
 #include "mir/core/limits.hpp"
+#include "mir/core/raw_allocator.hpp"
 #include "mir/scene/geometry_view.hpp"
 #include "mir/scene/scene.hpp"
 
+#include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mir {
@@ -32,7 +36,12 @@ class WorldGeometry {
     /// Places every instance. Triangles without area are left out and counted.
     /// @throws Error(invalid_input) on an index out of range or a coordinate that is not finite;
     ///         Error(limit_exceeded) before memory is taken.
-    explicit WorldGeometry(const Scene& scene, const Limits& limits = {});
+    template <Executor E>
+    WorldGeometry(const Scene& scene, const Limits& limits, E& executor);
+
+    /// The same on the calling thread.
+    explicit WorldGeometry(const Scene& scene, const Limits& limits = {})
+        : WorldGeometry(scene, limits, own_thread()) {}
 
     /// What kernels on the host read; valid until the geometry is moved or ends.
     [[nodiscard]] GeometryView<Space::host> view() const {
@@ -80,14 +89,37 @@ class WorldGeometry {
     [[nodiscard]] float ray_offset() const { return ray_offset_; }
 
  private:
-    void place(const Scene& scene, const Instance& instance);
-    void place_vertices(const Mesh& mesh, const Mat4& to_world);
-    void place_triangles(const Mesh& mesh, std::uint32_t first_vertex, bool mirrored);
+    static InlineExecutor& own_thread() {
+        static InlineExecutor executor;  // without state
+        return executor;
+    }
 
-    std::vector<Vec3> positions_;
-    std::vector<Vec3> normals_;  ///< zero where the mesh has none
-    std::vector<TriangleIndices> triangles_;
-    std::vector<std::uint32_t> materials_;
+    /// Some vertices, or triangles, of an instance that are placed together.
+    struct Part {
+        const Instance* instance;
+        const Mesh* mesh;
+        std::uint32_t first;         ///< in the mesh
+        std::uint32_t count;         ///< at least 1
+        std::uint32_t first_vertex;  ///< of the instance among all
+        std::uint32_t to;            ///< place of the first among all
+    };
+    struct Parts {
+        std::vector<Part> vertices;
+        std::vector<Part> triangles;
+    };
+
+    static Parts cut(const Scene& scene);
+    [[nodiscard]] Bounds place_vertices(const Part& part);
+    [[nodiscard]] std::uint32_t place_triangles(const Part& part);
+    void close_gaps(const std::vector<Part>& parts, const std::vector<std::uint32_t>& kept);
+
+    template <class T>
+    using Array = std::vector<T, RawAllocator<T>>;
+
+    Array<Vec3> positions_;
+    Array<Vec3> normals_;  ///< zero where the mesh has none
+    Array<TriangleIndices> triangles_;
+    Array<std::uint32_t> materials_;
     Bounds bounds_;
     float ray_offset_ = 0.0f;
     std::uint64_t dropped_ = 0;
@@ -139,60 +171,118 @@ inline void check_instances(const Scene& scene, const Limits& limits) {
     check_limit(vertices, limits.vertices, "vertices");
 }
 
+/// Elements that are placed together: enough to hide what a thread costs.
+inline constexpr std::uint32_t placed_together = 8192;
+
 }  // namespace detail
 
-inline WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits) {
+template <Executor E>
+WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& executor) {
     for (const Mesh& mesh : scene.meshes) detail::check_mesh(scene, mesh);
     detail::check_instances(scene, limits);
-    for (const Instance& instance : scene.instances) place(scene, instance);
+    const Parts parts = cut(scene);
+    const auto end_of = [](const std::vector<Part>& all) {
+        return all.empty() ? 0u : all.back().to + all.back().count;
+    };
+    positions_.resize(end_of(parts.vertices));
+    normals_.resize(positions_.size());
+    std::vector<Bounds> bounds(parts.vertices.size());
+    executor.for_each(bounds.size(),
+                      [&](std::size_t i) { bounds[i] = place_vertices(parts.vertices[i]); });
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        if (bounds[i].empty())
+            throw Error(ErrorCode::invalid_input,
+                        "mesh '" + parts.vertices[i].mesh->name +
+                            "': an instance places it at infinity (its transform overflows); "
+                            "repair the transform");
+        bounds_.add(bounds[i].low);
+        bounds_.add(bounds[i].high);
+    }
+    triangles_.resize(end_of(parts.triangles));
+    materials_.resize(triangles_.size());
+    std::vector<std::uint32_t> kept(parts.triangles.size());
+    executor.for_each(kept.size(),
+                      [&](std::size_t i) { kept[i] = place_triangles(parts.triangles[i]); });
+    close_gaps(parts.triangles, kept);
     // By way of a name: clang-tidy takes the member for one that the constructor could initialise.
     const Bounds& all = bounds_;
     ray_offset_ = detail::ray_offset_of(all);
 }
 
-inline void WorldGeometry::place(const Scene& scene, const Instance& instance) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    const auto first_vertex = static_cast<std::uint32_t>(positions_.size());
-    place_vertices(mesh, instance.to_world);
-    place_triangles(mesh, first_vertex, glm::determinant(Mat3(instance.to_world)) < 0.0f);
+inline WorldGeometry::Parts WorldGeometry::cut(const Scene& scene) {
+    Parts parts;
+    std::uint32_t vertices = 0, triangles = 0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        const auto append = [&](std::vector<Part>& to, std::size_t count, std::uint32_t place) {
+            for (std::size_t first = 0; first < count; first += detail::placed_together)
+                to.push_back({&instance, &mesh, static_cast<std::uint32_t>(first),
+                              static_cast<std::uint32_t>(
+                                  std::min<std::size_t>(detail::placed_together, count - first)),
+                              vertices, place + static_cast<std::uint32_t>(first)});
+        };
+        append(parts.vertices, mesh.positions.size(), vertices);
+        append(parts.triangles, mesh.triangles.size(), triangles);
+        vertices += static_cast<std::uint32_t>(mesh.positions.size());
+        triangles += static_cast<std::uint32_t>(mesh.triangles.size());
+    }
+    return parts;
 }
 
-inline void WorldGeometry::place_vertices(const Mesh& mesh, const Mat4& to_world) {
-    for (Vec3 p : mesh.positions) {
-        const Vec3 world = Vec3(to_world * Vec4(p, 1.0f));
-        if (!is_finite(world))
-            throw Error(ErrorCode::invalid_input,
-                        "mesh '" + mesh.name +
-                            "': an instance places it at infinity (its transform overflows); "
-                            "repair the transform");
-        positions_.push_back(world);
-        bounds_.add(world);
-    }
+/// Bounds of what was placed; none when some of it lies at infinity.
+inline Bounds WorldGeometry::place_vertices(const Part& part) {
+    const Mesh& mesh = *part.mesh;
+    const Mat4& to_world = part.instance->to_world;
     // Cofactors instead of the inverse transpose: they exist for flattened instances too. Their
     // sign does not matter, surface_point() turns normals to the geometric side.
     const Mat3 m(to_world);
     const Mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const Vec3 n = mesh.normals.empty() ? Vec3(0.0f) : cofactors * mesh.normals[i];
+    Bounds bounds;
+    for (std::uint32_t i = 0; i < part.count; ++i) {
+        const std::uint32_t from = part.first + i;
+        const Vec3 world = Vec3(to_world * Vec4(mesh.positions[from], 1.0f));
+        if (!is_finite(world)) return {};
+        positions_[part.to + i] = world;
+        bounds.add(world);
+        const Vec3 n = mesh.normals.empty() ? Vec3(0.0f) : cofactors * mesh.normals[from];
         const float length = glm::length(n);
-        normals_.push_back(length > 0.0f ? n / length : Vec3(0.0f));
+        normals_[part.to + i] = length > 0.0f ? n / length : Vec3(0.0f);
     }
+    return bounds;
 }
 
-inline void WorldGeometry::place_triangles(const Mesh& mesh, std::uint32_t first_vertex,
-                                           bool mirrored) {
-    for (TriangleIndices t : mesh.triangles) {
+/// Number of triangles that have an area; they lie at the front of the part's place.
+inline std::uint32_t WorldGeometry::place_triangles(const Part& part) {
+    const bool mirrored = glm::determinant(Mat3(part.instance->to_world)) < 0.0f;
+    std::uint32_t to = part.to;
+    for (std::uint32_t i = 0; i < part.count; ++i) {
+        TriangleIndices t = part.mesh->triangles[part.first + i];
         if (mirrored) std::swap(t[1], t[2]);
-        for (std::uint32_t& v : t) v += first_vertex;
+        for (std::uint32_t& v : t) v += part.first_vertex;
         const Vec3 a = positions_[t[0]];
         const Vec3 cross = glm::cross(positions_[t[1]] - a, positions_[t[2]] - a);
-        if (!(length_squared(cross) > 0.0f)) {
-            ++dropped_;
-            continue;
-        }
-        triangles_.push_back(t);
-        materials_.push_back(mesh.material);
+        if (!(length_squared(cross) > 0.0f)) continue;
+        triangles_[to] = t;
+        materials_[to++] = part.mesh->material;
     }
+    return to - part.to;
+}
+
+/// Moves the triangles that each part kept together, in their order.
+inline void WorldGeometry::close_gaps(const std::vector<Part>& parts,
+                                      const std::vector<std::uint32_t>& kept) {
+    std::uint32_t end = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::uint32_t from = parts[i].to;
+        if (from != end) {
+            std::copy_n(triangles_.begin() + from, kept[i], triangles_.begin() + end);
+            std::copy_n(materials_.begin() + from, kept[i], materials_.begin() + end);
+        }
+        end += kept[i];
+    }
+    dropped_ = triangles_.size() - end;
+    triangles_.resize(end);
+    materials_.resize(end);
 }
 
 }  // namespace mir

@@ -8,6 +8,8 @@
 #include "support/named_scene.hpp"
 #include "support/statistics.hpp"
 
+#include <algorithm>
+
 namespace {
 
 using mir::BackendKind;
@@ -49,6 +51,9 @@ void check_same(const mir::RenderResult& a, const mir::RenderResult& b) {
     CHECK(mirtest::same_bits(a.direct, b.direct));
     CHECK(mirtest::same_bits(a.indirect, b.indirect));
     CHECK(mirtest::same_bits(a.beauty, b.beauty));
+    CHECK(mirtest::same_bits(a.guides.albedo, b.guides.albedo));
+    CHECK(std::ranges::equal(a.guides.depth.pixels(), b.guides.depth.pixels()));
+    CHECK(a.statistics.indirect_luminance == b.statistics.indirect_luminance);
     REQUIRE(a.bounces.size() == b.bounces.size());
     for (std::size_t i = 0; i < a.bounces.size(); ++i)
         CHECK(mirtest::same_bits(a.bounces[i], b.bounces[i]));
@@ -71,10 +76,12 @@ TEST_CASE("A GPU draws every scene with the bits of the host's kd-tree, by every
             INFO(named.name << ", " << scheduler);
             check_same(host, render(*scene, settings, BackendKind::cuda, scheduler));
         }
-        INFO(named.name << ", shafts");
-        mir::RenderSettings by_shafts = settings;
-        by_shafts.acceleration = mir::Acceleration::automatic;
-        check_same(host, render(*scene, by_shafts, BackendKind::cuda, "rcvp"));
+        for (const auto acceleration : {mir::Acceleration::automatic, mir::Acceleration::bvh}) {
+            INFO(named.name << ", shafts, " << static_cast<int>(acceleration));
+            mir::RenderSettings by_shafts = settings;
+            by_shafts.acceleration = acceleration;
+            check_same(host, render(*scene, by_shafts, BackendKind::cuda, "rcvp"));
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/film/detail/tap_view.hpp"
 #include "mir/film/filter.hpp"
 #include "mir/film/luxel_grid.hpp"
 
@@ -20,21 +21,18 @@ class TapTable {
     /// Largest reach of any filter.
     static constexpr std::uint32_t most_reach = 16;
 
-    /// Taps [begin, end).
-    struct Range {
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-    };
+    using Range = TapRange;
 
     /// @throws Error(invalid_argument) for a filter that is too narrow, too wide or has no lobes.
     TapTable(const LuxelGrid& grid, const Filter& filter)
         : filter_(filter), reach_(checked_reach(filter)), centred_(grid.per_pixel() == 1) {
         // The zeros of a filter may lie on the pixels around.
         while (centred_ && reach_ > 0 && filter.along(static_cast<float>(reach_)) == 0.0f) --reach_;
+        columns_ = grid.per_pixel_x;
         for (std::uint32_t c = 0; c < grid.per_pixel_x; ++c)
-            x_.push_back(range(c, grid.per_pixel_x));
+            ranges_.push_back(range(c, grid.per_pixel_x));
         for (std::uint32_t c = 0; c < grid.per_pixel_y; ++c)
-            y_.push_back(range(c, grid.per_pixel_y));
+            ranges_.push_back(range(c, grid.per_pixel_y));
         if (filter.kind != FilterKind::box) tabulate();
     }
 
@@ -44,25 +42,31 @@ class TapTable {
     [[nodiscard]] std::uint32_t taps() const { return 2 * reach_ + 1; }
 
     /// The taps of cell column `cx` that a luxel can reach; all others have weight zero.
-    [[nodiscard]] Range x(std::uint32_t cx) const { return x_[cx]; }
+    [[nodiscard]] Range x(std::uint32_t cx) const { return ranges_[cx]; }
     /// The same along y.
-    [[nodiscard]] Range y(std::uint32_t cy) const { return y_[cy]; }
+    [[nodiscard]] Range y(std::uint32_t cy) const { return ranges_[columns_ + cy]; }
 
     /// Sets weights[i] to the weight for `tap` of a luxel at `offsets[i]`, in (0, 1), in its pixel.
     void weigh(std::uint32_t tap, std::span<const float> offsets, double* weights) const {
         if (filter_.kind == FilterKind::box) {
             for (std::size_t i = 0; i < offsets.size(); ++i)
-                weights[i] = filter_.along(offsets[i] - 0.5f + shift(tap));
+                weights[i] =
+                    TapView::box_weight(offsets[i] - 0.5f + shift(tap), filter_.half_width);
             return;
         }
-        const float* const curve = curves_.data() + std::size_t{tap} * (intervals + 1);
-        for (std::size_t i = 0; i < offsets.size(); ++i) {
-            const float at = offsets[i] * float{intervals};
-            const auto node = static_cast<std::int32_t>(at);
-            const float left = curve[node], right = curve[node + 1];
-            weights[i] = left + (at - static_cast<float>(node)) * (right - left);
-        }
+        const float* const curve = view().curve(tap);
+        for (std::size_t i = 0; i < offsets.size(); ++i)
+            weights[i] = TapView::on_curve(curve, offsets[i]);
     }
+
+    /// What kernels on the host read; valid until the table is moved or ends.
+    [[nodiscard]] TapView view() const {
+        return {reach_, filter_.half_width, curves_.empty() ? nullptr : curves_.data(),
+                ranges_.data(), columns_};
+    }
+    /// The arrays of view().
+    [[nodiscard]] std::span<const float> curves() const { return curves_; }
+    [[nodiscard]] std::span<const TapRange> ranges() const { return ranges_; }
 
  private:
     static std::uint32_t checked_reach(const Filter& filter) {
@@ -73,9 +77,7 @@ class TapTable {
         return static_cast<std::uint32_t>(std::ceil(filter.half_width - 0.5f));
     }
 
-    [[nodiscard]] float shift(std::uint32_t tap) const {
-        return static_cast<float>(reach_) - static_cast<float>(tap);
-    }
+    [[nodiscard]] float shift(std::uint32_t tap) const { return TapView::shift(reach_, tap); }
 
     /// Luxels never lie on the border of their cell.
     [[nodiscard]] Range range(std::uint32_t cell, std::uint32_t cells) const {
@@ -92,12 +94,8 @@ class TapTable {
         return kept;
     }
 
-    // Straight lines between points h apart are off by at most h^2 / 8 max|f''|: 3e-8 for the
-    // default filter, less than the rounding of its own arithmetic. Luxels at pixel centres meet a
-    // point, so that zeros there stay exact.
-    static constexpr std::int32_t intervals = 4096;
-
     void tabulate() {
+        constexpr std::int32_t intervals = TapView::intervals;
         for (std::uint32_t tap = 0; tap < taps(); ++tap)
             for (std::int32_t i = 0; i <= intervals; ++i)
                 curves_.push_back(
@@ -107,8 +105,8 @@ class TapTable {
     Filter filter_;
     std::uint32_t reach_;
     bool centred_;
-    std::vector<Range> x_;
-    std::vector<Range> y_;
+    std::uint32_t columns_ = 0;
+    std::vector<Range> ranges_;  ///< of cell columns, then of cell rows
     std::vector<float> curves_;  ///< of each tap, its weight over offsets from 0 to 1
 };
 

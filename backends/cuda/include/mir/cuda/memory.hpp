@@ -72,6 +72,11 @@ class Memory {
         trim_locked();
     }
 
+    /// Bytes that no buffer holds, kept for the next.
+    [[nodiscard]] std::size_t idle(MemoryKind kind) const {
+        const std::lock_guard lock(mutex_);
+        return pools_[static_cast<std::size_t>(kind)].idle_bytes;
+    }
     /// Bytes that buffers hold now.
     [[nodiscard]] std::size_t in_use(MemoryKind kind) const {
         const std::lock_guard lock(mutex_);
@@ -112,7 +117,8 @@ class Memory {
     void* allocate(MemoryKind kind, Pool& pool, std::size_t rounded, std::size_t bytes) {
         if (bytes > largest) refuse(kind, bytes, "no machine has that much");
         const ActiveDevice active(device_);
-        if (pool.idle_bytes + rounded > pool.peak) trim_locked(kind);
+        const std::size_t most = 2 * std::max(pool.peak, pool.in_use + rounded);
+        if (pool.in_use + pool.idle_bytes + rounded > most) trim_locked(kind);
         void* block = nullptr;
         cudaError_t status = acquire(kind, &block, rounded);
         if (status == cudaErrorMemoryAllocation) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace mir {
+
+/// Standard allocator whose containers leave new elements unwritten, where no value is given: who
+/// fills them touches their pages first, on as many threads as they like. For plain values only.
+/// Thread-safe.
+template <class T>
+struct RawAllocator : std::allocator<T> {
+    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+    template <class U>
+    struct rebind {  // NOLINT(readability-identifier-naming): the standard's name
+        using other = RawAllocator<U>;
+    };
+
+    RawAllocator() = default;
+    template <class U>
+    RawAllocator(const RawAllocator<U>& /*other*/) {}
+
+    template <class U>
+    void construct(U* /*place*/) noexcept {}
+    template <class U, class... Arguments>
+    void construct(U* place, Arguments&&... arguments) {
+        std::construct_at(place, std::forward<Arguments>(arguments)...);
+    }
+};
+
+}  // namespace mir

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/data/blocked_layout.hpp"
+#include "mir/data/soa.hpp"
+#include "mir/kernels/luxel_light.hpp"
+
+namespace mir {
+
+/// One luxel, all lamps: writes its direct light, or black. Kernel over the luxels of a tile,
+/// padding included; the bits of direct_light().
+template <class G, class Light>
+struct DirectLightPass {
+    G luxels;
+    Tile tile;    ///< in the band
+    Light light;  ///< LuxelLight
+    SoaView<Rgb> out;
+
+    MIR_HD void operator()(LuxelIndex i) const {
+        const LuxelPlace at = BlockedLayout::of(tile).place(i);
+        Rgb sum;
+        if (at.x < tile.width && at.y < tile.height) {
+            const Hit hit = luxels.hit(i);
+            if (!is_empty(hit)) sum = light(hit, luxels.surface(i), tile.x + at.x, tile.y + at.y);
+        }
+        out.store(i, sum);
+    }
+};
+template <class G, class Light>
+DirectLightPass(G, Tile, Light, SoaView<Rgb>) -> DirectLightPass<G, Light>;
+
+}  // namespace mir

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/film/luxel_grid.hpp"
+#include "mir/shading/scene_light.hpp"
+
+namespace mir {
+
+/// Where the rows of a G-buffer lie in the whole luxel image; random numbers are keyed by it.
+struct LuxelBand {
+    std::uint32_t first_row = 0;
+    LuxelGrid grid;
+    std::uint64_t seed = 0;
+
+    /// Numbers of the pixel that holds luxel (x, y) of the band, the same for all its luxels.
+    [[nodiscard]] MIR_HD Random pixel_numbers(std::uint32_t x, std::uint32_t y) const {
+        const std::uint64_t pixel_row = (first_row + y) / grid.per_pixel_y;
+        return {seed, Stream::direct_light, pixel_row * grid.pixels.width + x / grid.per_pixel_x};
+    }
+
+    /// Number of the luxel inside its pixel.
+    [[nodiscard]] MIR_HD std::uint32_t cell(std::uint32_t x, std::uint32_t y) const {
+        return (first_row + y) % grid.per_pixel_y * grid.per_pixel_x + x % grid.per_pixel_x;
+    }
+};
+
+/// Direct light of the luxels of a band, host and device.
+template <Bsdf B, Visibility V>
+struct LuxelLight {
+    EmitterLight<B, V> emitters;
+    DeltaLight<B, V> deltas;
+    LuxelBand band;
+
+    /// W m^-2 sr^-1 towards the viewer of the luxel at (x, y) of the band, which is not empty.
+    [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& surface,
+                                        std::uint32_t x, std::uint32_t y) const {
+        const SharedSamples shared{band.grid.per_pixel(), band.cell(x, y)};
+        return emitters(hit, surface, shared, band.pixel_numbers(x, y)) + deltas(hit, surface);
+    }
+};
+
+}  // namespace mir

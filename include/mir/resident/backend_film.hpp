@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/data/image.hpp"
+#include "mir/film/detail/tap_table.hpp"
+#include "mir/film/film_pass.hpp"
+#include "mir/resident/backend_layer.hpp"
+#include "mir/resident/uploaded_array.hpp"
+#include "mir/resident/wait_at_end.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace mir {
+
+/// Film on a backend: luxels that lie there become pixels there, with the bits of Film, and come
+/// home when they are finished. Memory grows with the height of a band, not of the image: sums of
+/// pixels take turns in a ring of rows. One queue and one thread at a time.
+template <Backend B>
+class BackendFilm {
+ public:
+    using Queue = typename B::Queue;
+
+    /// `grid` and `seed` must be those that placed the luxels; bands have up to `most_rows` luxel
+    /// rows. Starts to copy on `queue`.
+    /// @throws What Film throws of filter and layers; what the backend throws.
+    BackendFilm(const B& backend, Queue& queue, const LuxelGrid& grid, const Filter& filter,
+                std::uint64_t seed, std::uint32_t layers, std::uint32_t most_rows)
+        : backend_(backend),
+          grid_(grid),
+          seed_(seed),
+          layers_(layers),
+          most_rows_(most_rows),
+          taps_(grid, filter),
+          curves_(backend, queue, taps_.curves()),
+          ranges_(backend, queue, taps_.ranges()),
+          ring_(std::min(grid.pixels.height, most_rows / grid.per_pixel_y + 2 * taps_.reach() + 1)),
+          sums_(backend.template buffer<double>(std::size_t{1 + 3 * layers} * ring_ *
+                                                grid.pixels.width)) {
+        queue.clear(sums_);
+        for (std::uint32_t l = 0; l < layers; ++l)
+            images_.push_back(Image<Rgb>::unwritten(grid.pixels));
+    }
+
+    /// Adds a band of complete luxel rows, radiance in W m^-2 sr^-1, a layer for each of the
+    /// film's, and develops the pixels that no later band reaches. Bands come from top to bottom
+    /// without gaps. All work is done when it returns.
+    /// @throws Error(invalid_argument) when band or layers do not fit.
+    void add_rows(Queue& queue, std::uint32_t first_row, std::vector<BackendLayer<B>>& layers);
+
+    /// Copies what was developed last to the images.
+    template <Executor E>
+    void bring_home(Queue& queue, E& executor);
+
+    /// The images of the layers, once all bands were added and brought home; leaves the film
+    /// without.
+    [[nodiscard]] std::vector<Image<Rgb>> take_images() { return std::move(images_); }
+
+ private:
+    [[nodiscard]] FilmSums sums() { return {sums_.data(), grid_.pixels.width, ring_, layers_}; }
+    [[nodiscard]] detail::TapView taps() const {
+        detail::TapView view = taps_.view();
+        view.curves = view.curves == nullptr ? nullptr : curves_.data();
+        view.ranges = ranges_.data();
+        return view;
+    }
+    void develop(Queue& queue, std::uint32_t end);
+
+    B backend_;
+    LuxelGrid grid_;
+    std::uint64_t seed_;
+    std::uint32_t layers_;
+    std::uint32_t most_rows_;  ///< of luxels in a band
+    detail::TapTable taps_;
+    UploadedArray<B, float> curves_;
+    UploadedArray<B, detail::TapRange> ranges_;
+    std::uint32_t ring_;  ///< rows of pixels
+    typename B::template Buffer<double> sums_;
+    std::uint32_t luxel_rows_ = 0;  ///< added
+    std::uint32_t home_ = 0;        ///< rows of pixels in the images
+    std::uint32_t developed_ = 0;   ///< rows of pixels, those included
+    std::optional<typename B::template Buffer<Rgb>> pixels_;
+    /// What came home last. Kept: backends find memory of a size again that was used beside others.
+    std::optional<typename B::template HostBuffer<Rgb>> here_;
+    std::vector<Image<Rgb>> images_;
+};
+
+template <Backend B>
+void BackendFilm<B>::add_rows(Queue& queue, std::uint32_t first_row,
+                              std::vector<BackendLayer<B>>& layers) {
+    const Extent whole = grid_.luxels();
+    expects(layers.size() == layers_ && first_row == luxel_rows_ && home_ == developed_,
+            "a band was added to a film whose layers or rows it does not continue; add bands from "
+            "top to bottom, with all layers, and bring each home");
+    const Extent band = layers.front().grid().image;
+    expects(band.width == whole.width && band.height <= whole.height - first_row &&
+                band.height <= most_rows_,
+            "a band does not fit into the image of its film, or is higher than the film was told; "
+            "add as many rows of that image");
+    std::vector<LayerView> views;
+    for (const BackendLayer<B>& layer : layers) views.push_back(layer.view());
+    const UploadedArray<B, LayerView> there(backend_, queue, views);
+    auto offsets = backend_.template buffer<Vec2>(static_cast<std::size_t>(band.area()));
+    const WaitAtEnd wait(queue);
+    queue.for_each(static_cast<std::uint32_t>(band.area()),
+                   LuxelOffsets{grid_, seed_, first_row, offsets.data()});
+    luxel_rows_ = first_row + band.height;
+    const std::uint32_t above = first_row / grid_.per_pixel_y;
+    const std::uint32_t begin = above - std::min(above, taps_.reach());
+    const std::uint32_t end =
+        std::min(grid_.pixels.height, (luxel_rows_ - 1) / grid_.per_pixel_y + taps_.reach() + 1);
+    queue.for_each((end - begin) * grid_.pixels.width,
+                   FilmPass<LayerView>{grid_, taps(), offsets.data(), there.data(), sums(),
+                                       first_row, band.height, begin});
+    const std::uint32_t complete = luxel_rows_ / grid_.per_pixel_y;
+    develop(queue, luxel_rows_ == whole.height ? grid_.pixels.height
+                                               : complete - std::min(complete, taps_.reach()));
+    queue.record().sync();
+}
+
+template <Backend B>
+void BackendFilm<B>::develop(Queue& queue, std::uint32_t end) {
+    const std::uint32_t rows = end - developed_;
+    const std::size_t count = std::size_t{rows} * grid_.pixels.width;
+    pixels_.emplace(backend_.template buffer<Rgb>(count * layers_));
+    queue.for_each(static_cast<std::uint32_t>(count),
+                   DevelopPass{sums(), grid_.per_pixel(), developed_, rows, pixels_->data()});
+    developed_ = end;
+}
+
+template <Backend B>
+template <Executor E>
+void BackendFilm<B>::bring_home(Queue& queue, E& executor) {
+    const std::uint32_t rows = developed_ - home_;
+    if (rows == 0) return;
+    here_.emplace(backend_.template host_buffer<Rgb>(pixels_->size()));
+    const std::span<Rgb> here = here_->span();
+    queue.download(*pixels_, here);
+    queue.record().sync();
+    pixels_.reset();
+    const std::size_t width = grid_.pixels.width;
+    executor.for_each(std::size_t{rows} * layers_, [&](std::size_t i) {
+        std::span<Rgb> image = images_[i / rows].pixels();
+        const std::span<const Rgb> row = std::span<const Rgb>(here).subspan(i * width, width);
+        std::copy(row.begin(), row.end(), image.begin() + (home_ + i % rows) * width);
+    });
+    home_ = developed_;
+}
+
+}  // namespace mir

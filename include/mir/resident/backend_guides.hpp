@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/film/guides.hpp"
+#include "mir/resident/backend_gbuffer.hpp"
+
+#include <optional>
+
+namespace mir {
+
+/// Guides of luxels that lie in a backend's memory, with the bits of add_guides(). One queue and
+/// one thread at a time.
+template <Backend B>
+class BackendGuides {
+ public:
+    using Queue = typename B::Queue;
+
+    /// Guides of an image as `camera` sees it.
+    BackendGuides(const B& backend, const LuxelGrid& grid, const Camera& camera)
+        : backend_(backend), grid_(grid), lens_{camera.position, camera.back} {}
+
+    /// Makes the guides of the next band, which holds whole rows of pixels. All work is done when
+    /// it returns. Each band must be brought home before the next.
+    template <Bsdf F>
+    void add(Queue& queue, const BackendGBuffer<B, typename F::Params>& luxels) {
+        rows_ = luxels.extent().height / grid_.per_pixel_y;
+        const std::size_t count = std::size_t{rows_} * grid_.pixels.width;
+        there_.emplace(backend_, count);
+        queue.for_each(static_cast<std::uint32_t>(count),
+                       GuidePass<F, LuxelImageView<typename F::Params>>{
+                           luxels.image(), grid_, lens_, there_->albedo.data(),
+                           there_->normal.data(), there_->position.data(), there_->depth.data()});
+        queue.record().sync();
+    }
+
+    /// Copies the guides of the last band to the images.
+    template <Executor E>
+    void bring_home(Queue& queue, E& executor, Guides& guides) {
+        bring_home(queue, executor, there_->albedo, guides.albedo);
+        bring_home(queue, executor, there_->normal, guides.normal);
+        bring_home(queue, executor, there_->position, guides.position);
+        bring_home(queue, executor, there_->depth, guides.depth);
+        there_.reset();
+        home_ += rows_;
+    }
+
+ private:
+    template <class T>
+    using Buffer = typename B::template Buffer<T>;
+
+    struct Arrays {
+        Arrays(const B& backend, std::size_t count)
+            : albedo(backend.template buffer<Rgb>(count)),
+              normal(backend.template buffer<Vec3>(count)),
+              position(backend.template buffer<Vec3>(count)),
+              depth(backend.template buffer<float>(count)) {}
+
+        Buffer<Rgb> albedo;
+        Buffer<Vec3> normal;
+        Buffer<Vec3> position;
+        Buffer<float> depth;
+    };
+
+    template <Executor E, class T>
+    void bring_home(Queue& queue, E& executor, const Buffer<T>& from, Image<T>& to) {
+        auto here = backend_.template host_buffer<T>(from.size());
+        queue.download(from, here.span());
+        queue.record().sync();
+        const std::size_t width = grid_.pixels.width;
+        executor.for_each(rows_, [&](std::size_t row) {
+            const std::span<const T> pixels =
+                std::span<const T>(here.span()).subspan(row * width, width);
+            std::copy(pixels.begin(), pixels.end(), to.pixels().begin() + (home_ + row) * width);
+        });
+    }
+
+    B backend_;
+    LuxelGrid grid_;
+    LensPlane lens_;
+    std::uint32_t rows_ = 0;  ///< of pixels in the last band
+    std::uint32_t home_ = 0;  ///< rows of pixels in the images
+    std::optional<Arrays> there_;
+};
+
+}  // namespace mir

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd_ray_caster.hpp"
+#include "mir/accel/kd_tree.hpp"
+#include "mir/accel/kd_tree_visibility.hpp"
+#include "mir/core/monitor.hpp"
+#include "mir/data/image.hpp"
+#include "mir/data/vpl_list.hpp"
+#include "mir/fill_gbuffer.hpp"
+#include "mir/film/guides.hpp"
+#include "mir/kernels/luxel_light.hpp"
+#include "mir/resident/backend_film.hpp"
+#include "mir/resident/backend_guides.hpp"
+#include "mir/resident/backend_response.hpp"
+#include "mir/resident/backend_wide_bvh.hpp"
+#include "mir/resident/quantised_boxes.hpp"
+#include "mir/resident/uploaded_geometry.hpp"
+#include "mir/resident/uploaded_kd_tree.hpp"
+#include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/runtime/band_engine.hpp"
+#include "mir/runtime/sampling_engine.hpp"
+#include "mir/runtime/stage_clock.hpp"
+#include "mir/shading/vpl_shading.hpp"
+
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace mir {
+
+/// How contributions are arranged in time.
+enum class BackendScheduler { os, rc, rcvp };
+
+/// What a BackendEngine is to build and how it is to work. Pictures are the same for all of them,
+/// bit for bit.
+struct BackendEngineOptions {
+    BackendScheduler scheduler = BackendScheduler::rcvp;
+    bool kd_tree = false;  ///< single rays by a kd-tree that the host builds; else by a wide
+                           ///< hierarchy that the backend builds
+    bool shafts = true;    ///< whole tiles by shafts through a wide hierarchy
+    std::uint64_t chain_bytes = std::uint64_t{1} << 29;  ///< see ChainPortions
+
+    [[nodiscard]] bool needs_bvh() const { return shafts || !kd_tree; }
+};
+
+/// A scene in a backend's memory, and everything that a render does with it there: a frame leaves
+/// it as finished pixels. Model of BandEngine and SamplingEngine. What asks for rays on the host
+/// gets them from a kd-tree with the same answers in every bit, which is built when it is asked for
+/// first. Members that start kernels are defined in backend_engine_kernels.hpp. One thread at a
+/// time.
+template <Backend B, Bsdf F, Executor E>
+class BackendEngine {
+ public:
+    using Params = typename F::Params;
+    using Layer = BackendLayer<B>;
+
+    /// Luxels of a band and, once found, which VPLs they see.
+    struct Luxels {
+        BackendGBuffer<B, Params> gbuffer;
+        std::optional<BackendVisibility<B>> visibility;
+
+        [[nodiscard]] bool knows_visibility() const { return visibility.has_value(); }
+        [[nodiscard]] Extent extent() const { return gbuffer.extent(); }
+    };
+
+    /// ResponseSum on the backend.
+    class Response {
+     public:
+        Response(const BackendEngine& engine, Extent luxels, std::uint32_t vpls)
+            : engine_(engine), sum_(engine.backend_, luxels, vpls) {}
+
+        void add(const Luxels& luxels, VplSpan<Space::host> vpls, const VplShading<F>& shading);
+        [[nodiscard]] std::vector<ImageResponse> mean() { return sum_.mean(engine_.queue_); }
+
+     private:
+        const BackendEngine& engine_;
+        BackendResponse<B> sum_;
+    };
+
+    /// Pixels on their way home.
+    struct Picture {
+        BackendFilm<B> film;
+        BackendGuides<B> guides;
+    };
+
+    /// Makes the kd-tree of the geometry that the engine is made for.
+    using MakeTree = std::function<KdTree()>;
+
+    /// Copies the scene to the backend and builds there. `geometry`, `clock` and `executor`, on
+    /// which the host works, must outlive the engine. `make_tree` is called at most once.
+    BackendEngine(const B& backend, const Scene& scene, const WorldGeometry& geometry, E& executor,
+                  MakeTree make_tree, const BackendEngineOptions& options, StageClock& clock);
+
+    [[nodiscard]] KdTreeVisibility<Space::host> visibility() const { return {host_tree().view()}; }
+    [[nodiscard]] KdRayCaster<Space::host> ray_caster() const {
+        return {geometry_, host_tree().view()};
+    }
+    [[nodiscard]] double visible_area(const Camera& camera, float aspect) const;
+
+    [[nodiscard]] Luxels trace(Extent extent, Extent tile, std::uint32_t first_row,
+                               const CameraRays& rays) const;
+    [[nodiscard]] Luxels upload(const BlockedGBuffer<Params>& gbuffer) const;
+    void find_visible(Luxels& luxels, VplSpan<Space::host> vpls, const Limits& limits) const;
+    [[nodiscard]] Response response(Extent luxels, std::uint32_t vpls) const {
+        return {*this, luxels, vpls};
+    }
+    [[nodiscard]] VplRecords sample_metropolis(const LightTable& lights, const PathView& view,
+                                               const MetropolisOptions& options,
+                                               const Limits& limits, Monitor* monitor) const;
+
+    [[nodiscard]] Layer black(const Luxels& luxels) const;
+    [[nodiscard]] Layer direct(const Luxels& luxels, const LightTable& lights,
+                               const LuxelBand& band, std::uint32_t samples) const;
+    [[nodiscard]] Layer emission(const Luxels& luxels) const;
+    template <Shading S>
+    [[nodiscard]] Layer light(const Luxels& luxels, VplSpan<Space::host> vpls, const S& shading,
+                              Monitor* monitor) const;
+    void add(Layer& sum, const Layer& layer) const;
+    [[nodiscard]] std::vector<double> row_luminances(const Layer& layer) const;
+
+    [[nodiscard]] Picture picture(Extent band, const CameraRays& rays, const Filter& filter,
+                                  std::uint32_t layers) const;
+    void film(Picture& picture, std::uint32_t first_row, std::vector<Layer>& layers) const;
+    void guides(Picture& picture, const Luxels& luxels) const;
+    void bring_home(Picture& picture, Guides& guides) const;
+    [[nodiscard]] std::vector<Image<Rgb>> develop(Picture& picture) const {
+        return picture.film.take_images();
+    }
+
+ private:
+    static constexpr Space space = B::space;
+
+    [[nodiscard]] const KdTree& host_tree() const;
+    void build_bvh();
+    /// Calls use(rays) with what single rays are traced by: KdRays or WideRays.
+    template <class Use>
+    auto with_rays(const Use& use) const;
+    /// Calls use(visibility) with the best that there is for whole tiles.
+    template <class Use>
+    auto with_tile_visibility(const Use& use) const;
+    template <Shading S>
+    [[nodiscard]] Layer light_known(const Luxels& luxels, VplSpan<Space::host> vpls,
+                                    const S& shading, Monitor* monitor) const;
+    template <Shading S>
+    [[nodiscard]] Image<Rgb> light_traced(const Luxels& luxels, VplSpan<Space::host> vpls,
+                                          const S& shading, Monitor* monitor) const;
+    [[nodiscard]] Layer layer_of(const Luxels& luxels, const Image<Rgb>& image) const;
+
+    B backend_;
+    const WorldGeometry& geometry_;
+    E& executor_;
+    MakeTree make_tree_;
+    BackendEngineOptions options_;
+    StageClock& clock_;
+    SurfaceTable<F> table_;
+    float sigma_;  ///< as shafts want it
+    mutable typename B::Queue queue_;
+    UploadedGeometry<B> geometry_there_;
+    UploadedSurfaces<B, F> surfaces_;
+    mutable std::optional<KdTree> host_tree_;
+    std::optional<UploadedKdTree<B>> tree_;
+    std::optional<BackendWideBvh<B>> bvh_;
+    std::optional<QuantisedBoxes<B>> boxes_;
+};
+
+}  // namespace mir

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/direct_light.hpp"
+#include "mir/reshade.hpp"
+#include "mir/runtime/film_layers.hpp"
+#include "mir/runtime/render_job.hpp"
+
+namespace mir {
+
+/// Where the picture of a render grows, in the host's memory: makes the layers of one band of
+/// luxels after the other, and pixels of them. All of it is for one thread at a time, which spreads
+/// the work through the job's executor. The job must outlive it.
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+class HostCanvas {
+ public:
+    using Job = RenderJob<B, Engine, E>;
+    using Band = typename ImageBands<B, Engine, E>::Band;
+    /// Radiance towards the viewer of the luxels of a band, W m^-2 sr^-1.
+    using Layer = Image<Rgb>;
+
+    HostCanvas(Job& job, MakeScheduler make_scheduler, std::size_t layers)
+        : job_(job),
+          make_scheduler_(make_scheduler),
+          film_(job.rays.grid, job.settings.filter, job.settings.seed, layers) {}
+
+    /// No light.
+    [[nodiscard]] Layer black(const Band& band) const { return Layer(band.gbuffer.extent()); }
+
+    /// Next-event light from `samples` points of lamps for each luxel, and from lights without
+    /// extent.
+    [[nodiscard]] Layer direct(const Band& band, std::uint32_t samples) const {
+        return direct_light<B>(band.gbuffer, job_.lights, job_.engine.visibility(),
+                               {band.first_row, job_.rays.grid, job_.settings.seed}, samples,
+                               job_.executor);
+    }
+
+    /// What the luxels themselves emit.
+    [[nodiscard]] Layer emission(const Band& band) const;
+
+    /// Light of VPLs: from the band's visibility where it is known, by tracing otherwise.
+    template <Shading F>
+    [[nodiscard]] Layer light(const Band& band, VplSpan<Space::host> vpls, const F& shading,
+                              Monitor* monitor) const {
+        const auto scheduler = make_scheduler_(job_.executor, monitor);
+        if (band.visibility)
+            return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
+        return reconstruct(scheduler, band.gbuffer, vpls, job_.engine.visibility(), shading);
+    }
+
+    /// sum += layer.
+    void add(Layer& sum, const Layer& layer) const {
+        job_.executor.for_each(sum.height(), [&](std::size_t row) {
+            const auto y = static_cast<std::uint32_t>(row);
+            for (std::uint32_t x = 0; x < sum.width(); ++x) sum(x, y) += layer(x, y);
+        });
+    }
+
+    /// Sum of the luminance of each row's luxels, from left to right.
+    [[nodiscard]] std::vector<double> row_luminances(const Layer& layer) const;
+
+    /// Puts the layers of a band on the film, and its guides into the result.
+    void put(const Band& band, const std::vector<Layer>& layers) {
+        {
+            const auto stage = job_.clock.measure(&StageSeconds::film);
+            film_.add_rows(job_.executor, band.first_row, layers);
+        }
+        job_.add_guides_of(band);
+    }
+
+    /// Makes the images of the result.
+    void finish() { develop_layers(film_, job_.context(), job_.result); }
+
+ private:
+    Job& job_;
+    MakeScheduler make_scheduler_;
+    Film film_;
+};
+
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+auto HostCanvas<B, Engine, E, MakeScheduler>::emission(const Band& band) const -> Layer {
+    Layer image(band.gbuffer.extent());
+    const auto& tiles = band.gbuffer.tiles();
+    const std::uint32_t per_row = tiles_per_row(tiles);
+    job_.executor.for_each(image.height(), [&](std::size_t row) {
+        const auto y = static_cast<std::uint32_t>(row);
+        for (std::uint32_t x = 0; x < image.width(); ++x) {
+            const TileIndex t = tile_holding(tiles, per_row, x, y);
+            const Tile tile = tiles[t];
+            const auto i = BlockedLayout::of(tile)(x - tile.x, y - tile.y);
+            image(x, y) = band.gbuffer.view(t).surface(i).emission;
+        }
+    });
+    return image;
+}
+
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+std::vector<double> HostCanvas<B, Engine, E, MakeScheduler>::row_luminances(
+    const Layer& layer) const {
+    std::vector<double> rows(layer.height());
+    job_.executor.for_each(rows.size(), [&](std::size_t row) {
+        for (std::uint32_t x = 0; x < layer.width(); ++x)
+            rows[row] += static_cast<double>(luminance(layer(x, static_cast<std::uint32_t>(row))));
+    });
+    return rows;
+}
+
+}  // namespace mir

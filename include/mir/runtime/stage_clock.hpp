@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/stage_seconds.hpp"
+
+#include <chrono>
+
+namespace mir {
+
+/// Measures the stages of a render, from its own start on. A stage that begins inside another
+/// interrupts it, so that no moment counts twice; what no stage claims is StageSeconds::other. One
+/// thread at a time.
+class StageClock {
+ public:
+    using Stage = StageMember;
+
+    /// A stage from its construction to its end.
+    class Scope {
+     public:
+        Scope(StageClock& clock, Stage stage) : clock_(clock), outer_(clock.change_to(stage)) {}
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+        ~Scope() { clock_.change_to(outer_); }
+
+     private:
+        StageClock& clock_;
+        Stage outer_;
+    };
+
+    StageClock() = default;
+    StageClock(const StageClock&) = delete;
+    StageClock& operator=(const StageClock&) = delete;
+    ~StageClock() = default;
+
+    /// Begins a stage, which lasts as long as what is returned.
+    [[nodiscard]] Scope measure(Stage stage) { return {*this, stage}; }
+
+    /// Counts seconds of stage `from`, measured by themselves, as those of stage `to`.
+    void reassign(double seconds, Stage from, Stage to) {
+        seconds_.*from -= seconds;
+        seconds_.*to += seconds;
+    }
+
+    /// All stages up to now.
+    [[nodiscard]] StageSeconds seconds() {
+        change_to(current_);
+        StageSeconds all = seconds_;
+        for (const RenderStage& stage : render_stages) all.total += all.*stage.seconds;
+        return all;
+    }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+
+    Stage change_to(Stage next) {
+        const Clock::time_point now = Clock::now();
+        seconds_.*current_ += std::chrono::duration<double>(now - since_).count();
+        since_ = now;
+        const Stage before = current_;
+        current_ = next;
+        return before;
+    }
+
+    StageSeconds seconds_;
+    Stage current_ = &StageSeconds::other;
+    Clock::time_point since_ = Clock::now();
+};
+
+}  // namespace mir

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace mir {
+
+/// Seconds of wall time spent in each stage of a render. No moment counts twice: `total` is the sum
+/// of all others.
+struct StageSeconds {
+    double geometry = 0.0;        ///< triangles in world space, lights, materials
+    double build = 0.0;           ///< acceleration structure
+    double upload = 0.0;          ///< the scene to the backend's memory
+    double bound = 0.0;           ///< what the camera sees, for the bound
+    double bootstrap = 0.0;       ///< P_c and the starts of Markov chains
+    double sampling = 0.0;        ///< VPLs, from there
+    double paths = 0.0;           ///< camera paths of the reference
+    double gbuffer = 0.0;         ///< camera rays
+    double visibility = 0.0;      ///< stored visibility: shadow rays, where they are kept
+    double response = 0.0;        ///< what each VPL does to the image, and intensities from it
+    double direct = 0.0;          ///< next-event light, emission
+    double reconstruction = 0.0;  ///< contributions of the VPLs
+    double ledger = 0.0;          ///< measuring what the bound removed
+    double film = 0.0;            ///< filtering
+    double guides = 0.0;          ///< albedo, normal, position and depth
+    double download = 0.0;        ///< finished pictures from the backend's memory
+    double hash = 0.0;            ///< fingerprint of the scene
+    double other = 0.0;           ///< everything else
+    double total = 0.0;
+};
+
+/// Which of its stages.
+using StageMember = double StageSeconds::*;
+
+/// A stage and its name in files.
+struct RenderStage {
+    std::string_view name;
+    StageMember seconds;
+};
+
+/// Every stage in the order in which a frame goes through them; what they take adds up to
+/// StageSeconds::total.
+inline constexpr std::array<RenderStage, 18> render_stages{
+    {{"geometry", &StageSeconds::geometry},
+     {"build", &StageSeconds::build},
+     {"upload", &StageSeconds::upload},
+     {"bound", &StageSeconds::bound},
+     {"bootstrap", &StageSeconds::bootstrap},
+     {"sampling", &StageSeconds::sampling},
+     {"paths", &StageSeconds::paths},
+     {"gbuffer", &StageSeconds::gbuffer},
+     {"visibility", &StageSeconds::visibility},
+     {"response", &StageSeconds::response},
+     {"direct", &StageSeconds::direct},
+     {"reconstruction", &StageSeconds::reconstruction},
+     {"ledger", &StageSeconds::ledger},
+     {"film", &StageSeconds::film},
+     {"guides", &StageSeconds::guides},
+     {"download", &StageSeconds::download},
+     {"hash", &StageSeconds::hash},
+     {"other", &StageSeconds::other}}};
+
+}  // namespace mir

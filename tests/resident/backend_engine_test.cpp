@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+//
+// Whole pictures by an engine that keeps everything in a backend's memory, the host's here, against
+// those of the host's own stages: the same bits.
+#include "conformance/stage.hpp"
+#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/cpu/backend.hpp"
+#include "mir/runtime/backend_engine_kernels.hpp"
+#include "mir/runtime/tiled_render.hpp"
+#include "mir/sched/cpu.hpp"
+#include "mir/shading/cook_torrance.hpp"
+#include "support/catch.hpp"
+
+#include <cstring>
+
+namespace {
+
+using mir::BackendEngineOptions;
+using mir::BackendScheduler;
+using mir::CookTorrance;
+using mir::InlineExecutor;
+using mir::RenderResult;
+using mir::RenderSettings;
+using mir::Scene;
+using Host = mir::cpu::Backend<InlineExecutor>;
+using Engine = mir::BackendEngine<Host, CookTorrance, InlineExecutor>;
+
+static_assert(mir::BandEngine<Engine> && mir::SamplingEngine<Engine>);
+
+const auto plain = [](auto& executor, mir::Monitor* monitor) {
+    return mir::sched::Cpu{executor, monitor};
+};
+
+template <class E>
+RenderResult draw(const Scene& scene, const RenderSettings& settings,
+                  const mir::WorldGeometry& geometry, const E& engine, mir::StageClock& clock) {
+    InlineExecutor executor;
+    return mir::TiledRender<CookTorrance, E, InlineExecutor, decltype(plain)>(
+               scene, settings, geometry, engine, executor, nullptr, clock, plain)
+        .run();
+}
+
+RenderResult draw_on_host(const Scene& scene, const RenderSettings& settings) {
+    const mir::WorldGeometry geometry(scene);
+    mir::StageClock clock;
+    return draw(scene, settings, geometry, mir::KdTreeScene(geometry), clock);
+}
+
+RenderResult draw_on_backend(const Scene& scene, const RenderSettings& settings,
+                             const BackendEngineOptions& options) {
+    const mir::WorldGeometry geometry(scene);
+    InlineExecutor executor;
+    mir::StageClock clock;
+    int trees = 0;
+    const auto make_tree = [&] {
+        ++trees;
+        return mir::KdTree(geometry, {}, executor);
+    };
+    const Engine engine(Host(executor), scene, geometry, executor, make_tree, options, clock);
+    RenderResult result = draw(scene, settings, geometry, engine, clock);
+    // Chains and all that follows need no rays of the host.
+    const bool on_host = options.scheduler == BackendScheduler::os ||
+                         settings.sampler != mir::SamplerKind::metropolis;
+    CHECK(trees == (options.kd_tree || on_host ? 1 : 0));
+    return result;
+}
+
+template <class T>
+bool same_bits(const mir::Image<T>& a, const mir::Image<T>& b) {
+    return a.extent() == b.extent() &&
+           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+void check_same(const RenderResult& a, const RenderResult& b) {
+    CHECK(same_bits(a.beauty, b.beauty));
+    CHECK(same_bits(a.emission, b.emission));
+    CHECK(same_bits(a.direct, b.direct));
+    CHECK(same_bits(a.indirect, b.indirect));
+    REQUIRE(a.bounces.size() == b.bounces.size());
+    for (std::size_t i = 0; i < a.bounces.size(); ++i) CHECK(same_bits(a.bounces[i], b.bounces[i]));
+    CHECK(same_bits(a.guides.albedo, b.guides.albedo));
+    CHECK(same_bits(a.guides.normal, b.guides.normal));
+    CHECK(same_bits(a.guides.position, b.guides.position));
+    CHECK(same_bits(a.guides.depth, b.guides.depth));
+    CHECK(a.statistics.bound == b.statistics.bound);
+    CHECK(a.statistics.indirect_luminance == b.statistics.indirect_luminance);
+    CHECK(a.statistics.removed_luminance == b.statistics.removed_luminance);
+}
+
+/// A room with lamps of every kind.
+Scene lit_room() {
+    Scene scene = mirtest::glossy_box();
+    scene.point_lights.push_back({"point", {0.1f, 0.6f, 0.2f}, {0.3f, 0.2f, 0.1f}});
+    mir::SpotLight spot;
+    spot.position = {-0.3f, 0.7f, 0.1f};
+    spot.direction = {0.0f, -1.0f, 0.0f};
+    spot.intensity = {1.0f, 2.0f, 3.0f};
+    scene.spot_lights.push_back(spot);
+    scene.directional_lights.push_back({"sun", {0.0f, 0.0f, -1.0f}, {0.5f, 0.5f, 0.5f}});
+    return scene;
+}
+
+RenderSettings small_picture() {
+    RenderSettings s;
+    s.image = {45, 35};
+    s.vpls = 24;
+    s.tile = {32, 16};
+    s.metropolis.bootstrap.min_paths = s.metropolis.bootstrap.max_paths = 4096;
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("A frame in a backend's memory has the bits of the host's, whatever its structures") {
+    const Scene scene = lit_room();
+    RenderSettings settings = small_picture();
+    settings.bounce_layers = GENERATE(false, true);
+    const RenderResult host = draw_on_host(scene, settings);
+    CHECK(host.statistics.removed_luminance > 0.0);
+    CHECK(host.statistics.indirect_luminance > 0.0);
+    for (const BackendEngineOptions& options :
+         {BackendEngineOptions{BackendScheduler::rcvp, true, false},
+          BackendEngineOptions{BackendScheduler::rcvp, true, true},
+          BackendEngineOptions{BackendScheduler::rcvp, false, true}}) {
+        INFO(options.kd_tree << options.shafts);
+        check_same(host, draw_on_backend(scene, settings, options));
+    }
+}
+
+TEST_CASE("Bands and luxels per pixel change nothing between backend and host") {
+    const Scene scene = lit_room();
+    RenderSettings settings = small_picture();
+    settings.luxels_per_pixel = 6;
+    settings.filter = mir::default_filter(mir::FilterKind::mitchell);
+    // Visibility of one row of blocks: several bands.
+    settings.limits.visibility_bytes = std::uint64_t{2400} * settings.luxels_per_pixel;
+    check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
+}
+
+TEST_CASE("Light of VPLs that are no states is traced by every scheduler, with the same bits") {
+    const Scene scene = lit_room();
+    RenderSettings settings = small_picture();
+    settings.sampler = mir::SamplerKind::instant_radiosity;
+    const RenderResult host = draw_on_host(scene, settings);
+    for (const BackendScheduler scheduler :
+         {BackendScheduler::os, BackendScheduler::rc, BackendScheduler::rcvp}) {
+        INFO(static_cast<int>(scheduler));
+        check_same(host, draw_on_backend(scene, settings, {scheduler, false, true}));
+    }
+}
+
+TEST_CASE("An engine on a backend says how long its stages took") {
+    const RenderResult frame = draw_on_backend(lit_room(), small_picture(), {});
+    const mir::StageSeconds& s = frame.statistics.seconds;
+    for (const double seconds :
+         {s.build, s.bound, s.bootstrap, s.sampling, s.gbuffer, s.visibility, s.response, s.direct,
+          s.reconstruction, s.ledger, s.film, s.guides, s.download, s.other})
+        CHECK(seconds > 0.0);
+    double sum = 0.0;
+    for (const mir::RenderStage& stage : mir::render_stages) sum += s.*stage.seconds;
+    CHECK(s.total == sum);
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "mir/resident/backend_film.hpp"
+
+#include "mir/cpu/backend.hpp"
+#include "mir/film/film.hpp"
+#include "support/backwards_executor.hpp"
+#include "support/catch.hpp"
+#include "support/lazy_backend.hpp"
+
+#include <cstring>
+
+namespace {
+
+using mir::Extent;
+using mir::Image;
+using mir::Rgb;
+
+/// Luxels of all sizes and signs, a function of their places.
+Image<Rgb> random_luxels(Extent extent, std::uint64_t seed) {
+    Image<Rgb> image(extent);
+    mir::Random random(seed, mir::Stream::test, 0);
+    for (Rgb& c : image.pixels())
+        c = {random.next() - 0.25f, 1e3f * random.next(), 1.0f / (random.next() + 1e-3f)};
+    return image;
+}
+
+/// Some rows of an image.
+Image<Rgb> rows_of(const Image<Rgb>& image, std::uint32_t first, std::uint32_t count) {
+    Image<Rgb> rows({image.width(), count});
+    for (std::uint32_t y = 0; y < count; ++y)
+        for (std::uint32_t x = 0; x < image.width(); ++x) rows(x, y) = image(x, first + y);
+    return rows;
+}
+
+template <mir::Backend B>
+mir::BackendLayer<B> layer_of(const B& backend, typename B::Queue& queue, const Image<Rgb>& image,
+                              Extent tile) {
+    const auto tiles = mir::cut_into_tiles(image.extent(), tile);
+    mir::BackendLayer<B> layer(backend, mir::TileGrid::of(image.extent(), tiles));
+    std::vector<std::uint32_t> words(layer.words().size());
+    for (mir::TileIndex t = 0; t < tiles.size(); ++t) {
+        const auto layout = mir::BlockedLayout::of(tiles[t]);
+        const mir::SoaView<Rgb> to{words.data() + mir::LayerView::first_word(layer.grid(), t),
+                                   layout.size()};
+        for (std::uint32_t y = 0; y < tiles[t].height; ++y)
+            for (std::uint32_t x = 0; x < tiles[t].width; ++x)
+                to.store(layout(x, y), image(tiles[t].x + x, tiles[t].y + y));
+    }
+    queue.upload(std::span<const std::uint32_t>(words), layer.words());
+    queue.record().sync();
+    return layer;
+}
+
+/// Images of luxels that come in bands of these heights.
+template <mir::Backend B>
+std::vector<Image<Rgb>> developed_on(const B& backend, const mir::LuxelGrid& grid,
+                                     const mir::Filter& filter,
+                                     const std::vector<Image<Rgb>>& layers,
+                                     const std::vector<std::uint32_t>& heights) {
+    auto queue = backend.queue();
+    const std::uint32_t most = *std::max_element(heights.begin(), heights.end());
+    mir::BackendFilm<B> film(backend, queue, grid, filter, 7,
+                             static_cast<std::uint32_t>(layers.size()), most);
+    mirtest::BackwardsExecutor executor{2};
+    std::uint32_t first = 0;
+    for (const std::uint32_t height : heights) {
+        std::vector<mir::BackendLayer<B>> band;
+        for (const Image<Rgb>& layer : layers)
+            band.push_back(layer_of(backend, queue, rows_of(layer, first, height), {32, 16}));
+        film.add_rows(queue, first, band);
+        film.bring_home(queue, executor);
+        first += height;
+    }
+    return film.take_images();
+}
+
+bool same_bits(const Image<Rgb>& a, const Image<Rgb>& b) {
+    return a.extent() == b.extent() &&
+           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("A film on a backend has the bits of the host's for all filters, bands and layers") {
+    const mir::FilterKind kind =
+        GENERATE(mir::FilterKind::box, mir::FilterKind::tent, mir::FilterKind::gaussian,
+                 mir::FilterKind::mitchell, mir::FilterKind::lanczos);
+    const std::uint32_t luxels = GENERATE(1u, 2u, 9u);
+    const mir::LuxelGrid grid = mir::luxel_grid({37, 21}, luxels);
+    mir::Filter filter = mir::default_filter(kind);
+    if (luxels == 9) filter.half_width *= 1.5f;
+    const std::uint32_t ny = grid.per_pixel_y;
+    std::vector<Image<Rgb>> layers;
+    for (std::uint64_t l = 0; l < 4; ++l) layers.push_back(random_luxels(grid.luxels(), l));
+    mir::Film host(grid, filter, 7, layers.size());
+    mir::InlineExecutor executor;
+    host.add_rows(executor, 0, layers);
+
+    const mir::cpu::Backend backend(executor);
+    mirtest::PutOff work(0);
+    for (const std::vector<std::uint32_t>& heights :
+         {std::vector<std::uint32_t>{21 * ny}, {16 * ny, 5 * ny}, {ny, ny, 2 * ny, 16 * ny, ny}}) {
+        const auto images = developed_on(backend, grid, filter, layers, heights);
+        const auto late = developed_on(mirtest::LazyBackend(work), grid, filter, layers, heights);
+        REQUIRE(images.size() == layers.size());
+        for (std::size_t l = 0; l < layers.size(); ++l) {
+            CHECK(same_bits(host.develop(l), images[l]));
+            CHECK(same_bits(images[l], late[l]));
+        }
+    }
+}
+
+TEST_CASE("A film on a backend refuses bands that do not continue it") {
+    mir::InlineExecutor executor;
+    const mir::cpu::Backend backend(executor);
+    auto queue = backend.queue();
+    const mir::LuxelGrid grid = mir::luxel_grid({20, 12}, 1);
+    using Host = mir::cpu::Backend<mir::InlineExecutor>;
+    mir::BackendFilm<Host> film(backend, queue, grid, {}, 0, 1, 8);
+    const auto band = [&](Extent extent, std::size_t count) {
+        std::vector<mir::BackendLayer<Host>> layers;
+        for (std::size_t l = 0; l < count; ++l)
+            layers.push_back(layer_of(backend, queue, Image<Rgb>(extent), {16, 16}));
+        return layers;
+    };
+    auto two = band({20, 8}, 2), narrow = band({19, 8}, 1), good = band({20, 8}, 1);
+    CHECK_THROWS_AS(film.add_rows(queue, 0, two), mir::Error);
+    CHECK_THROWS_AS(film.add_rows(queue, 0, narrow), mir::Error);
+    CHECK_THROWS_AS(film.add_rows(queue, 4, good), mir::Error);
+    film.add_rows(queue, 0, good);
+    CHECK_THROWS_AS(film.add_rows(queue, 8, good), mir::Error);  // not at home, and too high
+    film.bring_home(queue, executor);
+    CHECK_THROWS_AS(film.add_rows(queue, 8, good), mir::Error);
+    auto rest = band({20, 4}, 1);
+    film.add_rows(queue, 8, rest);
+    film.bring_home(queue, executor);
+    CHECK(film.take_images().front().extent() == Extent{20, 12});
+}
