@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_engine.hpp"
 #include "mir/cuda/backend.cuh"
+#include "mir/cuda/sort.cuh"
 #include "mir/runtime/backend_engine_kernels.hpp"
 
 namespace mir {
