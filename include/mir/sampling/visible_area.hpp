@@ -26,8 +26,10 @@ struct AreaRays {
     }
 
     [[nodiscard]] MIR_HD Ray operator()(std::uint32_t i) const {
-        const Vec2 film((static_cast<float>(i % side) + 0.5f) / side,
-                        (static_cast<float>(i / side) + 0.5f) / side);
+        const std::uint32_t x = i % side;
+        const std::uint32_t y = i / side;
+        const Vec2 film((static_cast<float>(x) + 0.5f) / side,
+                        (static_cast<float>(y) + 0.5f) / side);
         return optics.ray(film, aspect, {0.5f, 0.5f});
     }
 
