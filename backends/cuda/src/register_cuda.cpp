@@ -27,6 +27,14 @@ constexpr Structures plain{"kdtree", true, false};
 constexpr Structures both{"kdtree+shafts", true, true};
 constexpr Structures hierarchy{"bvh", false, true};
 
+/// Luxels times VPLs from which a kd-tree, which single rays walk faster, is worth the time that the
+/// host takes to build it (docs/performance.md, "A whole frame"). Bits are the same.
+constexpr double kd_tree_pays = 13e9;
+
+double pairs(const RenderSettings& settings) {
+    return static_cast<double>(settings.image.area()) * settings.luxels_per_pixel * settings.vpls;
+}
+
 Structures structures_of(const RenderSettings& settings) {
     switch (settings.acceleration) {
         case Acceleration::kd_tree:
@@ -36,7 +44,7 @@ Structures structures_of(const RenderSettings& settings) {
         case Acceleration::automatic:
             break;
     }
-    return both;
+    return pairs(settings) < kd_tree_pays ? hierarchy : both;
 }
 
 /// Luxels scheduled together unless the settings say: enough to fill a large GPU.
