@@ -8,22 +8,12 @@
 #include "mir/io/detail/gltf_load.hpp"
 #include "mir/io/detail/gltf_materials.hpp"
 #include "mir/io/detail/gltf_meshes.hpp"
-#include "mir/io/scene_report.hpp"
-#include "mir/scene/scene.hpp"
+#include "mir/io/loaded_scene.hpp"
 
-#include <exception>
+#include <cstddef>
 #include <filesystem>
-#include <new>
-#include <string>
-#include <vector>
 
 namespace mir {
-
-/// A scene from a file, and what was found and left out on the way.
-struct LoadedScene {
-    Scene scene;
-    SceneReport report;
-};
 
 namespace detail {
 
@@ -89,25 +79,9 @@ inline LoadedScene convert_gltf(const tinygltf::Model& model, const Limits& limi
 ///         Each message reads "FILE: PLACE: problem (why); remedy".
 /// Source: Khronos glTF 2.0 specification, version 2.0.1.
 inline LoadedScene read_gltf(const std::filesystem::path& path, const Limits& limits = {}) {
-    const auto repeat = [&](ErrorCode code, const std::string& what, Where at) {
-        const std::string file = path.string();
-        return Error(code, what.rfind(file, 0) == 0 ? what : file + ": " + what, at);
-    };
-    try {
+    return detail::naming_file(path, "glTF 2.0", [&] {
         return detail::convert_gltf(detail::load_gltf_model(path, limits), limits);
-    } catch (const Error& error) {
-        throw repeat(error.code(), error.what(), error.where());
-    } catch (const std::bad_alloc&) {
-        throw repeat(ErrorCode::limit_exceeded,
-                     "there is not enough memory to read it (or it declares absurd sizes); use a "
-                     "smaller scene",
-                     Where::here());
-    } catch (const std::exception& error) {
-        throw repeat(ErrorCode::invalid_input,
-                     std::string("it is no valid glTF 2.0 file (") + error.what() +
-                         "); repair or export it again",
-                     Where::here());
-    }
+    });
 }
 
 }  // namespace mir

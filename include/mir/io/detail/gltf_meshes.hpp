@@ -4,26 +4,17 @@
 #include "mir/core/limits.hpp"
 #include "mir/io/detail/gltf_arrays.hpp"
 #include "mir/io/detail/gltf_materials.hpp"
+#include "mir/io/detail/unit_direction.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <tiny_gltf.h>
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mir::detail {
-
-/// `v` with length 1. What is unit to rounding stays as it is, so that files written by
-/// write_glb come back unchanged. Zero when `v` is no direction.
-inline Vec3 unit_direction(Vec3 v) {
-    const float squared = length_squared(v);
-    if (std::fabs(squared - 1.0f) < 1e-6f) return v;
-    if (!(squared > 0.0f) || !std::isfinite(squared)) return Vec3(0.0f);
-    return v / std::sqrt(squared);
-}
 
 /// Triangles from the vertex order of a primitive: lists, strips or fans (glTF 2.0, 3.7.2.1).
 /// @pre `mode` is one of the three.
