@@ -103,6 +103,18 @@ TEST_CASE("MTL is mapped to metallic-roughness parameters") {
     CHECK(physical.specular == 1.0f);
 }
 
+TEST_CASE("colours of OBJ vertices are sRGB and make the base white") {
+    const auto loaded = read("v 0 0 0 1 0 0.5\nv 1 0 0 0 2 0\nv 0 1 0\nf 1 2 3\n");
+    const mir::Mesh& mesh = loaded.scene.meshes.at(0);
+    REQUIRE(mesh.colors.size() == 3);
+    CHECK(mesh.colors[0].r == 1.0f);
+    CHECK(mesh.colors[0].b == Approx(0.2140411405));
+    CHECK(mesh.colors[1] == Rgb{0, 1, 0});
+    CHECK(mesh.colors[2] == Rgb{1, 1, 1});
+    CHECK(loaded.scene.materials.at(0).base_color == Rgb{1, 1, 1});
+    CHECK(loaded.report.ignored == Ignored{{"vertex colour outside 0..1 (clamped)", 1}});
+}
+
 TEST_CASE("what an OBJ file asks for and does not get is counted") {
     const auto loaded =
         read("mtllib my scene.mtl\nmtllib other.mtl\n" + corners +

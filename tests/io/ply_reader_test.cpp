@@ -90,6 +90,21 @@ TEST_CASE("normals are read and other elements skipped") {
                                                {"face of fewer than three corners", 1}});
 }
 
+TEST_CASE("colours of PLY vertices are sRGB codes") {
+    const auto loaded = read(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty uchar red\nproperty uchar green\nproperty float blue\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 255 0 0.5\n1 0 0 0 188 0\n0 1 0 0 0 1\n3 0 1 2\n");
+    const mir::Mesh& mesh = loaded.scene.meshes.at(0);
+    REQUIRE(mesh.colors.size() == 3);
+    CHECK(mesh.colors[0].r == 1.0f);
+    CHECK(mesh.colors[0].b == Approx(0.2140411405));
+    CHECK(mesh.colors[1].g == Approx(0.5028864580));
+    CHECK(loaded.scene.materials.at(0).base_color == mir::Rgb{1, 1, 1});
+    CHECK(loaded.report.ignored.empty());
+}
+
 TEST_CASE("a cloud of points has nothing to see and is no error") {
     const auto loaded = read(
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"

@@ -61,10 +61,11 @@ inline LoadedScene load_obj(const std::filesystem::path& path, const Limits& lim
 
 /// Reads a Wavefront OBJ scene with the material libraries (MTL) that it names, in UTF-8 or UTF-16.
 /// Each group becomes one mesh per material; polygons are cut into triangles; faces without normals
-/// are flat. Coordinates are metres as they stand, +y up. Ke is radiance, Kd the base colour, the
-/// mean of Ks the weight of the interface, Ns or Pr its roughness, Pm metalness, Ni the index of
-/// refraction (docs/scene_files.md). Libraries that are missing and what is not read are counted in
-/// the report. Thread-safe for different or equal files.
+/// are flat; colours behind the coordinates of vertices are sRGB. Coordinates are metres as they
+/// stand, +y up. Ke is radiance, Kd the base colour, the mean of Ks the weight of the interface, Ns
+/// or Pr its roughness, Pm metalness, Ni the index of refraction (docs/scene_files.md). Libraries
+/// that are missing and what is not read are counted in the report. Thread-safe for different or
+/// equal files.
 /// @throws Error(invalid_input) when the file is missing or broken, with its line;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.
 ///         Each message reads "FILE: PLACE: problem (why); remedy".

@@ -3,6 +3,7 @@
 
 #include "mir/io/detail/ply_mesh.hpp"
 #include "mir/io/detail/read_file.hpp"
+#include "mir/io/detail/unknown_surface.hpp"
 #include "mir/io/loaded_scene.hpp"
 
 #include <filesystem>
@@ -22,7 +23,7 @@ inline LoadedScene load_ply(const std::filesystem::path& path, const Limits& lim
     loaded.scene.name = path.stem().string();
     Mesh mesh = PlyMesh(file, header, limits, loaded.report).convert();
     mesh.name = loaded.scene.name;
-    mesh.material = loaded.scene.add(lambertian("PLY default", {0.8f, 0.8f, 0.8f}));
+    mesh.material = loaded.scene.add(unknown_surface("PLY default", !mesh.colors.empty()));
     if (!mesh.triangles.empty()) loaded.scene.place(std::move(mesh));
     count_scene(loaded.scene, loaded.report);
     return loaded;
@@ -30,10 +31,11 @@ inline LoadedScene load_ply(const std::filesystem::path& path, const Limits& lim
 
 }  // namespace detail
 
-/// Reads a mesh in the PLY format, ascii or binary of either byte order: vertices (x y z, nx ny nz)
-/// and faces (vertex_indices), whose polygons are cut into triangles. It gets one Lambertian
-/// material of reflectance 0.8. Coordinates are metres as they stand, +y up. Other elements and
-/// properties are skipped and counted in the report. Thread-safe for different or equal files.
+/// Reads a mesh in the PLY format, ascii or binary of either byte order: vertices (x y z, nx ny nz,
+/// red green blue as sRGB) and faces (vertex_indices), whose polygons are cut into triangles. It
+/// gets one Lambertian material, of the vertices' colours or else of reflectance 0.8. Coordinates
+/// are metres as they stand, +y up. Other elements and properties are skipped and counted in the
+/// report. Thread-safe for different or equal files.
 /// @throws Error(invalid_input) when the file is missing or broken, with element and number;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.
 ///         Each message reads "FILE: PLACE: problem (why); remedy".

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/resident/uploaded_array.hpp"
+#include "mir/resident/uploaded_textures.hpp"
 #include "mir/scene/light_table.hpp"
 
 namespace mir {
@@ -16,6 +16,7 @@ class UploadedLights {
           delta_sources_(backend, queue, lights.delta_sources()),
           lamps_(backend, queue, lights.lamps()),
           cumulative_(backend, queue, lights.by_power().cumulative()),
+          textures_(backend, queue, lights.textures()),
           values_(lights.view()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
@@ -26,7 +27,8 @@ class UploadedLights {
                 lamps_.data(),
                 {cumulative_.data(), values_.by_power.size, values_.by_power.total},
                 values_.centre,
-                values_.radius};
+                values_.radius,
+                textures_.view()};
     }
 
  private:
@@ -34,6 +36,7 @@ class UploadedLights {
     UploadedArray<B, DeltaSource> delta_sources_;
     UploadedArray<B, LampEntry> lamps_;
     UploadedArray<B, double> cumulative_;
+    UploadedTextures<B> textures_;
     LightTableView<Space::host> values_;  ///< of which only the values are used
 };
 

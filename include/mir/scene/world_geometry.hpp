@@ -36,13 +36,22 @@ class WorldGeometry {
 
     /// What kernels on the host read; valid until the geometry is moved or ends.
     [[nodiscard]] GeometryView<Space::host> view() const {
-        return {positions_.data(), normals_.data(), triangles_.data(), materials_.data(),
-                ray_offset_};
+        return {positions_.data(),
+                normals_.data(),
+                triangles_.data(),
+                materials_.data(),
+                ray_offset_,
+                texture_coordinates_.empty() ? nullptr : texture_coordinates_.data(),
+                colors_.empty() ? nullptr : colors_.data()};
     }
 
     [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
     /// Unit normals of the vertices, zero where their mesh has none.
     [[nodiscard]] std::span<const Vec3> normals() const { return normals_; }
+    /// Of the vertices, zero where their mesh has none; empty when no mesh has any.
+    [[nodiscard]] std::span<const Vec2> texture_coordinates() const { return texture_coordinates_; }
+    /// Of the vertices, white where their mesh has none; empty when no mesh has any.
+    [[nodiscard]] std::span<const Rgb> colors() const { return colors_; }
     [[nodiscard]] std::span<const TriangleIndices> triangles() const { return triangles_; }
     /// Material of each triangle.
     [[nodiscard]] std::span<const std::uint32_t> materials() const { return materials_; }
@@ -82,10 +91,13 @@ class WorldGeometry {
  private:
     void place(const Scene& scene, const Instance& instance);
     void place_vertices(const Mesh& mesh, const Mat4& to_world);
+    void place_attributes(const Mesh& mesh);
     void place_triangles(const Mesh& mesh, std::uint32_t first_vertex, bool mirrored);
 
     std::vector<Vec3> positions_;
     std::vector<Vec3> normals_;  ///< zero where the mesh has none
+    std::vector<Vec2> texture_coordinates_;
+    std::vector<Rgb> colors_;
     std::vector<TriangleIndices> triangles_;
     std::vector<std::uint32_t> materials_;
     Bounds bounds_;
@@ -102,6 +114,31 @@ inline float ray_offset_of(const Bounds& bounds) {
     return larger(magnitude * 0x1p-20f, smaller(magnitude * 0x1p-16f, unseen));
 }
 
+inline void check_attributes(const Mesh& mesh) {
+    const auto check = [&](const char* what, std::size_t count, auto&& is_good) {
+        if (count == 0) return;
+        if (count != mesh.positions.size())
+            throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': it has " +
+                                                      std::to_string(count) + " " + what + " for " +
+                                                      std::to_string(mesh.positions.size()) +
+                                                      " positions; give one each or none");
+        for (std::size_t i = 0; i < count; ++i)
+            if (!is_good(i))
+                throw Error(ErrorCode::invalid_input,
+                            "mesh '" + mesh.name + "': number " + std::to_string(i) + " of its " +
+                                what + " is not finite or not a colour; repair the file");
+    };
+    check("texture coordinates", mesh.texture_coordinates.size(), [&](std::size_t i) {
+        const Vec2 uv = mesh.texture_coordinates[i];
+        return std::isfinite(uv.x) && std::isfinite(uv.y);
+    });
+    check("colors", mesh.colors.size(), [&](std::size_t i) {
+        const Rgb c = mesh.colors[i];
+        const auto is_share = [](float x) { return x >= 0.0f && x <= 1.0f; };
+        return is_share(c.r) && is_share(c.g) && is_share(c.b);
+    });
+}
+
 inline void check_mesh(const Scene& scene, const Mesh& mesh) {
     const auto fail = [&](const std::string& what) {
         throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': " + what);
@@ -112,6 +149,7 @@ inline void check_mesh(const Scene& scene, const Mesh& mesh) {
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
         fail("it has " + std::to_string(mesh.normals.size()) + " normals for " +
              std::to_string(mesh.positions.size()) + " positions; give one each or none");
+    check_attributes(mesh);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         if (!is_finite(mesh.positions[i]))
             fail("position " + std::to_string(i) +
@@ -154,6 +192,7 @@ inline void WorldGeometry::place(const Scene& scene, const Instance& instance) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const auto first_vertex = static_cast<std::uint32_t>(positions_.size());
     place_vertices(mesh, instance.to_world);
+    place_attributes(mesh);
     place_triangles(mesh, first_vertex, glm::determinant(Mat3(instance.to_world)) < 0.0f);
 }
 
@@ -177,6 +216,17 @@ inline void WorldGeometry::place_vertices(const Mesh& mesh, const Mat4& to_world
         const float length = glm::length(n);
         normals_.push_back(length > 0.0f ? n / length : Vec3(0.0f));
     }
+}
+
+/// The arrays begin with the first mesh that needs them, and then are as long as the positions.
+inline void WorldGeometry::place_attributes(const Mesh& mesh) {
+    const auto place = [&]<class T>(const std::vector<T>& from, std::vector<T>& to, T otherwise) {
+        if (from.empty() && to.empty()) return;
+        to.resize(positions_.size() - from.size(), otherwise);
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    place(mesh.texture_coordinates, texture_coordinates_, Vec2(0.0f));
+    place(mesh.colors, colors_, Rgb{1.0f, 1.0f, 1.0f});
 }
 
 inline void WorldGeometry::place_triangles(const Mesh& mesh, std::uint32_t first_vertex,

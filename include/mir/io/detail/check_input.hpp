@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/io/scene_report.hpp"
+#include "mir/scene/texture_image.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -41,6 +42,15 @@ inline float unit_factor(double value, const char* what, const std::string& plac
     if (narrow >= 0.0f && narrow <= 1.0f) return narrow;
     ++report.ignored[std::string(what) + " outside 0..1 (clamped)"];
     return narrow < 0.0f ? 0.0f : 1.0f;
+}
+
+/// A colour of three sRGB codes of 0..1.
+inline Rgb linear_color(double r, double g, double b, const char* what, const std::string& place,
+                        SceneReport& report) {
+    const auto channel = [&](double code) {
+        return srgb_to_linear(double{unit_factor(code, what, place, report)});
+    };
+    return {channel(r), channel(g), channel(b)};
 }
 
 }  // namespace mir::detail

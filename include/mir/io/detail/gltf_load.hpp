@@ -39,8 +39,10 @@ inline bool gltf_read_file(Bytes* out, std::string*, const std::string& name, vo
     return true;
 }
 
-inline bool accept_any_image(tinygltf::Image*, const int, std::string*, std::string*, int, int,
-                             const unsigned char*, int, void*) {
+/// Decodes nothing: most images may not be needed. What stands in the JSON is kept as it is.
+inline bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                       const unsigned char* bytes, int size, void*) {
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
     return true;
 }
 
@@ -103,11 +105,10 @@ inline std::pair<Bytes, unsigned int> read_gltf_bytes(const std::filesystem::pat
 
 /// Parses a .gltf with its buffers or a .glb. Ranges and indices are not checked yet.
 /// @throws Error(invalid_input), Error(unsupported) or Error(limit_exceeded).
-inline tinygltf::Model load_gltf_model(const std::filesystem::path& path, const Limits& limits) {
-    FileBudget budget(limits);
+inline tinygltf::Model load_gltf_model(const std::filesystem::path& path, FileBudget& budget) {
     const auto [bytes, size] = read_gltf_bytes(path, budget);
     tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(&accept_any_image, nullptr);
+    loader.SetImageLoader(&keep_image, nullptr);
     loader.SetFsCallbacks({&gltf_file_exists, &tinygltf::ExpandFilePath, &gltf_read_file,
                            &tinygltf::WriteWholeFile, &budget});
     const std::string folder = std::filesystem::absolute(path).parent_path().string();

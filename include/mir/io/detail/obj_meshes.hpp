@@ -4,6 +4,7 @@
 #include "mir/io/detail/obj_text.hpp"
 #include "mir/io/detail/polygon.hpp"
 #include "mir/io/detail/unit_direction.hpp"
+#include "mir/io/detail/unknown_surface.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <tiny_obj_loader.h>
@@ -109,7 +110,7 @@ inline ObjMeshes::Corner ObjMeshes::corner_of(const tinyobj::index_t& index) con
 inline std::uint32_t ObjMeshes::material() {
     if (material_) return *material_;
     if (!default_material_)
-        default_material_ = scene_.add(lambertian("OBJ default", {0.8f, 0.8f, 0.8f}));
+        default_material_ = scene_.add(unknown_surface("OBJ default", text_.has_colors()));
     return *default_material_;
 }
 
@@ -131,6 +132,7 @@ inline std::uint32_t ObjMeshes::vertex_of(Part& part, const Corner& corner) {
     if (!is_new) return at->second;
     check_limit(++vertices_, limits_.vertices, "vertices");
     mesh.positions.push_back(text_.positions()[static_cast<std::size_t>(corner.vertex)]);
+    mesh.colors.push_back(text_.colors()[static_cast<std::size_t>(corner.vertex)]);
     mesh.normals.push_back(
         corner.normal < 0
             ? Vec3(0.0f)
@@ -171,6 +173,7 @@ inline void ObjMeshes::finish() {
         bool has_normals = false;
         for (Vec3 n : mesh.normals) has_normals = has_normals || n != Vec3(0.0f);
         if (!has_normals) mesh.normals.clear();
+        if (!text_.has_colors()) mesh.colors.clear();
         scene_.place(std::move(mesh));
     }
     parts_.clear();

@@ -27,6 +27,9 @@ class ObjText : public std::streambuf {
 
     [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
     [[nodiscard]] const std::vector<Vec3>& normals() const { return normals_; }
+    /// Of the vertices, linear; all white when has_colors() is false.
+    [[nodiscard]] const std::vector<Rgb>& colors() const { return colors_; }
+    [[nodiscard]] bool has_colors() const { return has_colors_; }
     [[nodiscard]] std::size_t texture_coordinates() const { return texture_coordinates_; }
 
     /// Names behind the last "mtllib".
@@ -51,7 +54,9 @@ class ObjText : public std::streambuf {
     const Limits& limits_;
     SceneReport& report_;
     std::vector<Vec3> positions_;
+    std::vector<Rgb> colors_;
     std::vector<Vec3> normals_;
+    bool has_colors_ = false;
     std::size_t texture_coordinates_ = 0;
     std::size_t at_ = 0;
     std::size_t line_ = 0;
@@ -132,7 +137,10 @@ inline void ObjText::vertex(std::string_view numbers) {
     const std::size_t count = read(numbers, "a vertex", n);
     check_limit(positions_.size() + 1, limits_.vertices, "vertices");
     positions_.emplace_back(n[0], n[1], n[2]);
-    if (count >= 6) ignore("vertex colours");
+    colors_.push_back({1.0f, 1.0f, 1.0f});
+    if (count < 6) return;
+    has_colors_ = true;
+    colors_.back() = linear_color(n[3], n[4], n[5], "vertex colour", place(), report_);
 }
 
 inline void ObjText::normal(std::string_view numbers) {

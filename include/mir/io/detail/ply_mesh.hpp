@@ -17,6 +17,12 @@
 
 namespace mir::detail {
 
+/// The code of a full channel: colours are whole numbers of 8 or 16 bits, or shares.
+constexpr double ply_white(PlyType type) {
+    if (type == PlyType::float32 || type == PlyType::float64) return 1.0;
+    return ply_size(type) == 2 ? 65535.0 : 255.0;
+}
+
 /// Converts the elements of one PLY file to a mesh.
 class PlyMesh {
  public:
@@ -48,7 +54,8 @@ class PlyMesh {
 
  private:
     /// What the numbers of a vertex mean, in the order of Slots.
-    static constexpr std::array<std::string_view, 6> slot_names = {"x", "y", "z", "nx", "ny", "nz"};
+    static constexpr std::array<std::string_view, 9> slot_names = {
+        "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"};
     using Slots = std::array<double, slot_names.size()>;
     static constexpr std::size_t no_slot = slot_names.size();
 
@@ -110,6 +117,7 @@ inline std::vector<std::size_t> PlyMesh::slots_of(const PlyElement& vertex) {
                 "element 'vertex' lacks one of the properties x, y and z (so there is no "
                 "place); export it again");
     if (has[3] && has[4] && has[5]) mesh_.normals.reserve(vertex.count);
+    if (has[6] && has[7] && has[8]) mesh_.colors.reserve(vertex.count);
     return slots;
 }
 
@@ -117,6 +125,7 @@ inline void PlyMesh::read_vertices(const PlyElement& element) {
     check_limit(element.count, limits_.vertices, "vertices");
     const std::vector<std::size_t> slots = slots_of(element);
     const bool has_normals = mesh_.normals.capacity() > 0;
+    const bool has_colors = mesh_.colors.capacity() > 0;
     mesh_.positions.reserve(element.count);
     for_each(element, [&] {
         Slots v{};
@@ -125,10 +134,13 @@ inline void PlyMesh::read_vertices(const PlyElement& element) {
             if (slots[k] == no_slot)
                 skip(p);
             else
-                v[slots[k]] = checked_float(values_.next(p.type), p.name.c_str(), "");
+                v[slots[k]] = checked_float(values_.next(p.type), p.name.c_str(), "") /
+                              (slots[k] >= 6 ? ply_white(p.type) : 1.0);
         }
         mesh_.positions.emplace_back(v[0], v[1], v[2]);
         if (has_normals) mesh_.normals.push_back(unit_direction(Vec3(v[3], v[4], v[5])));
+        if (has_colors)
+            mesh_.colors.push_back(linear_color(v[6], v[7], v[8], "vertex colour", "", report_));
     });
 }
 
