@@ -47,13 +47,12 @@ Parsed parse(int argc, char** argv) {
     CompareOptions compare;
     DevicesOptions devices;
 
-    CLI::App app{"Metropolis Instant Radiosity: renders a glTF scene with virtual point lights",
-                 "mir"};
+    CLI::App app{"Metropolis Instant Radiosity: renders a scene with virtual point lights", "mir"};
     app.set_version_flag("--version", [] {
         return std::string("mir ") + mir::version + " (" + mir::cpu::description() + ")";
     });
     app.require_subcommand(1);
-    const std::string scene = "glTF file (.gltf, .glb) or builtin:NAME";
+    const std::string scene = "file (.gltf, .glb, .obj, .ply) or builtin:NAME";
 
     CLI::App* r = app.add_subcommand("render", "Render a scene to EXR and PNG");
     r->add_option("scene", render.scene, scene)->required();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "load_scene.hpp"
 
-#include "mir/io/gltf_reader.hpp"
+#include "mir/io/scene_reader.hpp"
 #include "mir/scene/builtin.hpp"
 
 #include <filesystem>
@@ -21,7 +21,7 @@ SceneAndReport load_builtin(const std::string& name) {
 }
 
 SceneAndReport load_file(const std::string& name, const mir::Limits& limits) {
-    mir::LoadedScene loaded = mir::read_gltf(name, limits);
+    mir::LoadedScene loaded = mir::read_scene(name, limits);
     return {std::move(loaded.scene), std::move(loaded.report)};
 }
 

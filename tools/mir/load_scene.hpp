@@ -14,7 +14,7 @@ struct SceneAndReport {
     mir::SceneReport report;
 };
 
-/// Loads `builtin:NAME` or a glTF file.
+/// Loads `builtin:NAME` or a file of one of the formats that read_scene() knows.
 /// @throws mir::Error(invalid_input) for whatever is wrong with it, limits included.
 SceneAndReport load_scene(const std::string& name, const mir::Limits& limits = {});
 

@@ -27,8 +27,8 @@ constexpr Structures plain{"kdtree", true, false};
 constexpr Structures both{"kdtree+shafts", true, true};
 constexpr Structures hierarchy{"bvh", false, true};
 
-/// Luxels times VPLs from which a kd-tree, which single rays walk faster, is worth the time that the
-/// host takes to build it (docs/performance.md, "A whole frame"). Bits are the same.
+/// Luxels times VPLs from which a kd-tree, which single rays walk faster, is worth the time that
+/// the host takes to build it (docs/performance.md, "A whole frame"). Bits are the same.
 constexpr double kd_tree_pays = 13e9;
 
 double pairs(const RenderSettings& settings) {

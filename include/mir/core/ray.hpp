@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/math.hpp"
+#include "mir/core/rgb.hpp"
 
 namespace mir {
 
@@ -21,6 +21,11 @@ struct SurfacePoint {
     std::uint32_t triangle = 0;  ///< index into WorldGeometry
     std::uint32_t material = 0;  ///< index into Scene::materials
     bool front = true;
+    Vec2 texture_coordinates{0};
+    Rgb color{1.0f, 1.0f, 1.0f};  ///< of the vertices; multiplies the base colour
+    /// In the triangle's plane along rising u, not unit; zero where textures have no direction.
+    Vec3 tangent{0};
+    bool mirrored_texture = false;  ///< u, v and the front's normal are left-handed with v up
 };
 
 /// Lifts a point off its surface by `offset` metres along the unit normal of the side it is seen

@@ -8,22 +8,13 @@
 #include "mir/io/detail/gltf_load.hpp"
 #include "mir/io/detail/gltf_materials.hpp"
 #include "mir/io/detail/gltf_meshes.hpp"
-#include "mir/io/scene_report.hpp"
-#include "mir/scene/scene.hpp"
+#include "mir/io/loaded_scene.hpp"
 
-#include <exception>
+#include <cstddef>
 #include <filesystem>
-#include <new>
-#include <string>
 #include <vector>
 
 namespace mir {
-
-/// A scene from a file, and what was found and left out on the way.
-struct LoadedScene {
-    Scene scene;
-    SceneReport report;
-};
 
 namespace detail {
 
@@ -46,9 +37,10 @@ inline void note_unused_of_file(const tinygltf::Model& model, SceneReport& repor
     }
 }
 
-inline void place_everything(const tinygltf::Model& model, const Limits& limits,
-                             LoadedScene& loaded) {
-    const auto parts = GltfMeshes(model, limits, loaded.scene, loaded.report).convert_all();
+inline void place_everything(const tinygltf::Model& model, const std::vector<int>& coordinates,
+                             const Limits& limits, LoadedScene& loaded) {
+    const auto parts =
+        GltfMeshes(model, coordinates, limits, loaded.scene, loaded.report).convert_all();
     GltfInstances instances(model, parts, limits, loaded.scene);
     for (const PlacedNode& placed : placed_nodes(model, loaded.report)) {
         const tinygltf::Node& node = model.nodes[placed.node];
@@ -62,15 +54,22 @@ inline void place_everything(const tinygltf::Model& model, const Limits& limits,
     }
 }
 
-inline LoadedScene convert_gltf(const tinygltf::Model& model, const Limits& limits) {
+inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& limits) {
+    FileBudget budget(limits);
+    const tinygltf::Model model = load_gltf_model(path, budget);
     check_ranges(model);
     LoadedScene loaded;
     const std::size_t chosen =
         model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
     if (chosen < model.scenes.size()) loaded.scene.name = model.scenes[chosen].name;
-    GltfMaterials materials(model, loaded.report);
-    for (std::size_t i = 0; i < model.materials.size(); ++i) loaded.scene.add(materials.convert(i));
-    place_everything(model, limits, loaded);
+    GltfImages images(model, path.parent_path(), budget, limits, loaded.scene, loaded.report);
+    GltfMaterials materials(model, images, loaded.report);
+    std::vector<int> coordinates;
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        loaded.scene.add(materials.convert(i));
+        coordinates.push_back(materials.coordinates());
+    }
+    place_everything(model, coordinates, limits, loaded);
     note_unused_of_file(model, loaded.report);
     count_scene(loaded.scene, loaded.report);
     return loaded;
@@ -80,8 +79,9 @@ inline LoadedScene convert_gltf(const tinygltf::Model& model, const Limits& limi
 
 /// Reads a glTF 2.0 scene, .gltf with its buffers or .glb. Each primitive becomes a mesh, named
 /// after its mesh (and its number where a mesh has several). emissiveFactor x emissiveStrength is
-/// radiance; punctual lights give candela as W/sr and lux as W/m^2. A scene without light or camera
-/// is no error: the report says so. Textures, alpha and environments are not read; the report
+/// radiance; punctual lights give candela as W/sr and lux as W/m^2; what is unlit shines with its
+/// base colour. Images are PNG or JPEG; their textures and vertex colours are read. A scene without
+/// light or camera is no error: the report says so. Alpha and environments are not read; the report
 /// counts them. Thread-safe for different or equal files.
 /// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules;
 ///         Error(unsupported) when it requires an extension that is not known;
@@ -89,25 +89,7 @@ inline LoadedScene convert_gltf(const tinygltf::Model& model, const Limits& limi
 ///         Each message reads "FILE: PLACE: problem (why); remedy".
 /// Source: Khronos glTF 2.0 specification, version 2.0.1.
 inline LoadedScene read_gltf(const std::filesystem::path& path, const Limits& limits = {}) {
-    const auto repeat = [&](ErrorCode code, const std::string& what, Where at) {
-        const std::string file = path.string();
-        return Error(code, what.rfind(file, 0) == 0 ? what : file + ": " + what, at);
-    };
-    try {
-        return detail::convert_gltf(detail::load_gltf_model(path, limits), limits);
-    } catch (const Error& error) {
-        throw repeat(error.code(), error.what(), error.where());
-    } catch (const std::bad_alloc&) {
-        throw repeat(ErrorCode::limit_exceeded,
-                     "there is not enough memory to read it (or it declares absurd sizes); use a "
-                     "smaller scene",
-                     Where::here());
-    } catch (const std::exception& error) {
-        throw repeat(ErrorCode::invalid_input,
-                     std::string("it is no valid glTF 2.0 file (") + error.what() +
-                         "); repair or export it again",
-                     Where::here());
-    }
+    return detail::naming_file(path, "glTF 2.0", [&] { return detail::load_gltf(path, limits); });
 }
 
 }  // namespace mir

@@ -70,14 +70,16 @@ struct PathWorld {
         if (!find(ray, p)) return false;
         vertex = {lift(p.position, p.geometric_normal, geometry.ray_offset),
                   p.geometric_normal,
-                  p.shading_normal,
+                  surfaces.shading_normal(p, -ray.direction),
                   p.barycentrics,
                   p.triangle,
                   p.material};
         return true;
     }
-    [[nodiscard]] MIR_HD const typename B::Params& params(const PathVertex& v) const {
-        return surfaces.params(v.material);
+    [[nodiscard]] MIR_HD typename B::Params params(const PathVertex& v) const {
+        if (geometry.texture_coordinates == nullptr && geometry.colors == nullptr)
+            return surfaces.params(v.material);
+        return surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics));
     }
 
  private:

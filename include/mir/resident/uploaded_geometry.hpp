@@ -16,12 +16,19 @@ class UploadedGeometry {
           normals_(backend, queue, geometry.normals()),
           triangles_(backend, queue, geometry.triangles()),
           materials_(backend, queue, geometry.materials()),
+          texture_coordinates_(backend, queue, geometry.texture_coordinates()),
+          colors_(backend, queue, geometry.colors()),
           ray_offset_(geometry.ray_offset()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
     [[nodiscard]] GeometryView<B::space> view() const {
-        return {positions_.data(), normals_.data(), triangles_.data(), materials_.data(),
-                ray_offset_};
+        return {positions_.data(),
+                normals_.data(),
+                triangles_.data(),
+                materials_.data(),
+                ray_offset_,
+                texture_coordinates_.size() == 0 ? nullptr : texture_coordinates_.data(),
+                colors_.size() == 0 ? nullptr : colors_.data()};
     }
 
  private:
@@ -29,6 +36,8 @@ class UploadedGeometry {
     UploadedArray<B, Vec3> normals_;
     UploadedArray<B, TriangleIndices> triangles_;
     UploadedArray<B, std::uint32_t> materials_;
+    UploadedArray<B, Vec2> texture_coordinates_;
+    UploadedArray<B, Rgb> colors_;
     float ray_offset_;
 };
 

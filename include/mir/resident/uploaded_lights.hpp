@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/resident/uploaded_array.hpp"
+#include "mir/resident/uploaded_textures.hpp"
 #include "mir/scene/light_table.hpp"
 
 namespace mir {
@@ -17,6 +17,7 @@ class UploadedLights {
           lamps_(backend, queue, lights.lamps()),
           cumulative_(backend, queue, lights.by_power().cumulative()),
           cumulative_emitters_(backend, queue, lights.emitters().cumulative()),
+          textures_(backend, queue, lights.textures()),
           values_(lights.view()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
@@ -29,7 +30,8 @@ class UploadedLights {
                 {cumulative_.data(), values_.by_power.size, values_.by_power.total},
                 {cumulative_emitters_.data(), values_.emitters.size, values_.emitters.total},
                 values_.centre,
-                values_.radius};
+                values_.radius,
+                textures_.view()};
     }
 
  private:
@@ -38,6 +40,7 @@ class UploadedLights {
     UploadedArray<B, LampEntry> lamps_;
     UploadedArray<B, double> cumulative_;
     UploadedArray<B, double> cumulative_emitters_;
+    UploadedTextures<B> textures_;
     LightTableView<Space::host> values_;  ///< of which only the values are used
 };
 

@@ -158,11 +158,13 @@ bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bo
     const float offset = world_.geometry.ray_offset();
     const auto point = world_.caster.closest_hit(light.ray);
     if (!point || is_black(light.power)) return false;
-    const Arrival<B> at{*point, -light.ray.direction, light.power * (1.0f / survival)};
+    Arrival<B> at{*point, -light.ray.direction, light.power * (1.0f / survival)};
+    const SurfaceTableView<Space::host, B> surfaces = world_.surfaces.view();
+    at.point.shading_normal = surfaces.shading_normal(*point, at.towards_light);
     const Vec2 uv = numbers.next_2d();
     const BsdfSample sample =
-        B::sample(world_.surfaces.params(point->material), point->shading_normal, at.towards_light,
-                  uv, numbers.next());
+        B::sample(surfaces.params(point->material, attributes_of(*point)), at.point.shading_normal,
+                  at.towards_light, uv, numbers.next());
     const Vpl vpl = reflective_vpl(at, sample.weight, offset);
     if (!is_black(vpl.intensity))
         path.push_back({vpl,

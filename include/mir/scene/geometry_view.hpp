@@ -7,6 +7,17 @@
 
 namespace mir {
 
+/// What vertices say about a point of their triangle besides its place.
+struct VertexAttributes {
+    Vec2 texture_coordinates{0};
+    Rgb color{1.0f, 1.0f, 1.0f};
+};
+
+/// Those that a surface point was given.
+[[nodiscard]] MIR_HD inline VertexAttributes attributes_of(const SurfacePoint& p) {
+    return {p.texture_coordinates, p.color};
+}
+
 /// What kernels read of a WorldGeometry: turns the answers of ray engines (triangle, barycentrics)
 /// into surface points, with the same bits on host and device. A view; thread-safe.
 template <Space S>
@@ -16,8 +27,10 @@ struct GeometryView {
     const Vec3* positions = nullptr;  ///< of vertices, metres
     const Vec3* normals = nullptr;    ///< of vertices, unit; zero where there is none
     const TriangleIndices* triangles = nullptr;
-    const std::uint32_t* materials = nullptr;  ///< of triangles
-    float ray_offset = 0.0f;                   ///< WorldGeometry::ray_offset(), metres
+    const std::uint32_t* materials = nullptr;   ///< of triangles
+    float ray_offset = 0.0f;                    ///< WorldGeometry::ray_offset(), metres
+    const Vec2* texture_coordinates = nullptr;  ///< of vertices; nullptr: no mesh has any
+    const Rgb* colors = nullptr;                ///< of vertices; nullptr: all are white
 
     /// Corner `k` (0..2) of a triangle, metres.
     [[nodiscard]] MIR_HD Vec3 corner(std::uint32_t triangle, std::uint32_t k) const {
@@ -39,11 +52,46 @@ struct GeometryView {
         return glm::normalize(area_vector(triangle));
     }
 
+    /// At barycentrics of the second and third corner.
+    [[nodiscard]] MIR_HD VertexAttributes attributes(std::uint32_t triangle,
+                                                     Vec2 barycentrics) const;
+
     /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
     /// travels along `direction`.
     [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
                                                     Vec3 direction) const;
+
+ private:
+    MIR_HD void set_texture_frame(SurfacePoint& p) const;
 };
+
+template <Space S>
+MIR_HD VertexAttributes GeometryView<S>::attributes(std::uint32_t triangle,
+                                                    Vec2 barycentrics) const {
+    const TriangleIndices& t = triangles[triangle];
+    const float u = barycentrics.x;
+    const float v = barycentrics.y;
+    const float w = 1.0f - u - v;
+    VertexAttributes a;
+    if (texture_coordinates != nullptr)
+        a.texture_coordinates = w * texture_coordinates[t[0]] + u * texture_coordinates[t[1]] +
+                                v * texture_coordinates[t[2]];
+    if (colors != nullptr) a.color = w * colors[t[0]] + u * colors[t[1]] + v * colors[t[2]];
+    return a;
+}
+
+template <Space S>
+MIR_HD void GeometryView<S>::set_texture_frame(SurfacePoint& p) const {
+    const TriangleIndices& t = triangles[p.triangle];
+    const Vec3 first = positions[t[1]] - positions[t[0]];
+    const Vec3 second = positions[t[2]] - positions[t[0]];
+    const Vec2 a = texture_coordinates[t[1]] - texture_coordinates[t[0]];
+    const Vec2 b = texture_coordinates[t[2]] - texture_coordinates[t[0]];
+    // Images count v downwards: a map that is not mirrored turns the other way than the triangle.
+    const float turn = a.x * b.y - a.y * b.x;
+    p.mirrored_texture = turn > 0.0f;
+    p.tangent = (turn > 0.0f ? 1.0f : -1.0f) * (b.y * first - a.y * second);
+}
 
 template <Space S>
 MIR_HD SurfacePoint GeometryView<S>::surface_point(std::uint32_t triangle, Vec2 barycentrics,
@@ -66,6 +114,10 @@ MIR_HD SurfacePoint GeometryView<S>::surface_point(std::uint32_t triangle, Vec2 
     if (glm::dot(p.shading_normal, p.geometric_normal) < 0.0f) p.shading_normal = -p.shading_normal;
     // At silhouettes the smooth normal may turn away from the ray: shading would be undefined.
     if (glm::dot(p.shading_normal, direction) >= 0.0f) p.shading_normal = p.geometric_normal;
+    const VertexAttributes own = attributes(triangle, barycentrics);
+    p.texture_coordinates = own.texture_coordinates;
+    p.color = own.color;
+    if (texture_coordinates != nullptr) set_texture_frame(p);
     return p;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/scene/light_table_view.hpp"
+#include "mir/scene/texture_table.hpp"
 #include "mir/scene/world_geometry.hpp"
 
 #include <optional>
@@ -27,7 +28,7 @@ class LightTable {
     [[nodiscard]] std::span<const std::uint32_t> emissive_triangles() const { return triangles_; }
 
     /// Luminance of the power emitted by everything, W. Directional lights count what passes the
-    /// bounding sphere of the scene.
+    /// bounding sphere of the scene, textured lamps the mean of their image wherever it is seen.
     [[nodiscard]] double power() const { return by_power_.total(); }
 
     /// True when emissive triangles exist, so that sample_emitter() may be called.
@@ -75,7 +76,8 @@ class LightTable {
                 by_power_.view(),
                 emitters_.view(),
                 centre(),
-                radius()};
+                radius(),
+                textures_.view()};
     }
     /// The arrays of view().
     [[nodiscard]] std::span<const DeltaSource> delta_sources() const { return delta_sources_; }
@@ -84,6 +86,7 @@ class LightTable {
     [[nodiscard]] const DiscreteDistribution& emitters() const { return emitters_; }
     /// Where the emissive triangles are.
     [[nodiscard]] const WorldGeometry& geometry() const { return *geometry_; }
+    [[nodiscard]] const TextureTable& textures() const { return textures_; }
 
  private:
     void add_triangles(std::vector<float>& power);
@@ -91,6 +94,7 @@ class LightTable {
 
     const Scene* scene_;
     const WorldGeometry* geometry_;
+    TextureTable textures_;
     std::vector<std::uint32_t> triangles_;
     std::vector<DeltaSource> delta_sources_;
     std::vector<LampEntry> lamps_;
@@ -107,6 +111,20 @@ inline void check_emission(Rgb value, const std::string& what, const std::string
                                               "(it cannot be sampled); repair its emission");
 }
 
+/// Radiance of a material as far as it does not depend on the place: a texture counts by its mean.
+inline Rgb mean_emission(const Scene& scene, const Material& m) {
+    const Texture& texture = m.textures.emission;
+    if (!m.emits() || !texture.is_set()) return m.emission;
+    return m.emission * mean_of(scene.images[texture.image], TexelEncoding::srgb);
+}
+
+/// The images of a scene where lamps use any: a device holds them once more for the lights.
+inline TextureTable lamp_textures(const Scene& scene) {
+    for (const Material& m : scene.materials)
+        if (m.emits() && m.textures.emission.is_set()) return TextureTable(scene);
+    return {};
+}
+
 /// int over the sphere of the falloff of a spot light, sr: the smooth ring integrates to a third.
 inline float spot_solid_angle(const SpotLight& s) {
     return 2.0f * pi * ((1.0f - s.cos_inner) + (s.cos_inner - s.cos_outer) / 3.0f);
@@ -115,10 +133,10 @@ inline float spot_solid_angle(const SpotLight& s) {
 }  // namespace detail
 
 inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
-    : scene_(&scene), geometry_(&geometry) {
+    : scene_(&scene), geometry_(&geometry), textures_(detail::lamp_textures(scene)) {
     for (const Material& m : scene.materials) {
         detail::check_emission(m.emission, "material", m.name);
-        lamps_.push_back({m.emission, m.emits_from_both_sides, m.light_group});
+        lamps_.push_back({m.emission, m.emits_from_both_sides, m.light_group, m.textures.emission});
     }
     for (const PointLight& l : scene.point_lights)
         detail::check_emission(l.intensity, "point light", l.name);
@@ -134,12 +152,16 @@ inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
 }
 
 inline void LightTable::add_triangles(std::vector<float>& power) {
+    std::vector<Rgb> radiance;
+    for (const Material& m : scene_->materials)
+        radiance.push_back(detail::mean_emission(*scene_, m));
     for (std::uint32_t t = 0; t < geometry_->triangles().size(); ++t) {
         const Material& m = scene_->materials[geometry_->material_of(t)];
         if (!m.emits()) continue;
         const float sides = m.emits_from_both_sides ? 2.0f : 1.0f;
         triangles_.push_back(t);
-        power.push_back(luminance(m.emission) * pi * geometry_->area(t) * sides);
+        power.push_back(luminance(radiance[geometry_->material_of(t)]) * pi * geometry_->area(t) *
+                        sides);
     }
 }
 

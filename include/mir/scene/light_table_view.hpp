@@ -5,6 +5,7 @@
 #include "mir/core/warp.hpp"
 #include "mir/scene/geometry_view.hpp"
 #include "mir/scene/light.hpp"
+#include "mir/scene/texture_view.hpp"
 
 namespace mir {
 
@@ -44,6 +45,7 @@ struct LampEntry {
     Rgb radiance;  ///< W m^-2 sr^-1
     bool both_sides = false;
     std::uint16_t light_group = 0;
+    Texture texture{};  ///< multiplies the radiance
 };
 
 /// What kernels read of a LightTable. Lights are counted as there: first emissive triangles, then
@@ -64,6 +66,7 @@ struct LightTableView {
     DiscreteDistributionView<S> emitters;  ///< of emissive triangles alone, by power
     Vec3 centre{0};                        ///< of the scene's bounding sphere, metres
     float radius = 0.0f;                   ///< of the scene's bounding sphere, metres
+    TextureView<S> textures{};             ///< of the lamps
 
     [[nodiscard]] MIR_HD bool empty() const { return by_power.empty(); }
     /// Luminance of the power emitted by everything, W.
@@ -113,6 +116,11 @@ struct LightTableView {
         s.normal = geometry.front_normal(t);
         s.position = geometry.surface_point(t, s.barycentrics, -s.normal).position;
         s.radiance = lamp.radiance;
+        if (lamp.texture.is_set())
+            s.radiance = s.radiance *
+                         textures.color(lamp.texture,
+                                        geometry.attributes(t, s.barycentrics).texture_coordinates,
+                                        TexelEncoding::srgb);
         s.pdf_area = 1.0f / geometry.area(t);
         s.both_sides = lamp.both_sides;
         s.light_group = lamp.light_group;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/rgb.hpp"
+#include "mir/scene/material_factors.hpp"
+#include "mir/scene/texture.hpp"
 
 #include <string>
 
@@ -20,8 +21,13 @@ struct Material {
     Rgb emission;                      ///< radiance of the front, W m^-2 sr^-1
     bool emits_from_both_sides = false;
     std::uint16_t light_group = 0;  ///< group that its light is counted in
+    MaterialTextures textures;      ///< multiply what stands above, point by point
 
     [[nodiscard]] bool emits() const { return !is_black(emission); }
+    /// How it reflects without textures and vertex colours.
+    [[nodiscard]] MaterialFactors factors() const {
+        return {base_color, metallic, roughness, specular, ior};
+    }
     [[nodiscard]] bool is_lambertian() const { return metallic == 0.0f && specular == 0.0f; }
 };
 

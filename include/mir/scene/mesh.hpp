@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/math.hpp"
+#include "mir/core/rgb.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,10 @@ struct Mesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  ///< unit, one per position; empty: the triangles are flat
     std::vector<TriangleIndices> triangles;
-    std::uint32_t material = 0;  ///< index into Scene::materials
+    std::uint32_t material = 0;             ///< index into Scene::materials
+    std::vector<Vec2> texture_coordinates;  ///< one per position; empty: no texture is used
+    std::vector<Rgb> colors;  ///< linear, 0..1, one per position; they multiply the base colour;
+                              ///< empty: white
 };
 
 /// A mesh placed in the world. A mirroring transform keeps the front of the mesh in front.

@@ -5,6 +5,7 @@
 #include "mir/scene/light.hpp"
 #include "mir/scene/material.hpp"
 #include "mir/scene/mesh.hpp"
+#include "mir/scene/texture_image.hpp"
 
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<Material> materials;
+    std::vector<TextureImage> images;  ///< of the textures of materials
     std::vector<PointLight> point_lights;
     std::vector<SpotLight> spot_lights;
     std::vector<DirectionalLight> directional_lights;

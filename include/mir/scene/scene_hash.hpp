@@ -24,12 +24,18 @@ class SceneHash {
             add_all(m.normals);
             add_all(m.triangles);
             add(m.material);
+            if (!m.texture_coordinates.empty()) add_all(m.texture_coordinates);
+            if (!m.colors.empty()) add_all(m.colors);
         }
         for (const Instance& i : scene.instances) {
             add(i.mesh);
             add(i.to_world);
         }
         for (const Material& m : scene.materials) add_material(m);
+        for (const TextureImage& i : scene.images) {
+            add_each(i.width, i.height);
+            add_all(i.texels);
+        }
         for (const PointLight& l : scene.point_lights)
             add_each(l.position, l.intensity, l.light_group);
         for (const SpotLight& l : scene.spot_lights)
@@ -70,6 +76,15 @@ class SceneHash {
     void add_material(const Material& m) {
         add_each(m.base_color, m.metallic, m.roughness, m.specular, m.ior, m.emission,
                  m.emits_from_both_sides, m.light_group);
+        const MaterialTextures& t = m.textures;
+        int part = 0;
+        for (const Texture& x : {t.base_color, t.metallic_roughness, t.normal, t.emission}) {
+            ++part;
+            if (x.is_set())
+                add_each(part, x.image, x.wrap_u, x.wrap_v, x.nearest, x.u_axis, x.v_axis,
+                         x.offset);
+        }
+        if (t.normal.is_set()) add(t.normal_scale);
     }
 
     std::uint64_t state_ = 0xcbf29ce484222325ull;

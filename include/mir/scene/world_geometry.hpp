@@ -45,13 +45,22 @@ class WorldGeometry {
 
     /// What kernels on the host read; valid until the geometry is moved or ends.
     [[nodiscard]] GeometryView<Space::host> view() const {
-        return {positions_.data(), normals_.data(), triangles_.data(), materials_.data(),
-                ray_offset_};
+        return {positions_.data(),
+                normals_.data(),
+                triangles_.data(),
+                materials_.data(),
+                ray_offset_,
+                texture_coordinates_.empty() ? nullptr : texture_coordinates_.data(),
+                colors_.empty() ? nullptr : colors_.data()};
     }
 
     [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
     /// Unit normals of the vertices, zero where their mesh has none.
     [[nodiscard]] std::span<const Vec3> normals() const { return normals_; }
+    /// Of the vertices, zero where their mesh has none; empty when no mesh has any.
+    [[nodiscard]] std::span<const Vec2> texture_coordinates() const { return texture_coordinates_; }
+    /// Of the vertices, white where their mesh has none; empty when no mesh has any.
+    [[nodiscard]] std::span<const Rgb> colors() const { return colors_; }
     [[nodiscard]] std::span<const TriangleIndices> triangles() const { return triangles_; }
     /// Material of each triangle.
     [[nodiscard]] std::span<const std::uint32_t> materials() const { return materials_; }
@@ -109,6 +118,7 @@ class WorldGeometry {
     };
 
     static Parts cut(const Scene& scene);
+    void place_attributes(const Scene& scene);
     [[nodiscard]] Bounds place_vertices(const Part& part);
     [[nodiscard]] std::uint32_t place_triangles(const Part& part);
     void close_gaps(const std::vector<Part>& parts, const std::vector<std::uint32_t>& kept);
@@ -118,6 +128,8 @@ class WorldGeometry {
 
     Array<Vec3> positions_;
     Array<Vec3> normals_;  ///< zero where the mesh has none
+    std::vector<Vec2> texture_coordinates_;
+    std::vector<Rgb> colors_;
     Array<TriangleIndices> triangles_;
     Array<std::uint32_t> materials_;
     Bounds bounds_;
@@ -134,6 +146,31 @@ inline float ray_offset_of(const Bounds& bounds) {
     return larger(magnitude * 0x1p-20f, smaller(magnitude * 0x1p-16f, unseen));
 }
 
+inline void check_attributes(const Mesh& mesh) {
+    const auto check = [&](const char* what, std::size_t count, auto&& is_good) {
+        if (count == 0) return;
+        if (count != mesh.positions.size())
+            throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': it has " +
+                                                      std::to_string(count) + " " + what + " for " +
+                                                      std::to_string(mesh.positions.size()) +
+                                                      " positions; give one each or none");
+        for (std::size_t i = 0; i < count; ++i)
+            if (!is_good(i))
+                throw Error(ErrorCode::invalid_input,
+                            "mesh '" + mesh.name + "': number " + std::to_string(i) + " of its " +
+                                what + " is not finite or not a colour; repair the file");
+    };
+    check("texture coordinates", mesh.texture_coordinates.size(), [&](std::size_t i) {
+        const Vec2 uv = mesh.texture_coordinates[i];
+        return std::isfinite(uv.x) && std::isfinite(uv.y);
+    });
+    check("colors", mesh.colors.size(), [&](std::size_t i) {
+        const Rgb c = mesh.colors[i];
+        const auto is_share = [](float x) { return x >= 0.0f && x <= 1.0f; };
+        return is_share(c.r) && is_share(c.g) && is_share(c.b);
+    });
+}
+
 inline void check_mesh(const Scene& scene, const Mesh& mesh) {
     const auto fail = [&](const std::string& what) {
         throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': " + what);
@@ -144,6 +181,7 @@ inline void check_mesh(const Scene& scene, const Mesh& mesh) {
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
         fail("it has " + std::to_string(mesh.normals.size()) + " normals for " +
              std::to_string(mesh.positions.size()) + " positions; give one each or none");
+    check_attributes(mesh);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         if (!is_finite(mesh.positions[i]))
             fail("position " + std::to_string(i) +
@@ -198,6 +236,7 @@ WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& execut
         bounds_.add(bounds[i].low);
         bounds_.add(bounds[i].high);
     }
+    place_attributes(scene);
     triangles_.resize(end_of(parts.triangles));
     materials_.resize(triangles_.size());
     std::vector<std::uint32_t> kept(parts.triangles.size());
@@ -249,6 +288,24 @@ inline Bounds WorldGeometry::place_vertices(const Part& part) {
         normals_[part.to + i] = length > 0.0f ? n / length : Vec3(0.0f);
     }
     return bounds;
+}
+
+/// Arrays that some mesh needs, as long as the positions.
+inline void WorldGeometry::place_attributes(const Scene& scene) {
+    const auto place = [&]<class T>(std::vector<T> Mesh::*from, std::vector<T>& to, T otherwise) {
+        std::size_t first = 0;
+        for (const Instance& instance : scene.instances) {
+            const Mesh& mesh = scene.meshes[instance.mesh];
+            const std::vector<T>& values = mesh.*from;
+            if (!values.empty() && to.empty()) to.assign(positions_.size(), otherwise);
+            if (!values.empty())
+                std::copy(values.begin(), values.end(),
+                          to.begin() + static_cast<std::ptrdiff_t>(first));
+            first += mesh.positions.size();
+        }
+    };
+    place(&Mesh::texture_coordinates, texture_coordinates_, Vec2(0.0f));
+    place(&Mesh::colors, colors_, Rgb{1.0f, 1.0f, 1.0f});
 }
 
 /// Number of triangles that have an area; they lie at the front of the part's place.

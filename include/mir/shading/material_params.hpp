@@ -9,10 +9,14 @@ namespace mir {
 
 /// A scene material in the parameters of a Bsdf. Overloaded per model by a tag of its type.
 inline Lambert::Params material_params(const Material& m, Lambert) { return {m.base_color}; }
+/// The same for one point of a textured material. A Bsdf without such an overload sees no textures.
+MIR_HD inline Lambert::Params material_params(const MaterialFactors& m, Lambert) {
+    return {m.base_color};
+}
 
 /// Metallic-roughness parameters: f0 runs from ((ior-1)/(ior+1))^2 specular to the base colour,
 /// f90 from specular to 1, with `metallic`; alpha is roughness squared (glTF 2.0, appendix B).
-inline CookTorrance::Params material_params(const Material& m, CookTorrance) {
+MIR_HD inline CookTorrance::Params material_params(const MaterialFactors& m, CookTorrance) {
     const float r = (m.ior - 1.0f) / (m.ior + 1.0f);
     const float dielectric = r * r * m.specular;
     const auto mix = [&](float base) { return dielectric + (base - dielectric) * m.metallic; };
@@ -28,6 +32,9 @@ inline CookTorrance::Params material_params(const Material& m, CookTorrance) {
     p.diffuse = {base(m.base_color.r, p.f0.r), base(m.base_color.g, p.f0.g),
                  base(m.base_color.b, p.f0.b)};
     return p;
+}
+inline CookTorrance::Params material_params(const Material& m, CookTorrance model) {
+    return material_params(m.factors(), model);
 }
 
 }  // namespace mir

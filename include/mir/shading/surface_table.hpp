@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/scene/scene.hpp"
+#include "mir/scene/texture_table.hpp"
 #include "mir/shading/material_params.hpp"
 #include "mir/shading/surface_table_view.hpp"
 
@@ -10,20 +11,25 @@
 
 namespace mir {
 
-/// The materials of a scene in the parameters of one Bsdf. Immutable; const use from any thread.
+/// The materials of a scene in the parameters of one Bsdf. A scene with images must outlive it.
+/// Immutable; const use from any thread.
 template <Bsdf B>
 class SurfaceTable {
  public:
     using Surface = mir::Surface<typename B::Params>;
 
-    explicit SurfaceTable(const Scene& scene) {
+    /// @throws Error(invalid_input) as TextureTable does.
+    explicit SurfaceTable(const Scene& scene) : textures_(scene) {
         for (const Material& m : scene.materials)
             entries_.push_back({material_params(m, B{}), m.emission, m.emits_from_both_sides,
-                                m.is_lambertian(), mean_albedo(m)});
+                                m.is_lambertian(), mean_albedo(scene, m), m.factors(), m.textures});
     }
 
     /// What kernels on the host read; valid until the table is moved or ends.
-    [[nodiscard]] SurfaceTableView<Space::host, B> view() const { return {entries_.data()}; }
+    [[nodiscard]] SurfaceTableView<Space::host, B> view() const {
+        return {entries_.data(), textures_.view()};
+    }
+    [[nodiscard]] const TextureTable& textures() const { return textures_; }
     [[nodiscard]] std::span<const SurfaceEntry<B>> entries() const { return entries_; }
 
     /// Surface data of a point for light that leaves along the unit vector `wo`.
@@ -43,13 +49,19 @@ class SurfaceTable {
     }
 
  private:
-    static float mean_albedo(const Material& m) {
-        const CookTorrance::Params p = material_params(m, CookTorrance{});
+    static float mean_albedo(const Scene& scene, const Material& m) {
+        MaterialFactors factors = m.factors();
+        const Texture& texture = m.textures.base_color;
+        if (texture.is_set())
+            factors.base_color =
+                factors.base_color * mean_of(scene.images[texture.image], TexelEncoding::srgb);
+        const CookTorrance::Params p = material_params(factors, CookTorrance{});
         const Vec3 n(0.0f, 0.0f, 1.0f);
         const Vec3 wo(0.6f, 0.0f, 0.8f);
         return smaller(luminance(CookTorrance::albedo(p, n, wo)), 1.0f);
     }
 
+    TextureTable textures_;
     std::vector<SurfaceEntry<B>> entries_;
 };
 

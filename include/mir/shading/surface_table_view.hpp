@@ -5,17 +5,31 @@
 #include "mir/core/ray.hpp"
 #include "mir/core/space.hpp"
 #include "mir/data/luxel.hpp"
+#include "mir/scene/geometry_view.hpp"
+#include "mir/scene/texture_view.hpp"
+#include "mir/shading/material_params.hpp"
+
+#include <concepts>
 
 namespace mir {
+
+/// A Bsdf whose parameters follow textures and vertex colours: material_params() knows how one
+/// point of a material reflects.
+template <class B>
+concept TexturedBsdf = Bsdf<B> && requires(const MaterialFactors& factors) {
+    { material_params(factors, B{}) } -> std::same_as<typename B::Params>;
+};
 
 /// One material in the parameters of a Bsdf.
 template <Bsdf B>
 struct SurfaceEntry {
     typename B::Params params;
-    Rgb emission;              ///< radiance, W m^-2 sr^-1
-    bool both_sides = false;   ///< emits from the back too
-    bool lambertian = true;    ///< see Material::is_lambertian()
-    float mean_albedo = 0.0f;  ///< luminance of the reflectance at a typical angle, 0..1
+    Rgb emission;               ///< radiance, W m^-2 sr^-1
+    bool both_sides = false;    ///< emits from the back too
+    bool lambertian = true;     ///< see Material::is_lambertian()
+    float mean_albedo = 0.0f;   ///< luminance of the reflectance at a typical angle, 0..1
+    MaterialFactors factors{};  ///< what textures multiply
+    MaterialTextures textures{};
 };
 
 /// What kernels read of a SurfaceTable. A view; thread-safe.
@@ -25,19 +39,93 @@ struct SurfaceTableView {
     using Surface = mir::Surface<typename B::Params>;
 
     const SurfaceEntry<B>* entries = nullptr;  ///< by material
+    TextureView<S> textures;
 
     /// Surface data of a point for light that leaves along the unit vector `wo`.
     [[nodiscard]] MIR_HD Surface surface(const SurfacePoint& p, Vec3 wo) const {
         const SurfaceEntry<B>& e = entries[p.material];
-        return {p.shading_normal, wo, p.front || e.both_sides ? e.emission : Rgb{}, e.params};
+        return {shading_normal(p, wo), wo, p.front || e.both_sides ? emission(e, p) : Rgb{},
+                params(p.material, attributes_of(p))};
     }
 
+    /// Parameters of a point with these attributes.
+    [[nodiscard]] MIR_HD typename B::Params params(std::uint32_t material,
+                                                   const VertexAttributes& at) const;
+    /// Parameters without textures and vertex colours.
     [[nodiscard]] MIR_HD const typename B::Params& params(std::uint32_t material) const {
         return entries[material].params;
+    }
+
+    /// Unit shading normal as the normal texture bends it, on the side of the geometric one. Where
+    /// it would turn away from `wo` or the surface, the one of the vertices.
+    [[nodiscard]] MIR_HD Vec3 shading_normal(const SurfacePoint& p, Vec3 wo) const {
+        if (!entries[p.material].textures.normal.is_set()) return p.shading_normal;
+        return bent_normal(p, wo);
     }
     [[nodiscard]] MIR_HD bool is_lambertian(std::uint32_t material) const {
         return entries[material].lambertian;
     }
+
+ private:
+    [[nodiscard]] MIR_HD Rgb emission(const SurfaceEntry<B>& e, const SurfacePoint& p) const {
+        const Texture& texture = e.textures.emission;
+        if (!texture.is_set()) return e.emission;
+        return e.emission * textures.color(texture, p.texture_coordinates, TexelEncoding::srgb);
+    }
+    [[nodiscard]] MIR_HD MaterialFactors factors(const SurfaceEntry<B>& e,
+                                                 const VertexAttributes& at) const;
+    [[nodiscard]] MIR_HD Vec3 bent_normal(const SurfacePoint& p, Vec3 wo) const;
 };
+
+template <Space S, Bsdf B>
+MIR_HD typename B::Params SurfaceTableView<S, B>::params(std::uint32_t material,
+                                                         const VertexAttributes& at) const {
+    const SurfaceEntry<B>& e = entries[material];
+    if constexpr (TexturedBsdf<B>) {
+        const bool is_white = at.color.r == 1.0f && at.color.g == 1.0f && at.color.b == 1.0f;
+        if (!is_white || e.textures.changes_reflection())
+            return material_params(factors(e, at), B{});
+    }
+    return e.params;
+}
+
+template <Space S, Bsdf B>
+MIR_HD MaterialFactors SurfaceTableView<S, B>::factors(const SurfaceEntry<B>& e,
+                                                       const VertexAttributes& at) const {
+    MaterialFactors f = e.factors;
+    f.base_color = f.base_color * at.color;
+    const Texture& base = e.textures.base_color;
+    if (base.is_set())
+        f.base_color =
+            f.base_color * textures.color(base, at.texture_coordinates, TexelEncoding::srgb);
+    const Texture& interface = e.textures.metallic_roughness;
+    if (interface.is_set()) {
+        const Rgb c = textures.color(interface, at.texture_coordinates, TexelEncoding::linear);
+        f.roughness *= c.g;
+        f.metallic *= c.b;
+    }
+    return f;
+}
+
+/// Source: Khronos glTF 2.0 specification, 3.9.3 (normal textures).
+template <Space S, Bsdf B>
+MIR_HD Vec3 SurfaceTableView<S, B>::bent_normal(const SurfacePoint& p, Vec3 wo) const {
+    const SurfaceEntry<B>& e = entries[p.material];
+    const Rgb c = textures.color(e.textures.normal, p.texture_coordinates, TexelEncoding::linear);
+    const Vec3 front = p.front ? p.shading_normal : -p.shading_normal;
+    const Vec3 along = p.tangent - glm::dot(p.tangent, front) * front;
+    const float length = glm::length(along);
+    if (!(length > 0.0f)) return p.shading_normal;
+    const Vec3 x = along / length;
+    const Vec3 y = (p.mirrored_texture ? -1.0f : 1.0f) * glm::cross(front, x);
+    const float scale = e.textures.normal_scale;
+    const Vec3 bent = (2.0f * c.r - 1.0f) * scale * x + (2.0f * c.g - 1.0f) * scale * y +
+                      (2.0f * c.b - 1.0f) * front;
+    const float size = glm::length(bent);
+    if (!(size > 0.0f)) return p.shading_normal;
+    const Vec3 n = (p.front ? 1.0f : -1.0f) / size * bent;
+    const bool is_seen = glm::dot(n, wo) > 0.0f && glm::dot(n, p.geometric_normal) > 0.0f;
+    return is_seen ? n : p.shading_normal;
+}
 
 }  // namespace mir

@@ -47,7 +47,7 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
     }
 }
 
-/// Vectors of an accessor of any component type, sparse parts applied. `Vec` is Vec3 or Vec4.
+/// Vectors of an accessor of any component type, sparse parts applied. `Vec` is Vec2, Vec3 or Vec4.
 /// @throws Error(invalid_input) when the accessor holds something else.
 template <class Vec>
 std::vector<Vec> read_vectors(const tinygltf::Model& model, int index, const std::string& user) {

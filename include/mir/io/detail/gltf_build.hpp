@@ -2,7 +2,9 @@
 #pragma once
 
 #include "mir/core/frame.hpp"
+#include "mir/io/detail/gltf_build_textures.hpp"
 #include "mir/scene/scene.hpp"
+#include "mir/scene/texture_table.hpp"
 #include "mir/scene/world_geometry.hpp"
 
 #include <tiny_gltf.h>
@@ -27,6 +29,8 @@ class GltfBuilder {
         model_.asset.version = "2.0";
         model_.asset.generator = "mir";
         reserve(scene);
+        (void)TextureTable(scene);  // for its checks
+        for (const TextureImage& image : scene.images) textures_.add(image);
         for (const Material& material : scene.materials) add(material);
         for (const Mesh& mesh : scene.meshes) add(mesh);
         for (const Instance& instance : scene.instances) add(instance);
@@ -50,6 +54,8 @@ class GltfBuilder {
                             "mesh '" + mesh.name +
                                 "': it has no triangles (glTF cannot hold that); remove it");
             bytes += mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) +
+                     mesh.texture_coordinates.size() * sizeof(Vec2) +
+                     mesh.colors.size() * sizeof(Rgb) +
                      mesh.triangles.size() * sizeof(TriangleIndices);
         }
         check_instances(scene, {});
@@ -108,6 +114,17 @@ class GltfBuilder {
         if (from.ior != 1.5f)
             extend(to.extensions, "KHR_materials_ior", {{"ior", number(from.ior)}});
         keep_group(from.light_group, to.extras);
+        use_textures(from, to);
+    }
+
+    void use_textures(const Material& from, tinygltf::Material& to) {
+        const MaterialTextures& t = from.textures;
+        auto& pbr = to.pbrMetallicRoughness;
+        textures_.use(t.base_color, from.name, pbr.baseColorTexture);
+        textures_.use(t.metallic_roughness, from.name, pbr.metallicRoughnessTexture);
+        textures_.use(t.normal, from.name, to.normalTexture);
+        textures_.use(t.emission, from.name, to.emissiveTexture);
+        to.normalTexture.scale = t.normal_scale;
     }
 
     /// Appends an array to the buffer; returns its accessor.
@@ -147,6 +164,14 @@ class GltfBuilder {
         accessor.maxValues = {bounds.high.x, bounds.high.y, bounds.high.z};
         primitive.attributes["POSITION"] = positions;
         if (!from.normals.empty()) primitive.attributes["NORMAL"] = add_vectors(from.normals);
+        if (!from.texture_coordinates.empty())
+            primitive.attributes["TEXCOORD_0"] = add_array(
+                from.texture_coordinates, from.texture_coordinates.size(),
+                TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
+        if (!from.colors.empty())
+            primitive.attributes["COLOR_0"] =
+                add_array(from.colors, from.colors.size(), TINYGLTF_COMPONENT_TYPE_FLOAT,
+                          TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
         primitive.indices = add_array(from.triangles, 3 * from.triangles.size(),
                                       TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                                       TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
@@ -218,6 +243,7 @@ class GltfBuilder {
     }
 
     tinygltf::Model model_;
+    GltfTextureBuilder textures_{model_};
 };
 
 }  // namespace mir::detail

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/error.hpp"
-#include "mir/io/scene_report.hpp"
+#include "mir/io/detail/check_input.hpp"
 
 #include <tiny_gltf.h>
 
@@ -10,14 +9,13 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace mir::detail {
 
-/// Complains about one place of a file; the reader puts the file's name in front.
+/// fail_at() under the name that says where the place is one of.
 [[noreturn]] inline void gltf_fail(const std::string& place, const std::string& problem,
                                    ErrorCode code = ErrorCode::invalid_input) {
-    throw Error(code, place + ": " + problem);
+    fail_at(place, problem, code);
 }
 
 /// "node 3 'lamp'", for messages.
@@ -35,33 +33,6 @@ inline std::size_t checked_index(int index, std::size_t size, const char* kind,
     gltf_fail(place, "it names " + std::string(kind) + " " + std::to_string(index) +
                          ", which does not exist (the file has " + std::to_string(size) +
                          "); repair the index");
-}
-
-/// A finite number that fits a float.
-inline float checked_float(double value, const char* what, const std::string& place) {
-    const auto narrow = static_cast<float>(value);
-    if (!std::isfinite(narrow))
-        gltf_fail(place, std::string(what) + " is not a finite number (" + std::to_string(value) +
-                             " does not fit 32 bits); repair the value");
-    return narrow;
-}
-
-/// A finite number that is not negative.
-inline float checked_amount(double value, const char* what, const std::string& place) {
-    const float narrow = checked_float(value, what, place);
-    if (narrow < 0.0f)
-        gltf_fail(place, std::string(what) + " is negative (" + std::to_string(value) +
-                             "; light and lengths cannot be); repair the value");
-    return narrow;
-}
-
-/// A factor of 0..1. Values outside are clamped and counted: exporters round past the ends.
-inline float unit_factor(double value, const char* what, const std::string& place,
-                         SceneReport& report) {
-    const float narrow = checked_float(value, what, place);
-    if (narrow >= 0.0f && narrow <= 1.0f) return narrow;
-    ++report.ignored[std::string(what) + " outside 0..1 (clamped)"];
-    return narrow < 0.0f ? 0.0f : 1.0f;
 }
 
 /// Number under `key` of an extension or of extras, `otherwise` when it is not there.

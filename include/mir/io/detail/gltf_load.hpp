@@ -1,65 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/error.hpp"
-#include "mir/core/limits.hpp"
 #include "mir/io/detail/gltf_check.hpp"
+#include "mir/io/detail/read_file.hpp"
 
 #include <tiny_gltf.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace mir::detail {
-
-using Bytes = std::vector<unsigned char>;
-
-/// Files may be read until `budget` bytes are used up, whatever their number.
-struct GltfFiles {
-    std::uint64_t budget = 0;
-    std::uint64_t limit = 0;
-};
-
-/// @throws Error(invalid_input) naming `path`; Error(limit_exceeded) before memory is taken.
-inline Bytes read_whole_file(const std::filesystem::path& path, GltfFiles& files) {
-    const auto fail = [&](const std::string& reason) {
-        throw Error(ErrorCode::invalid_input, path.string() + ": it cannot be read (" + reason +
-                                                  "); name an existing, readable file");
-    };
-    std::error_code failure;
-    const auto status = std::filesystem::status(path, failure);
-    if (!std::filesystem::exists(status)) fail("no such file");
-    // A pipe or a device could block or never end.
-    if (!std::filesystem::is_regular_file(status)) fail("not a regular file");
-    const std::uint64_t size = std::filesystem::file_size(path, failure);
-    if (failure) fail(failure.message());
-    if (size > files.budget)
-        check_limit(size + files.limit - files.budget, files.limit, "file_bytes");
-    files.budget -= size;
-    Bytes bytes(size);
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream ||
-        !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-        fail(errno != 0 ? std::strerror(errno) : "it became shorter while it was read");
-    return bytes;
-}
 
 inline bool is_image_name(const std::filesystem::path& path) {
     constexpr std::array<std::string_view, 11> image_endings = {
         ".png", ".jpg", ".jpeg", ".webp", ".ktx", ".ktx2", ".dds", ".bmp", ".gif", ".hdr", ".exr"};
-    std::string ending = path.extension().string();
-    for (char& c : ending)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string ending = lower_case_extension(path);
     for (std::string_view known : image_endings)
         if (ending == known) return true;
     return false;
@@ -73,13 +34,15 @@ inline bool gltf_file_exists(const std::string& name, void*) {
            std::filesystem::is_regular_file(path, ignored);
 }
 
-inline bool gltf_read_file(Bytes* out, std::string*, const std::string& name, void* files) {
-    *out = read_whole_file(name, *static_cast<GltfFiles*>(files));
+inline bool gltf_read_file(Bytes* out, std::string*, const std::string& name, void* budget) {
+    *out = read_whole_file(name, *static_cast<FileBudget*>(budget));
     return true;
 }
 
-inline bool accept_any_image(tinygltf::Image*, const int, std::string*, std::string*, int, int,
-                             const unsigned char*, int, void*) {
+/// Decodes nothing: most images may not be needed. What stands in the JSON is kept as it is.
+inline bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                       const unsigned char* bytes, int size, void*) {
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
     return true;
 }
 
@@ -127,8 +90,8 @@ inline std::string first_line(const std::string& text) {
 /// The bytes of the file itself and how many there are; zeros follow them, because tinygltf may
 /// look eight bytes past a binary chunk.
 inline std::pair<Bytes, unsigned int> read_gltf_bytes(const std::filesystem::path& path,
-                                                      GltfFiles& files) {
-    Bytes bytes = read_whole_file(path, files);
+                                                      FileBudget& budget) {
+    Bytes bytes = read_whole_file(path, budget);
     // tinygltf takes the length as 32 bits.
     if (bytes.size() > 0xffff'ff00u)
         throw Error(ErrorCode::limit_exceeded,
@@ -142,13 +105,12 @@ inline std::pair<Bytes, unsigned int> read_gltf_bytes(const std::filesystem::pat
 
 /// Parses a .gltf with its buffers or a .glb. Ranges and indices are not checked yet.
 /// @throws Error(invalid_input), Error(unsupported) or Error(limit_exceeded).
-inline tinygltf::Model load_gltf_model(const std::filesystem::path& path, const Limits& limits) {
-    GltfFiles files{limits.file_bytes, limits.file_bytes};
-    const auto [bytes, size] = read_gltf_bytes(path, files);
+inline tinygltf::Model load_gltf_model(const std::filesystem::path& path, FileBudget& budget) {
+    const auto [bytes, size] = read_gltf_bytes(path, budget);
     tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(&accept_any_image, nullptr);
+    loader.SetImageLoader(&keep_image, nullptr);
     loader.SetFsCallbacks({&gltf_file_exists, &tinygltf::ExpandFilePath, &gltf_read_file,
-                           &tinygltf::WriteWholeFile, &files});
+                           &tinygltf::WriteWholeFile, &budget});
     const std::string folder = std::filesystem::absolute(path).parent_path().string();
     tinygltf::Model model;
     std::string error;

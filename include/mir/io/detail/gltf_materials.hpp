@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/io/detail/gltf_check.hpp"
+#include "mir/io/detail/gltf_textures.hpp"
 #include "mir/scene/material.hpp"
 
 #include <tiny_gltf.h>
@@ -13,12 +13,13 @@ namespace mir::detail {
 /// Converts the materials of one file and counts what they ask for and do not get.
 class GltfMaterials {
  public:
-    GltfMaterials(const tinygltf::Model& model, SceneReport& report)
-        : model_(model), report_(report) {}
+    GltfMaterials(const tinygltf::Model& model, GltfImages& images, SceneReport& report)
+        : model_(model), report_(report), textures_(model, images, report) {}
 
     /// Material `index` of the file.
     /// @throws Error(invalid_input) on values that mean nothing, such as negative emission.
     [[nodiscard]] Material convert(std::size_t index) {
+        set_ = -1;
         const tinygltf::Material& from = model_.materials[index];
         place_ = gltf_place("material", index, from.name);
         Material to;
@@ -28,10 +29,14 @@ class GltfMaterials {
         base(from.pbrMetallicRoughness, to);
         emission(from, to);
         for (const auto& [name, extension] : from.extensions) this->extension(name, extension, to);
-        textures(from);
+        textures(from, to);
+        if (from.extensions.contains("KHR_materials_unlit")) shine(to);
         if (from.alphaMode != "OPAQUE") ignore("alphaMode " + from.alphaMode);
         return to;
     }
+
+    /// Set of coordinates that the textures of the last material use; -1: it has none.
+    [[nodiscard]] int coordinates() const { return set_; }
 
  private:
     void ignore(const std::string& what) { ++report_.ignored[what]; }
@@ -62,7 +67,7 @@ class GltfMaterials {
     }
 
     void extension(const std::string& name, const tinygltf::Value& value, Material& to) {
-        if (name == "KHR_materials_emissive_strength") return;
+        if (name == "KHR_materials_emissive_strength" || name == "KHR_materials_unlit") return;
         if (name == "KHR_materials_specular") return specular(value, to);
         if (name == "KHR_materials_ior") return ior(value, to);
         if (name == "KHR_materials_pbrSpecularGlossiness") return specular_glossiness(value, to);
@@ -106,27 +111,58 @@ class GltfMaterials {
             if (from.Has(texture)) ignore(std::string("texture ") + texture);
     }
 
-    void textures(const tinygltf::Material& from) {
+    void textures(const tinygltf::Material& from, Material& to) {
         const auto& pbr = from.pbrMetallicRoughness;
-        texture("baseColorTexture", from.values, pbr.baseColorTexture);
-        texture("metallicRoughnessTexture", from.values, pbr.metallicRoughnessTexture);
-        texture("normalTexture", from.additionalValues, from.normalTexture);
-        texture("occlusionTexture", from.additionalValues, from.occlusionTexture);
-        texture("emissiveTexture", from.additionalValues, from.emissiveTexture);
+        MaterialTextures& t = to.textures;
+        t.base_color = texture("baseColorTexture", from.values, pbr.baseColorTexture);
+        t.metallic_roughness =
+            texture("metallicRoughnessTexture", from.values, pbr.metallicRoughnessTexture);
+        t.normal = texture("normalTexture", from.additionalValues, from.normalTexture);
+        t.emission = texture("emissiveTexture", from.additionalValues, from.emissiveTexture);
+        t.normal_scale =
+            checked_float(from.normalTexture.scale, "scale of a normalTexture", place_);
+        if (!has("occlusionTexture", from.additionalValues, from.occlusionTexture)) return;
+        ignore("texture occlusionTexture");
     }
 
     /// A texture without index cannot be told from one of index -1 by its info alone.
     template <class TextureInfo>
-    void texture(const char* name, const tinygltf::ParameterMap& given, const TextureInfo& info) {
-        if (given.find(name) == given.end() && info.index == -1) return;
+    bool has(const char* name, const tinygltf::ParameterMap& given, const TextureInfo& info) {
+        if (given.find(name) == given.end() && info.index == -1) return false;
         (void)checked_index(info.index, model_.textures.size(), "texture", place_ + ", " + name);
-        ignore(std::string("texture ") + name);
-        for (const auto& [extension, value] : info.extensions) ignore(extension);
+        return true;
+    }
+
+    template <class TextureInfo>
+    Texture texture(const char* name, const tinygltf::ParameterMap& given,
+                    const TextureInfo& info) {
+        if (!has(name, given, info)) return {};
+        int set = 0;
+        const Texture to =
+            textures_.convert(name, info.index, info.texCoord, info.extensions, place_, set);
+        if (!to.is_set()) return {};
+        if (set_ < 0) set_ = set;
+        if (set == set_) return to;
+        ignore(std::string("texture ") + name + " on a second set of coordinates");
+        return {};
+    }
+
+    /// What is seen in its own colour whatever the light is shines with that colour.
+    static void shine(Material& to) {
+        to.emission = to.base_color;
+        to.textures.emission = to.textures.base_color;
+        to.textures.base_color = {};
+        to.textures.metallic_roughness = {};
+        to.base_color = {0.0f, 0.0f, 0.0f};
+        to.metallic = 0.0f;
+        to.specular = 0.0f;
     }
 
     const tinygltf::Model& model_;
     SceneReport& report_;
+    GltfTextures textures_;
     std::string place_;
+    int set_ = -1;
 };
 
 /// What glTF 2.0 gives to primitives without a material (3.7.2.1): white, metallic, rough.

@@ -4,26 +4,17 @@
 #include "mir/core/limits.hpp"
 #include "mir/io/detail/gltf_arrays.hpp"
 #include "mir/io/detail/gltf_materials.hpp"
+#include "mir/io/detail/unit_direction.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <tiny_gltf.h>
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mir::detail {
-
-/// `v` with length 1. What is unit to rounding stays as it is, so that files written by
-/// write_glb come back unchanged. Zero when `v` is no direction.
-inline Vec3 unit_direction(Vec3 v) {
-    const float squared = length_squared(v);
-    if (std::fabs(squared - 1.0f) < 1e-6f) return v;
-    if (!(squared > 0.0f) || !std::isfinite(squared)) return Vec3(0.0f);
-    return v / std::sqrt(squared);
-}
 
 /// Triangles from the vertex order of a primitive: lists, strips or fans (glTF 2.0, 3.7.2.1).
 /// @pre `mode` is one of the three.
@@ -50,9 +41,15 @@ inline std::vector<TriangleIndices> gltf_triangles(const std::vector<std::uint32
 /// Turns the primitives of a file into meshes of a scene whose materials are already there.
 class GltfMeshes {
  public:
-    GltfMeshes(const tinygltf::Model& model, const Limits& limits, Scene& scene,
-               SceneReport& report)
-        : model_(model), limits_(limits), scene_(scene), report_(report) {}
+    /// `coordinates`: for every material of the file the set of texture coordinates that it uses,
+    /// -1 for none.
+    GltfMeshes(const tinygltf::Model& model, const std::vector<int>& coordinates,
+               const Limits& limits, Scene& scene, SceneReport& report)
+        : model_(model),
+          coordinates_(coordinates),
+          limits_(limits),
+          scene_(scene),
+          report_(report) {}
 
     /// For every mesh of the file, the scene meshes of its primitives.
     /// @throws Error(invalid_input), Error(limit_exceeded)
@@ -79,6 +76,8 @@ class GltfMeshes {
         read_triangles(from, mesh);
         if (mesh.triangles.empty()) return ignore("primitive without triangles");
         read_vertices(from, mesh);
+        read_coordinates(from, mesh);
+        read_colors(from, mesh);
         check_mesh(scene_, mesh);
         note_unused(from);
         parts.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
@@ -156,13 +155,39 @@ class GltfMeshes {
         if (!all_directions) ignore("normal without a direction (mesh counted once)");
     }
 
+    void read_coordinates(const tinygltf::Primitive& from, Mesh& mesh) {
+        const int set = from.material < 0 ? -1 : coordinates_[mesh.material];
+        if (set < 0) return;
+        const auto found = from.attributes.find("TEXCOORD_" + std::to_string(set));
+        if (found == from.attributes.end())
+            return ignore("textured mesh without texture coordinates");
+        mesh.texture_coordinates = read_vectors<Vec2>(model_, found->second, place_);
+    }
+
+    /// Linear, with an alpha that nothing here uses.
+    void read_colors(const tinygltf::Primitive& from, Mesh& mesh) {
+        const auto found = from.attributes.find("COLOR_0");
+        if (found == from.attributes.end()) return;
+        const auto at = checked_index(found->second, model_.accessors.size(), "accessor", place_);
+        const auto add = [&](const auto& colors) {
+            for (const auto& c : colors)
+                mesh.colors.push_back({unit_factor(c.x, "COLOR_0", place_, report_),
+                                       unit_factor(c.y, "COLOR_0", place_, report_),
+                                       unit_factor(c.z, "COLOR_0", place_, report_)});
+        };
+        if (model_.accessors[at].type == TINYGLTF_TYPE_VEC4)
+            add(read_vectors<Vec4>(model_, found->second, place_));
+        else
+            add(read_vectors<Vec3>(model_, found->second, place_));
+    }
+
     void note_unused(const tinygltf::Primitive& from) {
-        if (from.attributes.contains("COLOR_0")) ignore("vertex colours (COLOR_0)");
         if (!from.targets.empty()) ignore("morph targets");
         for (const auto& [name, value] : from.extensions) ignore(name);
     }
 
     const tinygltf::Model& model_;
+    const std::vector<int>& coordinates_;
     const Limits& limits_;
     Scene& scene_;
     SceneReport& report_;

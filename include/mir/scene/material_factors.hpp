@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/rgb.hpp"
+
+namespace mir {
+
+/// How a material reflects at one point: a diffuse base under a Cook-Torrance interface, in glTF's
+/// metallic-roughness parameters. Plain values that kernels read.
+struct MaterialFactors {
+    Rgb base_color{0.8f, 0.8f, 0.8f};  ///< linear reflectance, 0..1
+    float metallic = 0.0f;             ///< 0..1
+    float roughness = 1.0f;            ///< 0..1, GGX alpha is its square
+    float specular = 1.0f;             ///< weight of the dielectric interface, 0..1
+    float ior = 1.5f;                  ///< index of refraction of the dielectric interface, >= 1
+};
+
+}  // namespace mir

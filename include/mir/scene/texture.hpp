@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+
+#include <cstdint>
+
+namespace mir {
+
+/// What lies beyond an image, in each direction of its own.
+enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+
+/// An image as one part of a material uses it. Plain values that kernels read.
+struct Texture {
+    /// No image: the texture changes nothing.
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+    std::uint32_t image = none;  ///< index into Scene::images
+    Wrap wrap_u = Wrap::repeat;
+    Wrap wrap_v = Wrap::repeat;
+    bool nearest = false;  ///< the texel that a point lies in, instead of a bilinear mean
+    Vec2 u_axis{1, 0};     ///< what the mesh's u adds to (u, v) of the image
+    Vec2 v_axis{0, 1};     ///< what the mesh's v adds
+    Vec2 offset{0};
+
+    [[nodiscard]] MIR_HD bool is_set() const { return image != none; }
+    /// Where coordinates of a mesh lie in the image: (0, 0) top left, (1, 1) bottom right.
+    [[nodiscard]] MIR_HD Vec2 place(Vec2 uv) const {
+        return u_axis * uv.x + v_axis * uv.y + offset;
+    }
+};
+
+/// Every texture of a material.
+struct MaterialTextures {
+    Texture base_color;          ///< sRGB; multiplies Material::base_color
+    Texture metallic_roughness;  ///< linear; green multiplies roughness, blue metallic
+    Texture normal;              ///< linear; tangent space, +y against the image's v
+    Texture emission;            ///< sRGB; multiplies Material::emission
+    float normal_scale = 1.0f;   ///< of x and y of `normal`
+
+    [[nodiscard]] MIR_HD bool changes_reflection() const {
+        return base_color.is_set() || metallic_roughness.is_set();
+    }
+};
+
+}  // namespace mir
