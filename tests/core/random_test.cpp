@@ -41,6 +41,15 @@ TEST_CASE("at() is the sequence of next() and leaves it alone") {
     }
 }
 
+TEST_CASE("nearby numbers are those of Random in any order") {
+    const Random random(42, Stream::test, 7);
+    mir::NearbyNumbers nearby(random);
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const std::uint32_t d = 7 * i % 61 / (1 + i % 3);
+        REQUIRE(nearby.at(d) == random.at(d));
+    }
+}
+
 TEST_CASE("next_2d takes two numbers, x first") {
     Random a(1, Stream::test, 2);
     const Random b(1, Stream::test, 2);

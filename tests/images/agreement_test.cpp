@@ -75,9 +75,11 @@ mir::RenderSettings bidirectional(mir::RenderSettings s) {
     s.sampler = SamplerKind::bidirectional;
     return s;
 }
-/// Short strides save time: what is recorded must have the right law whatever the stride.
+/// Short strides save time: what is recorded must have the right law whatever the stride. Fewer
+/// chains than VPLs, or nothing would mutate.
 mir::RenderSettings metropolis(mir::RenderSettings s) {
     s.sampler = SamplerKind::metropolis;
+    s.metropolis.chains = 128;
     s.metropolis.stride = 16;
     s.metropolis.chain.tries = 4;
     s.metropolis.bootstrap = {1.0, 1u << 15, 1u << 15};

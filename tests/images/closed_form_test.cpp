@@ -111,6 +111,7 @@ TEST_CASE("the furnace has radiance L / (1 - rho) in every bounce", "[statistica
         settings.sampler = sampler;
         settings.bounce_layers = true;
         settings.direct_samples = 16;
+        settings.metropolis.chains = 128;  // fewer than VPLs, or nothing would mutate
         settings.metropolis.stride = 16;
         for (settings.seed = 0; settings.seed < 32; ++settings.seed) {
             const auto r = render(scene, settings);

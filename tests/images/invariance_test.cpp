@@ -75,6 +75,7 @@ mir::Scene two_lamps(float first, float second) {
 mir::RenderSettings settings_of(mir::SamplerKind sampler, std::uint32_t side, std::uint32_t vpls) {
     mir::RenderSettings s = small_settings(side, vpls);
     s.sampler = sampler;
+    s.metropolis.chains = 128;  // fewer than VPLs, or nothing would mutate
     s.metropolis.stride = 16;
     s.metropolis.bootstrap = {1.0, 1u << 14, 1u << 14};
     return s;

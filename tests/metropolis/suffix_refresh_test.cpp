@@ -119,8 +119,9 @@ TEST_CASE("suffixes weighed as if light paths drew x2 too are rejected", "[stati
     const PathLab<Lambert> lab(Wedge(WedgeLights::point).scene());
     const auto wrong = [](const PathMeasure& m, std::uint32_t k) {
         double density = 0.0;
-        for (std::uint32_t s = 0; s < k; ++s) density += technique_density(m, k, s, 3);
-        return density / k * table.probability(k);
+        for (std::uint32_t s = 0; s < k; ++s)
+            density += table.probability_of({k, s}) * technique_density(m, k, s, 3);
+        return density * table.probability(k);
     };
     CHECK(p_of_refresh(lab.world(), 400'000, wrong) < 0.0025);
 }
@@ -130,8 +131,10 @@ TEST_CASE("suffixes weighed without the probability of their technique are rejec
     const PathLab<Lambert> lab(mir::builtin::make("furnace"));
     const bool length = GENERATE(true, false);
     const auto wrong = [&](const PathMeasure& m, std::uint32_t k) {
-        const double right = SuffixProposal(lab.world(), table).density(m, k);
-        return length ? right / table.probability(k) : right * k;
+        if (length) return SuffixProposal(lab.world(), table).density(m, k) / table.probability(k);
+        double density = 0.0;
+        for (std::uint32_t s = 0; s + 2 <= k; ++s) density += technique_density(m, k, s, 3);
+        return density * table.probability(k);
     };
     CHECK(p_of_refresh(lab.world(), 30'000, wrong) < 0.0025);
 }

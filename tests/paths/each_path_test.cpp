@@ -10,7 +10,7 @@ namespace {
 
 /// Paths that weigh what their first number is.
 struct FirstNumber {
-    void generate(const mir::Random& u, mir::WeightedPath& out) const {
+    void generate(mir::NearbyNumbers u, mir::WeightedPath& out) const {
         out.weight = static_cast<double>(u.at(0));
     }
 };

@@ -96,9 +96,28 @@ TEST_CASE("lengths outside 2 to 64 edges are refused") {
     CHECK_NOTHROW(TechniqueTable(2, 64, PathTechniques::bidirectional));
 }
 
-// H0: techniques are drawn with their probabilities. Chi-square over 20 000 numbers, 1 %; seed 603.
+TEST_CASE("the techniques of a length share it, and leave the camera its vertices") {
+    const TechniqueTable all(2, 64, PathTechniques::bidirectional);
+    for (std::uint32_t from_eye : {1u, 2u}) {
+        const TechniqueTable table = from_eye == 1 ? all : all.behind_second_vertex();
+        for (std::uint32_t k = from_eye + 1; k <= 64; ++k) {
+            double sum = 0.0;
+            for (std::uint32_t s = 0; s <= k - from_eye; ++s) sum += table.probability_of({k, s});
+            CHECK(std::fabs(sum - 1.0) < 1e-12);
+            CHECK(table.probability_of({k, k - from_eye + 1}) == 0.0);
+        }
+    }
+    const TechniqueTable nine(9, 9, PathTechniques::bidirectional);
+    CHECK(nine.sample(0.0).from_light == 0);
+    CHECK(nine.sample(0x1.fffffep-1).from_light == 8);
+    CHECK(nine.behind_second_vertex().sample(0x1.fffffep-1).from_light == 7);
+}
+
+// H0: techniques are drawn with their probabilities. Chi-square over 20 000 numbers, 0.5 % for each
+// table; seed 603.
 TEST_CASE("lengths and splits are drawn with their probabilities", "[statistical]") {
-    const TechniqueTable table(2, 9, PathTechniques::bidirectional);
+    const TechniqueTable all(2, 9, PathTechniques::bidirectional);
+    const TechniqueTable table = GENERATE(false, true) ? all.behind_second_vertex() : all;
     std::vector<double> observed(100);
     std::vector<double> expected(100);
     constexpr std::uint32_t draws = 20'000;
@@ -110,7 +129,7 @@ TEST_CASE("lengths and splits are drawn with their probabilities", "[statistical
         const mir::Technique t = table.sample(u);
         ++observed[t.edges * 10 + t.from_light];
     }
-    CHECK(mirtest::chi_square(observed, expected).p_value > 0.01);
+    CHECK(mirtest::chi_square(observed, expected).p_value > 0.005);
     std::swap(expected[40], expected[90]);
     CHECK(mirtest::chi_square(observed, expected).p_value < 1e-6);
 }

@@ -76,18 +76,37 @@ class Random {
         return {x, next()};
     }
 
- private:
+    /// Bits of the dimensions 4 number .. 4 number + 3.
     [[nodiscard]] MIR_HD constexpr Bits128 block(std::uint32_t number) const {
         return philox4x32({{number, stream_, static_cast<std::uint32_t>(index_),
                             static_cast<std::uint32_t>(index_ >> 32)}},
                           key_);
     }
 
+ private:
     std::uint64_t key_;
     std::uint32_t stream_;
     std::uint64_t index_;
     std::uint32_t dimension_ = 0;
     Bits128 block_{};
+};
+
+/// Random::at() for who asks for neighbouring dimensions one after the other: the last four numbers
+/// are kept, because making one costs as much as making four. Not shared by threads.
+class NearbyNumbers {
+ public:
+    MIR_HD constexpr explicit NearbyNumbers(const Random& random)
+        : random_(random), block_(random.block(0)) {}
+
+    [[nodiscard]] MIR_HD constexpr float at(std::uint32_t dimension) {
+        if (dimension / 4 != number_) block_ = random_.block(number_ = dimension / 4);
+        return to_unit_float(block_.word[dimension % 4]);
+    }
+
+ private:
+    Random random_;
+    std::uint32_t number_ = 0;
+    Bits128 block_;
 };
 
 }  // namespace mir

@@ -19,11 +19,11 @@ struct Bootstrap {
 
 namespace detail {
 
-/// Paths to draw in all: what the error so far makes likely to suffice, but between a quarter more
+/// Paths to draw in all: what the error so far makes likely to suffice, but between a tenth more
 /// and four times as many, because that error is an estimate too.
 inline std::uint64_t next_bootstrap_size(const PathLuminance& p, const BootstrapOptions& options) {
     const double ratio = p.contributing > 0 ? p.relative_error() / options.relative_error : 2.0;
-    const double growth = std::clamp(1.1 * ratio * ratio, 1.25, 4.0);
+    const double growth = std::clamp(1.1 * ratio * ratio, 1.1, 4.0);
     const auto wanted =
         static_cast<std::uint64_t>(std::ceil(static_cast<double>(p.paths) * growth));
     return std::min(wanted, options.max_paths);

@@ -24,7 +24,7 @@ struct BootstrapPaths {
 
     /// The same with memory for the path, which may be used again.
     MIR_HD void draw(std::uint32_t i, WeightedPath& path) const {
-        generator.generate(Random(seed, Stream::bootstrap, first + i), path);
+        generator.generate(NearbyNumbers(Random(seed, Stream::bootstrap, first + i)), path);
         weights[i] = path.weight;
         places[i] = path.weight > 0.0
                         ? static_cast<std::uint32_t>(place_of_vpl(generator.world(), path.path))

@@ -143,8 +143,8 @@ class PathChain {
     }
 
     MIR_HD void propose_large(std::uint32_t attempt) {
-        generator_.generate(state_.sample.propose_large(large_step(chain_, state_.step, attempt)),
-                            proposal());
+        const LargeStep step = large_step(chain_, state_.step, attempt);
+        generator_.generate(NearbyNumbers(state_.sample.propose_large(step)), proposal());
     }
 
     MIR_HD bool small_move(const Random& numbers) {

@@ -16,7 +16,7 @@ class SuffixProposal {
  public:
     /// `floor`: that of VplGenerator, in the unit of PathMeasure::response.
     SuffixProposal(World world, const TechniqueTable& techniques, double floor = 0.0)
-        : world_(std::move(world)), techniques_(techniques), floor_(floor) {}
+        : world_(std::move(world)), techniques_(techniques.behind_second_vertex()), floor_(floor) {}
 
     /// Density of x3 .. x_k under draw(), up to a factor that all paths share.
     [[nodiscard]] MIR_HD double density(const PathMeasure& m, std::uint32_t k) const {
@@ -37,7 +37,7 @@ class SuffixProposal {
         out.weight = 0.0;
         const Technique t =
             techniques_.sample(static_cast<double>(u.at(path_dimension::technique)));
-        if (t.from_light + 2 > t.edges || t.edges < 3) return;
+        if (t.edges < 3) return;
         const std::uint32_t from_eye = t.edges - t.from_light;
         Path& y = out.path;
         y.film = from.path.film;

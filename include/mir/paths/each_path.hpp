@@ -26,7 +26,7 @@ void each_path(const Generator& generator, PathRange range, E& executor, const F
         WeightedPath path;
         const std::uint64_t begin = range.first + b * batch;
         for (std::uint64_t i = begin; i < std::min(begin + batch, range.end); ++i) {
-            generator.generate(Random(range.seed, range.stream, i), path);
+            generator.generate(NearbyNumbers(Random(range.seed, range.stream, i)), path);
             f(i, path);
         }
     });

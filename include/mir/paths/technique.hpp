@@ -17,8 +17,13 @@ struct Technique {
 };
 
 /// Which techniques are used how often: first the length, geometrically distributed and cut to
-/// [min_edges, max_edges], then s, uniform over what `techniques` allows. Immutable
-/// value; made on the host, used anywhere.
+/// [min_edges, max_edges], then s among what `techniques` allows. Immutable value; made on the
+/// host, used anywhere.
+///
+/// A path that runs into a lamp is drawn a quarter as often as one that ends otherwise: other
+/// techniques build the same path, and most lamps are small. One with two vertices from the light
+/// is drawn twice as often: where lamps shine at a wall it carries most of the light. What that is
+/// worth: docs/convergence.md#time.
 class TechniqueTable {
  public:
     /// @throws Error(invalid_argument) when the range is empty or too long.
@@ -33,6 +38,13 @@ class TechniqueTable {
         for (std::uint32_t k = min_; k <= max_; ++k) pmf_[k] /= total;
     }
 
+    /// The same for what lies behind a given x2: as many vertices from the camera at least.
+    [[nodiscard]] TechniqueTable behind_second_vertex() const {
+        TechniqueTable t = *this;
+        t.from_eye_ = 2;
+        return t;
+    }
+
     [[nodiscard]] MIR_HD std::uint32_t min_edges() const { return min_; }
     [[nodiscard]] MIR_HD std::uint32_t max_edges() const { return max_; }
 
@@ -41,9 +53,11 @@ class TechniqueTable {
         Technique t{min_, 1};
         while (t.edges < max_ && u >= pmf_[t.edges]) u -= pmf_[t.edges++];
         if (techniques_ == PathTechniques::camera) return t;
-        const double rest = (u > 0.0 ? u / pmf_[t.edges] : 0.0) * t.edges;
-        const auto from_light = static_cast<std::uint32_t>(rest);
-        t.from_light = from_light < t.edges ? from_light : t.edges - 1;
+        const std::uint32_t choices = choices_of(t.edges);
+        double rest = (u > 0.0 ? u / pmf_[t.edges] : 0.0) * weights_below(choices);
+        t.from_light = 0;
+        while (t.from_light + 1 < choices && rest >= weight(t.from_light))
+            rest -= weight(t.from_light++);
         return t;
     }
 
@@ -53,8 +67,10 @@ class TechniqueTable {
     }
     /// Probability of s, given the length.
     [[nodiscard]] MIR_HD double probability_of(Technique t) const {
-        if (t.from_light >= t.edges) return 0.0;
-        if (techniques_ == PathTechniques::bidirectional) return 1.0 / t.edges;
+        const std::uint32_t choices = choices_of(t.edges);
+        if (t.from_light >= choices) return 0.0;
+        if (techniques_ == PathTechniques::bidirectional)
+            return weight(t.from_light) / weights_below(choices);
         return t.from_light == 1 ? 1.0 : 0.0;
     }
 
@@ -62,11 +78,21 @@ class TechniqueTable {
     /// How much rarer each further edge is. Even the longest path must be likelier than the 2^-24
     /// that numbers resolve, or it would never be drawn.
     static double length_ratio(std::uint32_t further_edges) {
-        return further_edges == 0 ? 0.7 : std::max(0.7, std::exp2(-20.0 / further_edges));
+        return further_edges == 0 ? 0.72 : std::max(0.72, std::exp2(-20.0 / further_edges));
     }
+
+    /// How many s there are.
+    [[nodiscard]] MIR_HD std::uint32_t choices_of(std::uint32_t edges) const {
+        return edges + 1 - from_eye_;
+    }
+    /// How often s is used next to others.
+    MIR_HD static double weight(std::uint32_t s) { return s == 0 ? 0.25 : s == 2 ? 2.0 : 1.0; }
+    /// Sum of weight() over all s below `end` > 0.
+    MIR_HD static double weights_below(std::uint32_t end) { return end + (end > 2 ? 0.25 : -0.75); }
 
     std::uint32_t min_;
     std::uint32_t max_;
+    std::uint32_t from_eye_ = 1;  ///< vertices at least that grow from the camera
     PathTechniques techniques_;
     double pmf_[max_path_edges + 1] = {};
 };

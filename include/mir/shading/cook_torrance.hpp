@@ -39,7 +39,9 @@ struct CookTorrance {
     MIR_HD static float pdf(const Params& p, Vec3 n, Vec3 wi, Vec3 wo);
 
     /// `u` picks the direction inside a lobe, `lobe` the lobe.
-    MIR_HD static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe);
+    /// Inlined, so that whoever wants the direction alone does not pay for its weight.
+    [[gnu::always_inline]] MIR_HD static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u,
+                                                           float lobe);
 
     /// True when nothing is reflected in any direction.
     MIR_HD static bool is_black(const Params& p) {
@@ -79,9 +81,9 @@ struct CookTorrance {
     /// Probability with which sample() picks the specular lobe: its share of the reflected light,
     /// kept away from 0 and 1 while both lobes exist.
     MIR_HD static float specular_share(const Params& p, float cos_o) {
+        if (p.f90 <= 0.0f && mir::is_black(p.f0)) return 0.0f;
         const float s = luminance(schlick(p, cos_o));
         const float d = luminance(p.diffuse) * (1.0f - s);
-        if (p.f90 <= 0.0f && mir::is_black(p.f0)) return 0.0f;
         if (mir::is_black(p.diffuse)) return 1.0f;
         return smaller(larger(s / (s + d), 0.1f), 0.9f);
     }
