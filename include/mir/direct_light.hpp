@@ -2,12 +2,11 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
-#include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "mir/core/random.hpp"
-#include "mir/data/blocked_layout.hpp"
 #include "mir/data/image.hpp"
 #include "mir/film/luxel_grid.hpp"
+#include "mir/for_each_luxel.hpp"
 #include "mir/scene/light_table.hpp"
 #include "mir/shading/scene_light.hpp"
 
@@ -25,6 +24,11 @@ struct LuxelBand {
         return {seed, Stream::direct_light, pixel_row * grid.pixels.width + x / grid.per_pixel_x};
     }
 
+    /// Numbers of luxel (x, y) of the band alone, for what luxels do not share.
+    [[nodiscard]] Random luxel_numbers(std::uint32_t x, std::uint32_t y, Stream stream) const {
+        return {seed, stream, std::uint64_t{first_row + y} * grid.luxels().width + x};
+    }
+
     /// Number of the luxel inside its pixel.
     [[nodiscard]] std::uint32_t cell(std::uint32_t x, std::uint32_t y) const {
         return (first_row + y) % grid.per_pixel_y * grid.per_pixel_x + x % grid.per_pixel_x;
@@ -40,25 +44,15 @@ Image<Rgb> direct_light(const G& gbuffer, const LightTable& lights, const V& vis
     Image<Rgb> image(gbuffer.extent());
     const EmitterLight<B, V> emitters{lights, visibility, samples, ray_offset};
     const DeltaLight<B, V> deltas{lights, visibility};
-    std::vector<std::pair<TileIndex, std::uint32_t>> rows;
-    for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t)
-        for (std::uint32_t y = 0; y < gbuffer.tiles()[t].height; ++y) rows.emplace_back(t, y);
-
-    executor.for_each(rows.size(), [&](std::size_t i) {
-        const auto [t, y] = rows[i];
-        const Tile tile = gbuffer.tiles()[t];
-        const auto luxels = gbuffer.view(t);
-        const auto layout = BlockedLayout::of(tile);
-        for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const Hit hit = luxels.hit(layout(x, y));
-            if (is_empty(hit)) continue;
-            const auto surface = luxels.surface(layout(x, y));
-            const SharedSamples shared{band.grid.per_pixel(), band.cell(tile.x + x, tile.y + y)};
-            image(tile.x + x, tile.y + y) =
-                emitters(hit, surface, shared, band.pixel_numbers(tile.x + x, tile.y + y)) +
-                deltas(hit, surface);
-        }
-    });
+    for_each_luxel(
+        gbuffer, executor, [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
+            const Hit hit = luxels.hit(i);
+            if (is_empty(hit)) return;
+            const auto surface = luxels.surface(i);
+            const SharedSamples shared{band.grid.per_pixel(), band.cell(x, y)};
+            image(x, y) =
+                emitters(hit, surface, shared, band.pixel_numbers(x, y)) + deltas(hit, surface);
+        });
     return image;
 }
 

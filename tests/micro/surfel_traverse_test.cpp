@@ -33,7 +33,7 @@ SurfelHit brute_force_cut(const SurfelTree& tree, const SurfelRay& ray) {
     const float sine2 = mir::cap_sine_squared(ray.solid_angle);
     for (std::uint32_t i = 0; i < tree.nodes().size();) {
         const SurfelNode& node = tree.nodes()[i];
-        const bool ends = node.is_leaf() || mir::detail::stops_at(node, ray.origin, sine2);
+        const bool ends = node.is_leaf() || mir::detail::stops_at(node, ray, sine2);
         if (ends) mir::detail::meet_disc(node, i, ray, hit);
         i += ends ? 2 * node.count - 1 : 1;
     }

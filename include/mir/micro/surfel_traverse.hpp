@@ -16,9 +16,14 @@ MIR_HD inline float padded_radius(const SurfelNode& node, Vec3 to_centre) {
     return node.radius + 0x1p-18f * (distance + node.radius);
 }
 
-/// True when the tangent plane lets a node be met as a whole: its centre is not below.
+/// True when the tangent plane lets a disc be met: its centre is not below.
 MIR_HD inline bool is_above(const SurfelRay& ray, Vec3 to_centre) {
     return glm::dot(ray.normal, to_centre) >= 0.0f;
+}
+
+/// True when a sphere is not wholly above the tangent plane, where there is one.
+MIR_HD inline bool reaches_below(const SurfelRay& ray, Vec3 to_centre, float radius) {
+    return ray.normal != Vec3(0.0f) && glm::dot(ray.normal, to_centre) < radius;
 }
 
 /// Takes a hit when it is nearer, or as near at a lower index.
@@ -44,7 +49,7 @@ MIR_HD inline void meet_sphere(const SurfelNode& node, std::uint32_t index, cons
     const float along = glm::dot(to_centre, ray.direction);
     const float inside2 =
         node.radius * node.radius - length_squared(to_centre - along * ray.direction);
-    if (along > 0.0f && inside2 >= 0.0f && is_above(ray, to_centre))
+    if (along > 0.0f && inside2 >= 0.0f)
         take_nearer(hit, along - sqrtf(inside2), index, glm::dot(node.axis, to_centre) < 0.0f);
 }
 
@@ -63,13 +68,15 @@ MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre, float 
 }
 
 /// True when a ray stops at an inner node: it is not inside, the node's solid angle is not larger
-/// than the ray's (`sine2` is its cap_sine_squared()), and it shows one side.
-MIR_HD inline bool stops_at(const SurfelNode& node, Vec3 origin, float sine2) {
-    const Vec3 to_centre = node.centre - origin;
+/// than the ray's (`sine2` is its cap_sine_squared()), the tangent plane does not cut it, and it
+/// shows one side.
+MIR_HD inline bool stops_at(const SurfelNode& node, const SurfelRay& ray, float sine2) {
+    const Vec3 to_centre = node.centre - ray.origin;
     const float distance2 = length_squared(to_centre);
     const float radius2 = node.radius * node.radius;
     if (!(radius2 < distance2) || !(radius2 <= sine2 * distance2)) return false;
-    return shows_one_side(node, to_centre, distance2, radius2 / distance2);
+    return !reaches_below(ray, to_centre, node.radius) &&
+           shows_one_side(node, to_centre, distance2, radius2 / distance2);
 }
 
 /// Distance from which on a ray may meet discs below a node, or infinity. Never too large: what
@@ -138,7 +145,7 @@ template <Space S>
     std::uint32_t index = tree.root;
     while (index != SurfelHit::none) {
         const SurfelNode& node = tree.nodes[index];
-        if (!node.is_leaf() && !detail::stops_at(node, ray.origin, sine2)) {
+        if (!node.is_leaf() && !detail::stops_at(node, ray, sine2)) {
             index = detail::descend(tree, index, ray, hit.t, waiting);
             continue;
         }
