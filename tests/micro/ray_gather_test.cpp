@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/micro/ray_gather.hpp"
 
-#include "micro/surfel_worlds.hpp"
+#include "micro/shining_discs.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;
@@ -19,37 +19,6 @@ namespace {
 
 using Gather = mir::RayGather<mir::Space::host, Lambert>;
 
-/// The inside of a cube of edge 2 around the origin.
-World room() {
-    mir::Scene scene;
-    const std::uint32_t grey = scene.add(mir::lambertian("grey", {0.5f, 0.5f, 0.5f}));
-    scene.place(mir::builtin::inside_out(
-        mir::builtin::box("room", grey, {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2})));
-    return World(std::move(scene));
-}
-
-/// A square of edge 2 at height 1, its front downwards.
-World ceiling() {
-    mir::Scene scene;
-    const std::uint32_t grey = scene.add(mir::lambertian("grey", {0.5f, 0.5f, 0.5f}));
-    scene.place(mir::builtin::quad("ceiling", grey, {-1, 1, -1}, {2, 0, 0}, {0, 0, 2}));
-    return World(std::move(scene));
-}
-
-/// Fronts of all discs shine with radiance 1.
-std::vector<SurfelRadiance> shining(const SurfelTree& tree) {
-    mir::InlineExecutor executor;
-    const auto light = [](const SurfelFace&, std::uint64_t number) {
-        return number % 2 == 0 ? Rgb{1, 1, 1} : Rgb{};
-    };
-    return mir::light_surfels(tree, light, 1e-4f, executor);
-}
-
-/// A white luxel that faces up, `hit` already lifted.
-SurfelFace luxel(Vec3 position, Vec3 normal = {0, 1, 0}) {
-    return {{position, normal}, {normal, normal, {}, {{1, 1, 1}}}};
-}
-
 float gathered(const SurfelTree& tree, std::span<const SurfelRadiance> radiance,
                const mir::GatherOptions& options, const SurfelFace& at, std::uint64_t index) {
     const Gather gather{tree.view(), radiance.data(), options};
@@ -60,7 +29,7 @@ float gathered(const SurfelTree& tree, std::span<const SurfelRadiance> radiance,
 
 TEST_CASE(
     "In a room that shines alike everywhere every luxel gathers that light, at any threshold") {
-    const World world = room();
+    const World world = shining_room();
     const SurfelTree tree = tree_of(world, 0.01f);
     const auto radiance = shining(tree);
     mir::GatherOptions options;
@@ -92,7 +61,7 @@ TEST_CASE(
     // Irradiance 4 * (2 / sqrt 2) atan(1 / sqrt 2), by Lambert's formula; a white luxel shows 1 /
     // pi of it.
     const double truth = 1.7408395030 / 3.14159265358979;
-    const World world = ceiling();
+    const World world = shining_ceiling();
     mir::GatherOptions options;
     options.rays = 65536;
     options.threshold = 0.0f;
@@ -111,7 +80,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The bias of approximate rays shrinks with their threshold") {
-    const World world = ceiling();
+    const World world = shining_ceiling();
     const SurfelTree tree = tree_of(world, 2e-4f);
     const auto radiance = shining(tree);
     const auto seen = [&](float threshold) {
@@ -131,7 +100,7 @@ TEST_CASE("The bias of approximate rays shrinks with their threshold") {
 }
 
 TEST_CASE("The back of a disc sends its own light") {
-    const World world = ceiling();
+    const World world = shining_ceiling();
     const SurfelTree tree = tree_of(world, 0.01f);
     const auto radiance = shining(tree);
     CHECK(gathered(tree, radiance, {}, luxel({0, 0.5f, 0}), 964) > 0.5f);
@@ -169,7 +138,7 @@ TEST_CASE("The light of a node is the mean of the discs below, both sides apart"
 TEST_CASE("Empty luxels, black ones and empty scenes gather nothing") {
     const SurfelTree none = tree_of(World{mir::Scene{}}, 1.0f);
     CHECK(gathered(none, {}, {}, luxel({0, 0, 0}), 967) == 0.0f);
-    const SurfelTree tree = tree_of(room(), 0.1f);
+    const SurfelTree tree = tree_of(shining_room(), 0.1f);
     const auto radiance = shining(tree);
     SurfelFace black = luxel({0, 0, 0});
     black.surface.bsdf.reflectance = {};
