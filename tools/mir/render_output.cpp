@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 const char* sampler_name(const mir::RenderSettings& s) {
     if (s.integrator == mir::Integrator::path) return "path";
+    if (s.integrator == mir::Integrator::micro) return "micro";
     if (s.sampler == mir::SamplerKind::metropolis) return "mir";
     if (s.sampler == mir::SamplerKind::bidirectional) return "bir";
     if (s.vpl_roulette) return "roulette";
@@ -88,17 +89,12 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
 }
 
 Json seconds_of(const mir::StageSeconds& t) {
-    return {{"build", t.build},
-            {"sampling", t.sampling},
-            {"paths", t.paths},
-            {"gbuffer", t.gbuffer},
-            {"visibility", t.visibility},
-            {"response", t.response},
-            {"direct", t.direct},
-            {"reconstruction", t.reconstruction},
-            {"ledger", t.ledger},
-            {"film", t.film},
-            {"total", t.total}};
+    return {
+        {"build", t.build},       {"sampling", t.sampling}, {"surfels", t.surfels},
+        {"paths", t.paths},       {"gbuffer", t.gbuffer},   {"visibility", t.visibility},
+        {"response", t.response}, {"direct", t.direct},     {"reconstruction", t.reconstruction},
+        {"gather", t.gather},     {"ledger", t.ledger},     {"film", t.film},
+        {"total", t.total}};
 }
 
 /// Contributions per second of everything that pairs of luxels and VPLs cost.
@@ -232,6 +228,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["light_paths"] = s.light_paths;
     out["camera_paths"] = s.camera_paths;
     out["vpls"] = s.vpls;
+    out["surfels"] = s.surfels;
     out["contributions"] = s.contributions;
     out["contributions_per_second"] = rate_of(s);
     out["emitted_power"] = s.emitted_power;

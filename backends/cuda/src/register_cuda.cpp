@@ -6,6 +6,7 @@
 #include "mir/cuda/register.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/micro_render.hpp"
 #include "mir/runtime/path_render.hpp"
 #include "mir/runtime/tiled_render.hpp"
 
@@ -117,10 +118,14 @@ class CudaRenderer : public Renderer {
     [[nodiscard]] static RenderResult run(const Scene& scene, const RenderSettings& settings,
                                           const WorldGeometry& geometry, const GpuEngine<F>& engine,
                                           E& executor, Monitor* monitor) {
-        // The reference traces on the host, whatever the backend.
+        // These two trace on the host, whatever the backend.
         if (settings.integrator == Integrator::path)
             return PathRender<F, GpuEngine<F>, E>(scene, settings, geometry, engine, executor,
                                                   monitor)
+                .run();
+        if (settings.integrator == Integrator::micro)
+            return MicroRender<F, GpuEngine<F>, E>(scene, settings, geometry, engine, executor,
+                                                   monitor)
                 .run();
         // GpuEngine lights bands itself; no scheduler of the host is ever opened.
         const auto none = [](E& loops, Monitor* m) { return sched::Cpu{loops, m}; };

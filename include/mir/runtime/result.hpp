@@ -15,13 +15,15 @@ namespace mir {
 /// Seconds of wall time spent in each stage of a render.
 struct StageSeconds {
     double build = 0.0;           ///< world geometry and acceleration structure
-    double sampling = 0.0;        ///< VPLs
+    double sampling = 0.0;        ///< VPLs; light of discs
+    double surfels = 0.0;         ///< discs and their hierarchy
     double paths = 0.0;           ///< camera paths of the reference
     double gbuffer = 0.0;         ///< camera rays
     double visibility = 0.0;      ///< stored visibility: shadow rays, where they are kept
     double response = 0.0;        ///< what each VPL does to the image, for normalisation
     double direct = 0.0;          ///< next-event light
     double reconstruction = 0.0;  ///< contributions of the VPLs
+    double gather = 0.0;          ///< light from discs
     double ledger = 0.0;          ///< measuring what the bound removed
     double film = 0.0;            ///< filtering
     double total = 0.0;
@@ -35,6 +37,7 @@ struct RenderStatistics {
     std::uint64_t light_paths = 0;    ///< of the sampler; of the bootstrap for Metropolis sampling
     std::uint64_t camera_paths = 0;   ///< of the reference integrator
     std::uint32_t vpls = 0;           ///< geometric VPLs placed
+    std::uint64_t surfels = 0;        ///< discs of the micro-rendering integrator
     std::uint64_t contributions = 0;  ///< luxels x VPLs
     float emitted_power = 0.0f;       ///< luminance, W
     float non_lambertian_share = 0.0f;  ///< of VPL intensity spread as Lambertian
@@ -44,7 +47,7 @@ struct RenderStatistics {
     std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
     std::string normalisation;          ///< how intensities were made; "none": by the sampler
     float bound = 0.0f;                 ///< largest geometry term, m^-2; 0: none
-    double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' light
+    double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' or discs' light
     double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed
     std::string backend;                ///< "cpu" or "cuda"
     std::string device;                 ///< name of the GPU; empty on the processor

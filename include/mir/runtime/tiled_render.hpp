@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/direct_light.hpp"
 #include "mir/film/film.hpp"
+#include "mir/runtime/direct_layers.hpp"
 #include "mir/runtime/film_layers.hpp"
 #include "mir/runtime/normalisation_pass.hpp"
 #include "mir/runtime/render_job.hpp"
@@ -51,7 +51,6 @@ class TiledRender {
     std::vector<Band> normalise_vpls(const Bands& bands, const VplRecords& records);
     void render_band(Film& film, const Band& band, const Light& light);
     void measure_removed(const Band& band, const Light& light, const Image<Rgb>& indirect);
-    [[nodiscard]] Image<Rgb> emission_of(const Band& band) const;
 
     RenderJob<B, Engine, E> job_;
     MakeScheduler make_scheduler_;
@@ -160,15 +159,9 @@ template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 void TiledRender<B, Engine, E, MakeScheduler>::render_band(Film& film, const Band& band,
                                                            const Light& light) {
     std::vector<Image<Rgb>> layers;
-    {
-        const Stopwatch watch(job_.result.statistics.seconds.direct);
-        const bool sampled = job_.settings.direct == DirectLight::separate;
-        layers.push_back(direct_light<B>(band.gbuffer, job_.lights, job_.engine.visibility(),
-                                         {band.first_row, job_.rays.grid, job_.settings.seed},
-                                         sampled ? job_.settings.direct_samples_per_luxel() : 0,
-                                         job_.geometry.ray_offset(), job_.executor));
-        layers.push_back(emission_of(band));
-    }
+    const bool sampled = job_.settings.direct == DirectLight::separate;
+    append_direct_layers(job_, band, sampled ? job_.settings.direct_samples_per_luxel() : 0,
+                         layers);
     light.append_layers(band, layers);
     measure_removed(band, light, layers[indirect_layer]);
     const Stopwatch watch(job_.result.statistics.seconds.film);
@@ -186,20 +179,6 @@ void TiledRender<B, Engine, E, MakeScheduler>::measure_removed(const Band& band,
     if (job_.settings.bound.kind == BoundPolicy::Kind::none) return;
     const Image<Rgb> removed = light.removed(band);
     for (const Rgb& c : removed.pixels()) s.removed_luminance += luminance(c) * share;
-}
-
-template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-Image<Rgb> TiledRender<B, Engine, E, MakeScheduler>::emission_of(const Band& band) const {
-    Image<Rgb> image(band.gbuffer.extent());
-    for (TileIndex t = 0; t < band.gbuffer.tiles().size(); ++t) {
-        const Tile tile = band.gbuffer.tiles()[t];
-        const auto layout = BlockedLayout::of(tile);
-        const auto view = band.gbuffer.view(t);
-        for (std::uint32_t y = 0; y < tile.height; ++y)
-            for (std::uint32_t x = 0; x < tile.width; ++x)
-                image(tile.x + x, tile.y + y) = view.surface(layout(x, y)).emission;
-    }
-    return image;
 }
 
 }  // namespace mir
