@@ -26,6 +26,8 @@ Words small_micro(const std::filesystem::path& output) {
             "8",
             "-o",
             output.string(),
+            "--backend",
+            "cpu",
             "-q"};
 }
 
