@@ -96,8 +96,11 @@ void add_chains(CLI::App& app, mir::RenderSettings& s) {
 
 void add_reference(CLI::App& app, mir::RenderSettings& s) {
     add_choice<mir::Integrator>(app, "--integrator", s.integrator,
-                                {{"vpl", mir::Integrator::vpl}, {"path", mir::Integrator::path}},
-                                "VPLs (default) or the reference path tracer");
+                                {{"vpl", mir::Integrator::vpl},
+                                 {"path", mir::Integrator::path},
+                                 {"micro", mir::Integrator::micro}},
+                                "VPLs (default), the reference path tracer, or light gathered "
+                                "from discs");
     add_count(app, "--samples", s.path.samples, 1, 1 << 24,
               "Camera paths per luxel of --integrator path (default 256)");
     add_choice<mir::LightSearch>(app, "--light-search", s.path.light,
@@ -108,6 +111,24 @@ void add_reference(CLI::App& app, mir::RenderSettings& s) {
                                  "(default), or one of them alone");
     add_count(app, "--directions", s.path.directions, 1, 65536,
               "Directions that go on from its first hit (default 1)");
+}
+
+void add_micro(CLI::App& app, mir::RenderSettings& s) {
+    mir::MicroSettings& m = s.micro;
+    app.add_option("--surfels", m.surfels, "Discs wanted of --integrator micro (default 65536)")
+        ->check(between(1, 1.6e7, "1 to 16000000"));
+    add_count(app, "--gather-rays", m.gather.rays, 1, 65536,
+              "Rays with which a luxel gathers (default 256)");
+    add_choice<mir::GatherDirections>(
+        app, "--gather-directions", m.gather.directions,
+        {{"cosine", mir::GatherDirections::cosine}, {"uniform", mir::GatherDirections::uniform}},
+        "Their density over the hemisphere (default cosine)");
+    app.add_option("--gather-threshold", m.gather.threshold,
+                   "Solid angle of a node at which a ray stops, in units of the ray's own; 0 is "
+                   "exact (default 1)")
+        ->check(between(0, 1e6, "0 to 1000000"));
+    add_count(app, "--surfel-rays", m.surfel_rays, 1, 65536,
+              "Rays with which each side of a disc gathers later bounces (default 64)");
 }
 
 void add_sampling(CLI::App& app, RenderOptions& o) {
@@ -216,6 +237,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
     add_sampling(app, options);
     add_chains(app, options.settings);
     add_reference(app, options.settings);
+    add_micro(app, options.settings);
     add_execution(app, options);
 }
 

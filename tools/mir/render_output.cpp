@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 const char* sampler_name(const mir::RenderSettings& s) {
     if (s.integrator == mir::Integrator::path) return "path";
+    if (s.integrator == mir::Integrator::micro) return "micro";
     if (s.sampler == mir::SamplerKind::metropolis) return "mir";
     if (s.sampler == mir::SamplerKind::bidirectional) return "bir";
     if (s.vpl_roulette) return "roulette";
@@ -226,6 +227,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["light_paths"] = s.light_paths;
     out["camera_paths"] = s.camera_paths;
     out["vpls"] = s.vpls;
+    out["surfels"] = s.surfels;
     out["contributions"] = s.contributions;
     out["contributions_per_second"] = rate_of(s);
     out["emitted_power"] = s.emitted_power;

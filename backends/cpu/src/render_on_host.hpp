@@ -5,6 +5,7 @@
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/micro_render.hpp"
 #include "mir/runtime/path_render.hpp"
 #include "mir/runtime/tiled_render.hpp"
 #include "mir/shading/lambert.hpp"
@@ -29,6 +30,10 @@ RenderResult render_with(const HostRender& r, const Engine& engine) {
     if (r.settings.integrator == Integrator::path)
         return PathRender<B, Engine, E>(r.scene, r.settings, r.geometry, engine, cancellable,
                                         r.monitor, r.clock)
+            .run();
+    if (r.settings.integrator == Integrator::micro)
+        return MicroRender<B, Engine, E>(r.scene, r.settings, r.geometry, engine, cancellable,
+                                         r.monitor, r.clock)
             .run();
     const auto make = [kind = r.scheduler](E& executor, Monitor* monitor) {
         return AnyScheduler<E>{kind, executor, monitor};

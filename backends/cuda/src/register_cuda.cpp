@@ -6,6 +6,7 @@
 #include "mir/resident/backend_metropolis.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/micro_render.hpp"
 #include "mir/runtime/path_render.hpp"
 #include "mir/runtime/tiled_render.hpp"
 
@@ -73,7 +74,7 @@ class CudaRenderer : public Renderer {
         s.backend = "cuda";
         s.device = device_.name;
         s.acceleration =
-            settings.integrator == Integrator::path ? plain.name : structures_of(settings).name;
+            settings.integrator != Integrator::vpl ? plain.name : structures_of(settings).name;
         s.scheduler = name_;
         {
             const auto stage = clock.measure(&StageSeconds::hash);
@@ -136,12 +137,16 @@ class CudaRenderer : public Renderer {
                                      Monitor* monitor, StageClock& clock) const {
         CancellableExecutor cancellable(executor, monitor);
         using E = decltype(cancellable);
-        // The reference traces on the host, whatever the backend.
-        if (settings.integrator == Integrator::path) {
+        // These two trace on the host, whatever the backend.
+        if (settings.integrator != Integrator::vpl) {
             const KdTreeScene engine = [&] {
                 const auto stage = clock.measure(&StageSeconds::build);
                 return KdTreeScene(geometry, executor);
             }();
+            if (settings.integrator == Integrator::micro)
+                return MicroRender<F, KdTreeScene, E>(scene, settings, geometry, engine,
+                                                      cancellable, monitor, clock)
+                    .run();
             return PathRender<F, KdTreeScene, E>(scene, settings, geometry, engine, cancellable,
                                                  monitor, clock)
                 .run();

@@ -14,13 +14,16 @@ enum class Stream : std::uint32_t {
     light_path,
     pilot,
     test,
-    bootstrap,  ///< independent paths that estimate P_c and seed the chains
-    seeding,    ///< choice of the chains' first states
-    mutation,   ///< proposals of a chain
-    suffix,     ///< refreshed light ends of recorded states
-    probe,      ///< luxels that estimate image responses before there is an image
-    candidate,  ///< what resampled importance sampling chooses from
-    reference   ///< path tracer
+    bootstrap,      ///< independent paths that estimate P_c and seed the chains
+    seeding,        ///< choice of the chains' first states
+    mutation,       ///< proposals of a chain
+    suffix,         ///< refreshed light ends of recorded states
+    probe,          ///< luxels that estimate image responses before there is an image
+    candidate,      ///< what resampled importance sampling chooses from
+    reference,      ///< path tracer
+    surfel_light,   ///< lamps as discs see them
+    surfel_gather,  ///< directions in which discs look for discs
+    gather          ///< directions in which luxels look for discs
 };
 
 /// 128 bits as four words; a plain array, because device code cannot index std::array.

@@ -18,6 +18,12 @@ struct LuxelBand {
         return {seed, Stream::direct_light, pixel_row * grid.pixels.width + x / grid.per_pixel_x};
     }
 
+    /// Numbers of luxel (x, y) of the band alone, for what luxels do not share.
+    [[nodiscard]] MIR_HD Random luxel_numbers(std::uint32_t x, std::uint32_t y,
+                                              Stream stream) const {
+        return {seed, stream, std::uint64_t{first_row + y} * grid.luxels().width + x};
+    }
+
     /// Number of the luxel inside its pixel.
     [[nodiscard]] MIR_HD std::uint32_t cell(std::uint32_t x, std::uint32_t y) const {
         return (first_row + y) % grid.per_pixel_y * grid.per_pixel_x + x % grid.per_pixel_x;

@@ -128,7 +128,7 @@ inline void add_result_warnings(const RenderResult& result, std::vector<std::str
         warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.non_lambertian_share), 1) +
                            " % of the VPLs' light comes from glossy surfaces and is spread as if "
                            "they were diffuse");
-    if (s.vpls == 0 && s.emitted_power > 0.0f && !s.health && s.camera_paths == 0)
+    if (s.vpls == 0 && s.emitted_power > 0.0f && !s.health && s.camera_paths == 0 && s.surfels == 0)
         warnings.emplace_back("no VPL was placed: no light path met a reflecting surface");
 }
 

@@ -80,17 +80,10 @@ class HostCanvas {
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 auto HostCanvas<B, Engine, E, MakeScheduler>::emission(const Band& band) const -> Layer {
     Layer image(band.gbuffer.extent());
-    const auto& tiles = band.gbuffer.tiles();
-    const std::uint32_t per_row = tiles_per_row(tiles);
-    job_.executor.for_each(image.height(), [&](std::size_t row) {
-        const auto y = static_cast<std::uint32_t>(row);
-        for (std::uint32_t x = 0; x < image.width(); ++x) {
-            const TileIndex t = tile_holding(tiles, per_row, x, y);
-            const Tile tile = tiles[t];
-            const auto i = BlockedLayout::of(tile)(x - tile.x, y - tile.y);
-            image(x, y) = band.gbuffer.view(t).surface(i).emission;
-        }
-    });
+    for_each_luxel(band.gbuffer, job_.executor,
+                   [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
+                       image(x, y) = luxels.surface(i).emission;
+                   });
     return image;
 }
 

@@ -21,6 +21,7 @@ struct RenderStatistics {
     std::uint64_t light_paths = 0;    ///< of the sampler; of the bootstrap for Metropolis sampling
     std::uint64_t camera_paths = 0;   ///< of the reference integrator
     std::uint32_t vpls = 0;           ///< geometric VPLs placed
+    std::uint64_t surfels = 0;        ///< discs of the micro-rendering integrator
     std::uint64_t contributions = 0;  ///< luxels x VPLs
     float emitted_power = 0.0f;       ///< luminance, W
     float non_lambertian_share = 0.0f;  ///< of VPL intensity spread as Lambertian
@@ -30,7 +31,7 @@ struct RenderStatistics {
     std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
     std::string normalisation;          ///< how intensities were made; "none": by the sampler
     float bound = 0.0f;                 ///< largest geometry term, m^-2; 0: none
-    double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' light
+    double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' or discs' light
     double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed
     std::string backend;                ///< "cpu" or "cuda"
     std::string device;                 ///< name of the GPU; empty on the processor

@@ -6,6 +6,7 @@
 #include "mir/film/filter.hpp"
 #include "mir/film/luxel_grid.hpp"
 #include "mir/metropolis/metropolis_options.hpp"
+#include "mir/micro/gather_options.hpp"
 #include "mir/normalise/policy.hpp"
 #include "mir/paths/path.hpp"
 #include "mir/reference/path_tracer.hpp"
@@ -34,8 +35,9 @@ enum class Acceleration {
 
 /// What makes the picture.
 enum class Integrator {
-    vpl,  ///< virtual point lights
-    path  ///< the reference path tracer: noisy, unbiased, slow
+    vpl,   ///< virtual point lights
+    path,  ///< the reference path tracer: noisy, unbiased, slow
+    micro  ///< indirect light gathered from a hierarchy of discs
 };
 
 /// Of Integrator::path.
@@ -43,6 +45,15 @@ struct PathSettings {
     std::uint32_t samples = 256;  ///< camera paths per luxel
     LightSearch light = LightSearch::mis;
     std::uint32_t directions = 1;  ///< paths that go on from each first hit
+};
+
+/// Of Integrator::micro.
+struct MicroSettings {
+    /// Discs wanted: their largest area is that of the scene divided by it. There are one to four
+    /// times as many, and at least one for each triangle.
+    std::uint32_t surfels = 65536;
+    std::uint32_t surfel_rays = 64;  ///< of each side of a disc and bounce, for later bounces
+    GatherOptions gather;            ///< at each luxel; but for the rays at discs too
 };
 
 /// Where VPLs come from.
@@ -72,6 +83,7 @@ struct RenderSettings {
     std::uint32_t camera = 0;            ///< index into Scene::cameras
     Integrator integrator = Integrator::vpl;
     PathSettings path;
+    MicroSettings micro;
     std::uint32_t vpls = 256;  ///< wanted geometric VPLs
     SamplerKind sampler = SamplerKind::metropolis;
     NormalisationPolicy normalisation = NormalisationPolicy::full;  ///< of samplers that need one
@@ -160,9 +172,15 @@ inline void RenderSettings::validate() const {
                 (bound.value > 0.0f && std::isfinite(bound.value)),
             "the bound of the geometry term must be positive and finite (per square metre); use "
             "auto or none");
-    expects(integrator != Integrator::path || bound.kind != BoundPolicy::Kind::fixed,
-            "the reference path tracer bounds no geometry term (the picture would not be the one "
+    expects(integrator == Integrator::vpl || bound.kind != BoundPolicy::Kind::fixed,
+            "only the light of VPLs has a bounded geometry term (the picture would not be the one "
             "asked for); leave --bound out or use --integrator vpl");
+    expects(micro.surfels > 0,
+            "0 discs were asked for (there would be no indirect light); 65536 are usual");
+    check_limit(micro.surfels, limits.surfels, "surfels");
+    expects(micro.surfel_rays >= 1 && micro.surfel_rays <= 65536,
+            "the rays of a disc must be 1 to 65536; 64 are usual");
+    check(micro.gather);
 }
 
 }  // namespace mir

@@ -14,13 +14,15 @@ struct StageSeconds {
     double upload = 0.0;          ///< the scene to the backend's memory
     double bound = 0.0;           ///< what the camera sees, for the bound
     double bootstrap = 0.0;       ///< P_c and the starts of Markov chains
-    double sampling = 0.0;        ///< VPLs, from there
+    double sampling = 0.0;        ///< VPLs, from there; light of discs
+    double surfels = 0.0;         ///< discs and their hierarchy
     double paths = 0.0;           ///< camera paths of the reference
     double gbuffer = 0.0;         ///< camera rays
     double visibility = 0.0;      ///< stored visibility: shadow rays, where they are kept
     double response = 0.0;        ///< what each VPL does to the image, and intensities from it
     double direct = 0.0;          ///< next-event light, emission
     double reconstruction = 0.0;  ///< contributions of the VPLs
+    double gather = 0.0;          ///< light from discs
     double ledger = 0.0;          ///< measuring what the bound removed
     double film = 0.0;            ///< filtering
     double guides = 0.0;          ///< albedo, normal, position and depth
@@ -41,19 +43,21 @@ struct RenderStage {
 
 /// Every stage in the order in which a frame goes through them; what they take adds up to
 /// StageSeconds::total.
-inline constexpr std::array<RenderStage, 18> render_stages{
+inline constexpr std::array<RenderStage, 20> render_stages{
     {{"geometry", &StageSeconds::geometry},
      {"build", &StageSeconds::build},
      {"upload", &StageSeconds::upload},
      {"bound", &StageSeconds::bound},
      {"bootstrap", &StageSeconds::bootstrap},
      {"sampling", &StageSeconds::sampling},
+     {"surfels", &StageSeconds::surfels},
      {"paths", &StageSeconds::paths},
      {"gbuffer", &StageSeconds::gbuffer},
      {"visibility", &StageSeconds::visibility},
      {"response", &StageSeconds::response},
      {"direct", &StageSeconds::direct},
      {"reconstruction", &StageSeconds::reconstruction},
+     {"gather", &StageSeconds::gather},
      {"ledger", &StageSeconds::ledger},
      {"film", &StageSeconds::film},
      {"guides", &StageSeconds::guides},

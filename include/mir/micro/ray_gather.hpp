@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/bsdf.hpp"
+#include "mir/core/frame.hpp"
+#include "mir/core/random.hpp"
+#include "mir/core/warp.hpp"
+#include "mir/micro/gather_options.hpp"
+#include "mir/micro/surfel_radiance.hpp"
+#include "mir/micro/surfel_traverse.hpp"
+
+namespace mir {
+
+namespace detail {
+
+/// Points of a Kronecker sequence in the unit square, shifted at random: each is uniform, together
+/// they are spread evenly. In fixed point, so that none is worse than the first. Source: Roberts,
+/// "The unreasonable effectiveness of quasirandom sequences", 2018.
+class ShiftedPoints {
+ public:
+    MIR_HD explicit ShiftedPoints(Random random) {
+        const Vec2 shift = random.next_2d() * 0x1p24f;
+        x_ = static_cast<std::uint32_t>(shift.x) << 8;
+        y_ = static_cast<std::uint32_t>(shift.y) << 8;
+    }
+    [[nodiscard]] MIR_HD Vec2 operator[](std::uint32_t k) const {
+        return {to_unit_float(x_ + k * 0xC13FA9A9u), to_unit_float(y_ + k * 0x91E10DA6u)};
+    }
+
+ private:
+    std::uint32_t x_;
+    std::uint32_t y_;
+};
+
+/// A direction above a surface in its frame, and its density per steradian.
+struct LocalDirection {
+    Vec3 w{0};
+    float pdf = 0.0f;
+};
+
+MIR_HD inline LocalDirection gather_direction(GatherDirections kind, Vec2 u) {
+    if (kind == GatherDirections::uniform) return {square_to_cone(u, 0.0f), cone_pdf(0.0f)};
+    const Vec3 w = square_to_cosine_hemisphere(u);
+    return {w, cosine_hemisphere_pdf(w.z)};
+}
+
+}  // namespace detail
+
+/// Light that reaches a luxel from discs, by rays: the mean of f L cos / p over directions with
+/// density p, where L is what closest_surfel() meets. The solid angle of a ray is 1 / (n p): small
+/// where directions lie dense. Allocates nothing; a kernel body for host and device.
+template <Space S, Bsdf B>
+struct RayGather {
+    static constexpr Space space = S;
+
+    SurfelTreeView<S> tree;
+    const SurfelRadiance* radiance = nullptr;  ///< of nodes
+    GatherOptions options;                     ///< must have passed check()
+
+    /// Radiance towards the viewer, W m^-2 sr^-1. The shift of all directions is drawn from
+    /// `random`.
+    [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
+                                        Random random) const {
+        Rgb sum;
+        if (is_empty(hit) || B::is_black(s.bsdf)) return sum;
+        const Frame frame = Frame::around(s.normal);
+        const detail::ShiftedPoints points(random);
+        for (std::uint32_t k = 0; k < options.rays; ++k) {
+            const detail::LocalDirection d =
+                detail::gather_direction(options.directions, points[k]);
+            const Vec3 wi = frame.to_world(d.w);
+            if (!(d.pdf > 0.0f) || !(d.w.z > 0.0f) || !(glm::dot(wi, hit.normal) > 0.0f)) continue;
+            sum += B::eval(s.bsdf, s.normal, wi, s.wo) * met(hit, wi, d.pdf) * (d.w.z / d.pdf);
+        }
+        return sum * (1.0f / static_cast<float>(options.rays));
+    }
+
+ private:
+    [[nodiscard]] MIR_HD Rgb met(const Hit& hit, Vec3 wi, float pdf) const {
+        const float share = options.threshold / (static_cast<float>(options.rays) * pdf);
+        const SurfelHit found =
+            closest_surfel(tree, {hit.position, wi, hit.normal, share}, options.shape);
+        return found.node == SurfelHit::none ? Rgb{} : radiance[found.node].of(found.front);
+    }
+};
+
+}  // namespace mir

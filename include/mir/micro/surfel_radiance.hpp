@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/core/ray.hpp"
+#include "mir/core/rgb.hpp"
+#include "mir/data/luxel.hpp"
+#include "mir/micro/surfel_tree.hpp"
+#include "mir/shading/lambert.hpp"
+
+#include <vector>
+
+namespace mir {
+
+/// Light that leaves the two sides of a disc, or on average those of the discs below a node:
+/// radiance, W m^-2 sr^-1, the same in all directions.
+struct SurfelRadiance {
+    Rgb front;  ///< on the side of the normals
+    Rgb back;
+
+    [[nodiscard]] MIR_HD Rgb of(bool front_side) const { return front_side ? front : back; }
+};
+
+/// One side of a disc as a luxel: its lifted centre, seen head-on, with the albedo of its material
+/// as Lambertian reflectance.
+struct SurfelFace {
+    Hit hit;
+    Surface<Lambert::Params> surface;
+};
+
+/// The side of leaf `index`. `ray_offset` is WorldGeometry::ray_offset(), metres.
+template <Space S>
+[[nodiscard]] MIR_HD SurfelFace surfel_face(const SurfelTreeView<S>& tree, std::uint32_t index,
+                                            bool front, float ray_offset) {
+    const SurfelNode& node = tree.nodes[index];
+    const Vec3 normal = front ? node.axis : -node.axis;
+    return {{lift(node.centre, normal, ray_offset), normal},
+            {normal, normal, {}, {tree.albedo[index]}}};
+}
+
+/// Fills the inner nodes with the means of their children by area, from the leaves up: relative
+/// error below 2^-22 per level. `radiance` has an element for each node.
+inline void average_radiance(const SurfelTree& tree, std::span<SurfelRadiance> radiance) {
+    const auto mean = [](Rgb a, Rgb b, float share) { return a * (1.0f - share) + b * share; };
+    for (std::size_t i = radiance.size(); i-- > 0;) {
+        const SurfelNode& node = tree.nodes()[i];
+        if (node.is_leaf()) continue;
+        const float right_area = tree.nodes()[node.right].area;
+        const float share = right_area / (tree.nodes()[i + 1].area + right_area);
+        const SurfelRadiance& left = radiance[i + 1];
+        const SurfelRadiance& right = radiance[node.right];
+        radiance[i] = {mean(left.front, right.front, share), mean(left.back, right.back, share)};
+    }
+}
+
+/// Lights both sides of every disc. `light(face, number)` is the radiance that leaves a SurfelFace,
+/// W m^-2 sr^-1; `number` names it among all sides, for random numbers. Sides whose albedo is black
+/// are not asked. Element i belongs to node i. The same for any number of threads.
+template <class Light, Executor E>
+std::vector<SurfelRadiance> light_surfels(const SurfelTree& tree, const Light& light,
+                                          float ray_offset, E& executor) {
+    std::vector<SurfelRadiance> radiance(tree.nodes().size());
+    const SurfelTreeView<Space::host> view = tree.view();
+    constexpr std::size_t part = 128;
+    executor.for_each((radiance.size() + part - 1) / part, [&](std::size_t p) {
+        for (std::size_t i = p * part; i < std::min(radiance.size(), (p + 1) * part); ++i) {
+            const auto index = static_cast<std::uint32_t>(i);
+            const SurfelNode& node = view.nodes[index];
+            if (!node.is_leaf() || is_black(view.albedo[index])) continue;
+            const std::uint64_t number = 2 * std::uint64_t{node.first};
+            radiance[i] = {light(surfel_face(view, index, true, ray_offset), number),
+                           light(surfel_face(view, index, false, ray_offset), number + 1)};
+        }
+    });
+    average_radiance(tree, radiance);
+    return radiance;
+}
+
+}  // namespace mir

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+
+#include <cstdint>
+#include <limits>
+
+namespace mir {
+
+/// A ray that gathers light over a solid angle.
+struct SurfelRay {
+    Vec3 origin{0};
+    Vec3 direction{0, 0, -1};  ///< unit
+    /// Unit normal of the surface that gathers, on its lit side. Discs whose centre lies below the
+    /// tangent plane through the origin are not met: the surface's own, which lie in that plane (a
+    /// lifted origin is above it), and the rims of those that bend away from it. Nodes that the
+    /// plane cuts are never met as a whole. Zero: no surface.
+    Vec3 normal{0};
+    float solid_angle = 0.0f;  ///< sr; 0: exact
+};
+
+/// What a ray met first.
+struct SurfelHit {
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+    float t = std::numeric_limits<float>::infinity();  ///< distance from the origin, metres
+    std::uint32_t node = none;                         ///< a leaf, or where the ray stopped
+    bool front = true;                                 ///< the side of its normals is seen
+};
+
+/// As what a node is met where an approximate ray stops.
+enum class StopShape {
+    disc,   ///< across the axis of its cone, as large as its sphere: surfaces stay thin
+    sphere  ///< its sphere, which bulges out of flat surfaces
+};
+
+}  // namespace mir

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/micro/solid_angle.hpp"
+#include "mir/micro/surfel_ray.hpp"
+#include "mir/micro/surfel_tree_view.hpp"
+
+namespace mir {
+
+namespace detail {
+
+/// Length with every rounding of the tests below inside, for a node at `to_centre`: 64 units of
+/// rounding of the distances that they are made of.
+MIR_HD inline float padded_radius(const SurfelNode& node, Vec3 to_centre) {
+    const float distance = fabsf(to_centre.x) + fabsf(to_centre.y) + fabsf(to_centre.z);
+    return node.radius + 0x1p-18f * (distance + node.radius);
+}
+
+/// True when the tangent plane lets a disc be met: its centre is not below.
+MIR_HD inline bool is_above(const SurfelRay& ray, Vec3 to_centre) {
+    return glm::dot(ray.normal, to_centre) >= 0.0f;
+}
+
+/// True when a sphere is not wholly above the tangent plane, where there is one.
+MIR_HD inline bool reaches_below(const SurfelRay& ray, Vec3 to_centre, float radius) {
+    return ray.normal != Vec3(0.0f) && glm::dot(ray.normal, to_centre) < radius;
+}
+
+/// Takes a hit when it is nearer, or as near at a lower index.
+MIR_HD inline void take_nearer(SurfelHit& hit, float t, std::uint32_t node, bool front) {
+    if (t < hit.t || (t == hit.t && node < hit.node)) hit = {t, node, front};
+}
+
+/// Meets a disc of the node's radius across its axis: of a leaf, the disc itself.
+MIR_HD inline void meet_disc(const SurfelNode& node, std::uint32_t index, const SurfelRay& ray,
+                             SurfelHit& hit) {
+    const Vec3 to_centre = node.centre - ray.origin;
+    const float cosine = glm::dot(node.axis, ray.direction);
+    const float t = glm::dot(node.axis, to_centre) / cosine;
+    const Vec3 off_centre = t * ray.direction - to_centre;
+    const bool inside = length_squared(off_centre) <= node.radius * node.radius;
+    if (t > 0.0f && inside && is_above(ray, to_centre)) take_nearer(hit, t, index, cosine < 0.0f);
+}
+
+/// Meets the node's sphere from outside.
+MIR_HD inline void meet_sphere(const SurfelNode& node, std::uint32_t index, const SurfelRay& ray,
+                               SurfelHit& hit) {
+    const Vec3 to_centre = node.centre - ray.origin;
+    const float along = glm::dot(to_centre, ray.direction);
+    const float inside2 =
+        node.radius * node.radius - length_squared(to_centre - along * ray.direction);
+    if (along > 0.0f && inside2 >= 0.0f)
+        take_nearer(hit, along - sqrtf(inside2), index, glm::dot(node.axis, to_centre) < 0.0f);
+}
+
+/// True when all discs below a node show the same side to a point: the cone around their normals,
+/// widened by the angle under which the sphere is seen, lies on one side of the direction there.
+/// `s` is (radius / distance)^2, below 1.
+MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre, float distance2,
+                                  float s) {
+    const float cos_cone = node.cos_angle;
+    const float sin_cone = sqrtf(larger(0.0f, 1.0f - cos_cone * cos_cone));
+    const float cos_seen = sqrtf(1.0f - s);
+    const float sin_seen = sqrtf(s);
+    if (!(cos_cone * cos_seen > sin_cone * sin_seen)) return false;
+    const float sine = sin_cone * cos_seen + cos_cone * sin_seen;
+    return fabsf(glm::dot(node.axis, to_centre)) > sine * sqrtf(distance2);
+}
+
+/// True when a ray stops at an inner node: it is not inside, the node's solid angle is not larger
+/// than the ray's (`sine2` is its cap_sine_squared()), the tangent plane does not cut it, and it
+/// shows one side.
+MIR_HD inline bool stops_at(const SurfelNode& node, const SurfelRay& ray, float sine2) {
+    const Vec3 to_centre = node.centre - ray.origin;
+    const float distance2 = length_squared(to_centre);
+    const float radius2 = node.radius * node.radius;
+    if (!(radius2 < distance2) || !(radius2 <= sine2 * distance2)) return false;
+    return !reaches_below(ray, to_centre, node.radius) &&
+           shows_one_side(node, to_centre, distance2, radius2 / distance2);
+}
+
+/// Distance from which on a ray may meet discs below a node, or infinity. Never too large: what
+/// meet_disc() accepts of a leaf lies, but for rounding, inside the spheres of all nodes above it.
+MIR_HD inline float entry(const SurfelNode& node, const SurfelRay& ray) {
+    const Vec3 to_centre = node.centre - ray.origin;
+    const float radius = padded_radius(node, to_centre);
+    const float along = glm::dot(to_centre, ray.direction);
+    const float inside2 = radius * radius - length_squared(to_centre - along * ray.direction);
+    const bool below = glm::dot(ray.normal, to_centre) < -radius;
+    if (below || !(inside2 >= 0.0f)) return std::numeric_limits<float>::infinity();
+    const float half = sqrtf(inside2);
+    return along + half < 0.0f ? std::numeric_limits<float>::infinity() : along - half;
+}
+
+/// Nodes that wait while a walk goes down elsewhere: at most one for each on the way.
+struct WaitingSurfels {
+    std::uint32_t node[SurfelTreeOptions::depth_limit];
+    float near[SurfelTreeOptions::depth_limit];
+    std::uint32_t count = 0;
+
+    MIR_HD void push(std::uint32_t n, float t) {
+        node[count] = n;
+        near[count++] = t;
+    }
+    /// The last one that may hold something nearer than `t`, or SurfelHit::none.
+    MIR_HD std::uint32_t pop(float t) {
+        while (count > 0)
+            if (near[--count] <= t) return node[count];
+        return SurfelHit::none;
+    }
+};
+
+/// The nearer child that the ray may meet, or SurfelHit::none; the other one waits.
+template <Space S>
+MIR_HD std::uint32_t descend(const SurfelTreeView<S>& tree, std::uint32_t index,
+                             const SurfelRay& ray, float t, WaitingSurfels& waiting) {
+    const std::uint32_t left = index + 1;
+    const std::uint32_t right = tree.nodes[index].right;
+    const float to_left = entry(tree.nodes[left], ray);
+    const float to_right = entry(tree.nodes[right], ray);
+    const bool left_first = to_left <= to_right;
+    const std::uint32_t first = left_first ? left : right;
+    const float near = smaller(to_left, to_right);
+    const float far = larger(to_left, to_right);
+    if (!(near <= t) || !is_finite(near)) return waiting.pop(t);
+    if (far <= t && is_finite(far)) waiting.push(left_first ? right : left, far);
+    return first;
+}
+
+}  // namespace detail
+
+/// What a ray sees first of the discs of a tree: the nearest disc, or an inner node where the ray's
+/// solid angle is not smaller than the node's, whose discs all show it the same side. With a solid
+/// angle of 0 it is the nearest disc of all, in every bit, and at equal distances the first in the
+/// order of the tree. Where it stops, a node counts as large as its sphere, but only as far as the
+/// ray also meets the spheres above it. Nothing is allocated; thread-safe.
+/// Source: Ritschel et al. 2009, section 4; cap_solid_angle() in place of its pi r^2 / d^2.
+template <Space S>
+[[nodiscard]] MIR_HD SurfelHit closest_surfel(const SurfelTreeView<S>& tree, const SurfelRay& ray,
+                                              StopShape shape = StopShape::disc) {
+    SurfelHit hit;
+    if (tree.empty()) return hit;
+    const float sine2 = cap_sine_squared(ray.solid_angle);
+    detail::WaitingSurfels waiting;
+    std::uint32_t index = tree.root;
+    while (index != SurfelHit::none) {
+        const SurfelNode& node = tree.nodes[index];
+        if (!node.is_leaf() && !detail::stops_at(node, ray, sine2)) {
+            index = detail::descend(tree, index, ray, hit.t, waiting);
+            continue;
+        }
+        if (node.is_leaf() || shape == StopShape::disc)
+            detail::meet_disc(node, index, ray, hit);
+        else
+            detail::meet_sphere(node, index, ray, hit);
+        index = waiting.pop(hit.t);
+    }
+    return hit;
+}
+
+}  // namespace mir

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/micro/surfel.hpp"
+#include "mir/micro/surfel_tree_view.hpp"
+
+#include <span>
+#include <vector>
+
+namespace mir {
+
+/// A binary hierarchy of spheres over the discs of a scene, in host memory. Light is kept apart
+/// from it (SurfelLight), so that one tree serves all bounces. Const use from any thread. Equal in
+/// bytes for any number of threads. The constructor is defined in surfel_tree_build.hpp.
+class SurfelTree {
+ public:
+    /// Builds from the root down, O(n log n). `albedo` is that of each material (Surfel::material),
+    /// 0..1. Sources: Ritschel et al. 2009 (the use), Conty Estevez and Kulla, "Importance sampling
+    /// of many lights with adaptive tree splitting", PACMCGIT 1(2), 2018 (the heuristic; here the
+    /// cone of a candidate is the one in which evenly spread normals would have the same mean).
+    /// @throws Error(invalid_argument) on options out of range, on discs without a material's
+    ///         albedo and on more than 2^31 discs.
+    template <Executor E>
+    SurfelTree(std::vector<Surfel> surfels, std::span<const Rgb> albedo,
+               const SurfelTreeOptions& options, E& executor);
+
+    [[nodiscard]] SurfelTreeView<Space::host> view() const {
+        return {nodes_.data(), albedo_.data(), static_cast<std::uint32_t>(nodes_.size())};
+    }
+
+    [[nodiscard]] std::span<const SurfelNode> nodes() const { return nodes_; }
+    /// Of nodes: mean over the area below, 0..1.
+    [[nodiscard]] std::span<const Rgb> albedo() const { return albedo_; }
+    /// In the order of the tree: SurfelNode::first counts them.
+    [[nodiscard]] std::span<const Surfel> surfels() const { return surfels_; }
+
+    /// Memory held, bytes.
+    [[nodiscard]] std::size_t bytes() const {
+        return nodes().size_bytes() + albedo().size_bytes() + surfels().size_bytes();
+    }
+
+ private:
+    std::vector<Surfel> surfels_;
+    std::vector<SurfelNode> nodes_;
+    std::vector<Rgb> albedo_;
+};
+
+}  // namespace mir

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/micro/gather_light.hpp"
+#include "mir/micro/make_surfels.hpp"
+#include "mir/micro/material_albedo.hpp"
+#include "mir/micro/surfel_bounces.hpp"
+#include "mir/micro/surfel_tree_build.hpp"
+#include "mir/runtime/host_canvas.hpp"
+
+namespace mir {
+
+/// One render whose indirect light is gathered from a hierarchy of discs, with the luxels, direct
+/// light, film and layers of a TiledRender. `Engine` offers ray_caster() and visibility().
+template <Bsdf B, class Engine, Executor E>
+class MicroRender {
+ public:
+    /// What is passed in must outlive it; `monitor` may be null.
+    MicroRender(const Scene& scene, const RenderSettings& settings, const WorldGeometry& geometry,
+                const Engine& engine, E& executor, Monitor* monitor, StageClock& clock)
+        : job_(scene, settings, geometry, engine, executor, monitor, clock) {}
+
+    RenderResult run();
+
+ private:
+    /// No VPL lights this picture.
+    struct NoScheduler {};
+
+    using Radiance = std::vector<SurfelRadiance>;
+    using Canvas = HostCanvas<B, Engine, E, NoScheduler>;
+    using Band = typename Canvas::Band;
+
+    [[nodiscard]] SurfelTree make_tree();
+    [[nodiscard]] std::vector<Radiance> light(const SurfelTree& tree);
+    void render_band(Canvas& canvas, const Band& band, const SurfelTree& tree,
+                     const std::vector<Radiance>& sources);
+    void append_indirect(const Band& band, const SurfelTree& tree,
+                         const std::vector<Radiance>& sources, std::vector<Image<Rgb>>& layers);
+
+    RenderJob<B, Engine, E> job_;
+};
+
+template <Bsdf B, class Engine, Executor E>
+RenderResult MicroRender<B, Engine, E>::run() {
+    RenderStatistics& s = job_.result.statistics;
+    s.luxels = job_.rays.grid.luxels().area();
+    s.emitted_power = static_cast<float>(job_.lights.power());
+    const SurfelTree tree = make_tree();
+    const std::vector<Radiance> sources = light(tree);
+    s.surfels = tree.surfels().size();
+    const ImageBands<B, Engine, E> bands(job_.context(), 0);
+    const std::size_t bounces = job_.settings.bounce_layers ? sources.size() + 1 : 0;
+    Canvas canvas(job_, NoScheduler{}, std::size_t{first_bounce_layer} + bounces);
+    for (std::uint32_t i = 0; i < bands.count(); ++i)
+        render_band(canvas, bands.make(i), tree, sources);
+    canvas.finish();
+    return job_.take_result();
+}
+
+template <Bsdf B, class Engine, Executor E>
+SurfelTree MicroRender<B, Engine, E>::make_tree() {
+    const auto stage = job_.clock.measure(&StageSeconds::surfels);
+    SurfelOptions options;
+    const double area = surface_area(job_.geometry) / job_.settings.micro.surfels;
+    if (area > 0.0) options.max_area = static_cast<float>(area);
+    return {make_surfels(job_.geometry, options, job_.settings.limits, job_.executor),
+            material_albedo(job_.surfaces), SurfelTreeOptions{}, job_.executor};
+}
+
+/// What luxels gather from: bounce by bounce where each has a layer, else the sum; nothing when
+/// light may be reflected once alone.
+template <Bsdf B, class Engine, Executor E>
+auto MicroRender<B, Engine, E>::light(const SurfelTree& tree) -> std::vector<Radiance> {
+    if (job_.settings.max_bounce < 2) return {};
+    const auto stage = job_.clock.measure(&StageSeconds::sampling);
+    const MicroSettings& m = job_.settings.micro;
+    SurfelBounceOptions options;
+    options.last = static_cast<std::uint8_t>(job_.settings.max_bounce - 1);
+    options.gather = m.gather;
+    options.gather.rays = m.surfel_rays;
+    // Fewer rays are wider; they still stop where those of luxels do.
+    options.gather.threshold *=
+        static_cast<float>(m.surfel_rays) / static_cast<float>(m.gather.rays);
+    options.seed = job_.settings.seed;
+    const float offset = job_.geometry.ray_offset();
+    const SurfelDirectLight direct(job_.lights, job_.engine.visibility(),
+                                   job_.settings.direct_samples, job_.settings.seed);
+    std::vector<Radiance> bounces = surfel_bounces(tree, direct, offset, options, job_.executor);
+    if (job_.settings.bounce_layers) return bounces;
+    return {sum_of(bounces)};
+}
+
+template <Bsdf B, class Engine, Executor E>
+void MicroRender<B, Engine, E>::render_band(Canvas& canvas, const Band& band,
+                                            const SurfelTree& tree,
+                                            const std::vector<Radiance>& sources) {
+    std::vector<Image<Rgb>> layers;
+    {
+        const auto stage = job_.clock.measure(&StageSeconds::direct);
+        layers.push_back(canvas.direct(band, job_.settings.direct_samples_per_luxel()));
+        layers.push_back(canvas.emission(band));
+    }
+    append_indirect(band, tree, sources, layers);
+    RenderStatistics& s = job_.result.statistics;
+    for (const double row : canvas.row_luminances(layers[indirect_layer]))
+        s.indirect_luminance += row / static_cast<double>(s.luxels);
+    canvas.put(band, layers);
+}
+
+/// The sum of all bounces, and behind it each of them, the direct light first, where asked for.
+template <Bsdf B, class Engine, Executor E>
+void MicroRender<B, Engine, E>::append_indirect(const Band& band, const SurfelTree& tree,
+                                                const std::vector<Radiance>& sources,
+                                                std::vector<Image<Rgb>>& layers) {
+    const auto stage = job_.clock.measure(&StageSeconds::gather);
+    layers.emplace_back(band.gbuffer.extent());
+    if (job_.settings.bounce_layers) layers.push_back(layers[direct_layer]);
+    for (const Radiance& source : sources) {
+        const Image<Rgb> light =
+            gather_light<B>(band.gbuffer, tree, source, job_.settings.micro.gather,
+                            {band.first_row, job_.rays.grid, job_.settings.seed}, job_.executor);
+        const auto sum = layers[indirect_layer].pixels();
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += light.pixels()[i];
+        if (job_.settings.bounce_layers) layers.push_back(light);
+    }
+}
+
+}  // namespace mir

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "images/support.hpp"
+#include "mir/scene/builtin/cornell_box.hpp"
+#include "support/catch.hpp"
+
+using mir::Integrator;
+using mir::RenderResult;
+using mir::RenderSettings;
+using mirtest::Approx;
+using mirtest::mean_luminance;
+
+namespace {
+
+RenderSettings micro_settings(std::uint32_t side) {
+    RenderSettings s = mirtest::small_settings(side, 1);
+    s.backend = mir::BackendKind::cpu;
+    s.integrator = Integrator::micro;
+    s.bounce_layers = true;
+    s.micro.surfels = 4096;
+    s.micro.surfel_rays = 8;
+    return s;
+}
+
+RenderSettings path_settings(std::uint32_t side) {
+    RenderSettings s = micro_settings(side);
+    s.integrator = Integrator::path;
+    s.path.samples = 512;
+    return s;
+}
+
+/// Largest error of tiles of 8 x 8 pixels, relative to the mean.
+double worst_tile(const mir::Image<mir::Rgb>& image, const mir::Image<mir::Rgb>& truth) {
+    double worst = 0.0;
+    for (const mir::Tile& t : mir::cut_into_tiles(image.extent(), {8, 8})) {
+        double off = 0.0;
+        for (std::uint32_t y = t.y; y < t.y + t.height; ++y)
+            for (std::uint32_t x = t.x; x < t.x + t.width; ++x)
+                off += double(luminance(image(x, y))) - double(luminance(truth(x, y)));
+        worst = std::max(worst, std::fabs(off) / (t.width * t.height));
+    }
+    return worst / mean_luminance(truth);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "gathered bounces of the Cornell box are those of the path tracer but for the discs' bias") {
+    const auto lamp = GENERATE(mir::builtin::Lamp::down, mir::builtin::Lamp::up);
+    const mir::Scene scene = mir::builtin::cornell_box(lamp);
+    RenderSettings s = micro_settings(16);
+    RenderSettings p = path_settings(16);
+    s.max_bounce = p.max_bounce = 4;
+    const RenderResult discs = mirtest::render(scene, s);
+    const RenderResult paths = mirtest::render(scene, p);
+    REQUIRE(discs.bounces.size() == 4);
+    CHECK(mirtest::relative_difference(discs.emission, paths.emission) < 1e-5);
+    CHECK(mirtest::same_bits(discs.bounces[0], discs.direct));
+    // Rims of discs hide some of what is behind them, at each bounce.
+    const double least[] = {0.92, 0.85, 0.82};
+    for (std::size_t b = 1; b < 4; ++b) {
+        INFO("bounce " << b + 1);
+        const double ratio = mean_luminance(discs.bounces[b]) / mean_luminance(paths.bounces[b]);
+        CHECK((ratio > least[b - 1] && ratio < 1.02));
+        CHECK(worst_tile(discs.bounces[b], paths.bounces[b]) < 0.3);
+    }
+}
+
+TEST_CASE("the bias of one gathered bounce shrinks with the discs") {
+    const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    RenderSettings s = micro_settings(16);
+    RenderSettings p = path_settings(16);
+    s.max_bounce = p.max_bounce = 2;
+    const double truth = mean_luminance(mirtest::render(scene, p).bounces[1]);
+    const auto bias = [&](std::uint32_t surfels) {
+        s.micro.surfels = surfels;
+        return std::fabs(mean_luminance(mirtest::render(scene, s).bounces[1]) / truth - 1.0);
+    };
+    const double fine = bias(16384);
+    CHECK(fine < 0.5 * bias(1024));
+    CHECK(fine < 0.03);
+}
+
+TEST_CASE("light gathered from discs does not depend on threads, tiles or layers") {
+    const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    RenderSettings s = micro_settings(16);
+    s.micro.surfels = 1024;
+    s.max_bounce = 3;
+    const RenderResult usual = mirtest::render(scene, s);
+    s.threads = 1;
+    s.tile = {};
+    CHECK(mirtest::same_bits(mirtest::render(scene, s).beauty, usual.beauty));
+    s.bounce_layers = false;
+    const RenderResult sum = mirtest::render(scene, s);
+    CHECK(sum.bounces.empty());
+    CHECK(mirtest::relative_difference(usual.indirect, sum.indirect) < 1e-5);
+}
+
+TEST_CASE("one reflection is direct light, and black scenes are black") {
+    RenderSettings s = micro_settings(8);
+    s.max_bounce = 1;
+    const RenderResult r = mirtest::render(mir::builtin::cornell_box(mir::builtin::Lamp::down), s);
+    CHECK(mean_luminance(r.indirect) == 0.0);
+    CHECK(mean_luminance(r.direct) > 0.0);
+    mir::Scene dark = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    for (mir::Material& m : dark.materials) m.emission = {};
+    s.max_bounce = 32;
+    s.allow_no_light = true;
+    CHECK(mean_luminance(mirtest::render(dark, s).beauty) == 0.0);
+}
+
+TEST_CASE("settings of discs that make no sense are refused") {
+    const mir::Scene scene = mir::builtin::furnace_box();
+    RenderSettings s = micro_settings(8);
+    SECTION("no disc") { s.micro.surfels = 0; }
+    SECTION("too many") { s.micro.surfels = 20'000'000; }
+    SECTION("no ray of a disc") { s.micro.surfel_rays = 0; }
+    SECTION("no ray of a luxel") { s.micro.gather.rays = 0; }
+    SECTION("a bound") { s.bound = {mir::BoundPolicy::Kind::fixed, 1.0f}; }
+    CHECK_THROWS_AS(mirtest::render(scene, s), mir::Error);
+}

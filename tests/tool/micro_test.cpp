@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "tool/exr_file.hpp"
+#include "tool/mir_program.hpp"
+
+#include <nlohmann/json.hpp>
+
+using namespace mirtest;
+
+namespace {
+
+/// A small picture by the micro-rendering integrator.
+Words small_micro(const std::filesystem::path& output) {
+    return {"render",
+            "builtin:cornell-box",
+            "--width",
+            "12",
+            "--height",
+            "12",
+            "--surfels",
+            "300",
+            "--integrator",
+            "micro",
+            "--bounces",
+            "3",
+            "--surfel-rays",
+            "8",
+            "-o",
+            output.string(),
+            "--backend",
+            "cpu",
+            "-q"};
+}
+
+}  // namespace
+
+TEST_CASE("every option of micro-rendering changes its picture, its default does not") {
+    const TemporaryFolder folder("tool_micro");
+    const auto picture = [&](const Words& choice) {
+        const Outcome outcome = run_mir(small_micro(folder / "a.exr") + choice);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return mir::read_exr(folder / "a.exr").image;
+    };
+    const auto usual = picture({});
+    for (const Words& same : {Words{"--gather-rays", "256"}, Words{"--gather-directions", "cosine"},
+                              Words{"--gather-threshold", "1"}, Words{"--threads", "1"}}) {
+        INFO(same[0] << " " << same[1]);
+        CHECK(largest_difference(picture(same), usual) == 0.0f);
+    }
+    for (const Words& other :
+         {Words{"--gather-rays", "64"}, Words{"--gather-directions", "uniform"},
+          Words{"--gather-threshold", "20"}, Words{"--seed", "1"},
+          Words{"--direct-samples", "4"}}) {
+        INFO(other[0] << " " << other[1]);
+        CHECK(largest_difference(picture(other), usual) > 0.0f);
+    }
+}
+
+TEST_CASE("micro-rendering tells its number of discs and has a layer for each bounce") {
+    const TemporaryFolder folder("tool_micro_json");
+    const Outcome outcome =
+        run_mir(small_micro(folder / "a.exr") + Words{"--json", "--aov", "bounces"});
+    REQUIRE(outcome.exit_code == 0);
+    const auto json = nlohmann::json::parse(outcome.out);
+    CHECK(json["sampler"] == "micro");
+    CHECK(json["surfels"] >= 300);
+    CHECK(json["vpls"] == 0);
+    CHECK(json["seconds"]["gather"] > 0.0);
+    CHECK(json["mean_radiance"]["indirect"][0] > 0.0);
+    CHECK(json["warnings"].empty());
+}
+
+TEST_CASE("options of micro-rendering out of range are usage errors") {
+    for (const Words& wrong :
+         {Words{"--surfels", "0"}, Words{"--gather-rays", "0"}, Words{"--gather-threshold", "-1"},
+          Words{"--surfel-rays", "65537"}, Words{"--gather-directions", "up"}}) {
+        INFO(wrong[0] << " " << wrong[1]);
+        check_failing_render(Words{"builtin:sphere"} + wrong, 2, wrong[0]);
+    }
+    check_failing_render({"builtin:sphere", "--integrator", "micro", "--bound", "2"}, 2, "--bound");
+}
