@@ -128,7 +128,7 @@ TEST_CASE("every part of a material has its texture, one image is read once") {
     CHECK(loaded.report.ignored == Ignored{{"texture occlusionTexture", 1}});
 }
 
-TEST_CASE("a material reads one set of coordinates; textures on another are counted") {
+TEST_CASE("a material reads one set of coordinates, and textures on another are counted") {
     const auto loaded = read_textured(
         R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}},
 "normalTexture":{"index":0})");

@@ -201,7 +201,7 @@ TEST_CASE("No ray leaves a closed room between covering discs, many do between e
     if (omega == 0.0f) CHECK(lost(mir::DiscExtent::equal_area) > 100);
 }
 
-TEST_CASE("Approximate rays see the near side of a thin wall; spheres mix up its sides") {
+TEST_CASE("Approximate rays see the near side of a thin wall, and spheres mix up its sides") {
     const World world = thin_wall();
     const SurfelTree tree = tree_of(world, 1e-3f);
     const auto far_sides = [&](StopShape shape) {

@@ -206,8 +206,8 @@ TEST_CASE("The orientation heuristic parts the sides of a wall that halves mix")
         mir::SurfelTreeOptions options;
         options.split = split;
         std::uint32_t nodes = 0;
-        for (const SurfelNode& n : tree_of(world, 1e-3f, options).nodes())
-            nodes += n.cos_angle < 0.0f ? 1 : 0;
+        const SurfelTree tree = tree_of(world, 1e-3f, options);
+        for (const SurfelNode& n : tree.nodes()) nodes += n.cos_angle < 0.0f ? 1 : 0;
         return nodes;
     };
     CHECK(mixed(SurfelSplit::orientation) == 1);

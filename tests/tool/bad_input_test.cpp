@@ -39,7 +39,7 @@ void check_refused(const std::string& scene, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("a file that does not exist, is a folder or no glTF is named") {
+TEST_CASE("a file that does not exist, is a folder or no scene is named") {
     const TemporaryFolder folder("tool_no_scene");
     check_refused((folder / "missing.glb").string(), "missing.glb: ");
     check_refused((folder / "").string(), "mir_test_tool_no_scene");
@@ -47,8 +47,8 @@ TEST_CASE("a file that does not exist, is a folder or no glTF is named") {
     check_refused((folder / "words.gltf").string(), "words.gltf: ");
     write_file(folder / "empty.glb", "");
     check_refused((folder / "empty.glb").string(), "empty.glb: ");
-    write_file(folder / "scene.obj", "v 0 0 0\n");
-    check_refused((folder / "scene.obj").string(), "scene.obj: ");
+    write_file(folder / "scene.stl", "solid\n");
+    check_refused((folder / "scene.stl").string(), "scene.stl: ");
 }
 
 TEST_CASE("a truncated binary file is refused, wherever it ends") {

@@ -49,7 +49,7 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
         sum += seconds.at(key).get<double>();
     }
     CHECK(seconds.at("total").get<double>() == Approx(sum));
-    CHECK(seconds.size() == 19);
+    CHECK(seconds.size() == 21);
 }
 
 TEST_CASE("normalised VPLs give the image the luminance that the sampler found") {
