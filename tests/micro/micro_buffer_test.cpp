@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "micro/brute_force_cut.hpp"
 #include "micro/shining_discs.hpp"
 #include "mir/micro/buffer_gather.hpp"
 #include "support/catch.hpp"
@@ -6,27 +7,8 @@
 using namespace mirtest;
 using mir::MicroBuffer;
 using mir::SurfelHit;
-using mir::SurfelNode;
-using mir::SurfelRay;
 using mir::SurfelTree;
 using mir::Vec3;
-
-namespace {
-
-/// Nearest along a ray of the nodes at which a walk from its origin ends.
-SurfelHit brute_force(const SurfelTree& tree, const SurfelRay& ray) {
-    SurfelHit hit;
-    const float sine2 = mir::cap_sine_squared(ray.solid_angle);
-    for (std::uint32_t i = 0; i < tree.nodes().size();) {
-        const SurfelNode& node = tree.nodes()[i];
-        const bool ends = node.is_leaf() || mir::detail::stops_at(node, ray, sine2);
-        if (ends) mir::detail::meet_disc(node, i, ray, hit);
-        i += ends ? 2 * node.count - 1 : 1;
-    }
-    return hit;
-}
-
-}  // namespace
 
 TEST_CASE("A texel holds the nearest of all nodes that its direction meets, in every bit") {
     const World worlds[] = {sphere_in_box(), triangle_soup(60, 980)};
@@ -46,7 +28,8 @@ TEST_CASE("A texel holds the nearest of all nodes that its direction meets, in e
             MicroBuffer buffer(side, shading, random.next_2d());
             buffer.draw(tree.view(), origin, n, omega);
             for (std::uint32_t i = 0; i < buffer.size(); ++i) {
-                const SurfelHit truth = brute_force(tree, {origin, buffer.direction(i), n, omega});
+                const SurfelHit truth =
+                    mirtest::brute_force_cut(tree, {origin, buffer.direction(i), n, omega});
                 const SurfelHit& found = buffer.hit(i);
                 wrong += found.t == truth.t && found.node == truth.node ? 0 : 1;
                 met += found.node != SurfelHit::none ? 1 : 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/micro/surfel_traverse.hpp"
 
+#include "micro/brute_force_cut.hpp"
 #include "micro/surfel_worlds.hpp"
 #include "support/catch.hpp"
 
@@ -24,19 +25,6 @@ SurfelHit brute_force(const SurfelTree& tree, const SurfelRay& ray) {
     SurfelHit hit;
     for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)
         if (tree.nodes()[i].is_leaf()) mir::detail::meet_disc(tree.nodes()[i], i, ray, hit);
-    return hit;
-}
-
-/// Nearest of all nodes at which an approximate ray has to end, whatever the spheres above them.
-SurfelHit brute_force_cut(const SurfelTree& tree, const SurfelRay& ray) {
-    SurfelHit hit;
-    const float sine2 = mir::cap_sine_squared(ray.solid_angle);
-    for (std::uint32_t i = 0; i < tree.nodes().size();) {
-        const SurfelNode& node = tree.nodes()[i];
-        const bool ends = node.is_leaf() || mir::detail::stops_at(node, ray, sine2);
-        if (ends) mir::detail::meet_disc(node, i, ray, hit);
-        i += ends ? 2 * node.count - 1 : 1;
-    }
     return hit;
 }
 
