@@ -3,14 +3,15 @@ include_guard()
 
 find_package(Catch2 REQUIRED)
 include(Catch)
+include(MirUnity)
 include(MirWarnings)
 
-# How test programs are compiled. -O2 in optimised builds: results have the same bits at any level,
-# and a third of the tests' time is the compiler's.
+# How test programs are compiled. -O1 in optimised builds: results have the same bits at any level,
+# and most of the tests' time is the compiler's.
 function(mir_set_test_options name)
     mir_set_warnings(${name})
     mir_strict_floats(${name})
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 if(NOT TARGET threaded_tests)
@@ -38,7 +39,8 @@ endif()
 # by threaded_tests.
 function(mir_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;LABELS")
-    add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+    mir_batches(sources ${name} ${arg_UNPARSED_ARGUMENTS})
+    add_executable(${name} ${sources})
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_link_libraries(${name} PRIVATE mir::mir ${arg_LIBRARIES} Catch2::Catch2WithMain)
     target_precompile_headers(${name} REUSE_FROM mir_test_headers)
