@@ -30,22 +30,25 @@ function(mir_batches result name)
     set(${result} ${sources} PARENT_SCOPE)
 endfunction()
 
+# By relative names, so that units of two checkouts are the same.
 function(mir_write_unit unit)
+    cmake_path(GET unit PARENT_PATH unit_folder)
     set(headers)
     set(bodies)
     foreach(source IN LISTS ARGN)
         cmake_path(ABSOLUTE_PATH source)
         cmake_path(GET source PARENT_PATH folder)
         cmake_path(GET source STEM stem)
+        cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${unit_folder} OUTPUT_VARIABLE beside)
         file(STRINGS ${source} includes REGEX "^#include")
-        # What lies beside the source is found from the unit by its full name.
+        # What lies beside the source does not lie beside the unit.
         foreach(include IN LISTS includes)
             if(include MATCHES "^#include \"([^\"/]+)\"" AND EXISTS ${folder}/${CMAKE_MATCH_1})
-                set(include "#include \"${folder}/${CMAKE_MATCH_1}\"")
+                set(include "#include \"${beside}/${CMAKE_MATCH_1}\"")
             endif()
             list(APPEND headers ${include})
         endforeach()
-        string(APPEND bodies "namespace ${stem} {\n#include \"${source}\"\n}\n")
+        string(APPEND bodies "namespace ${stem} {\n#include \"${beside}/${stem}.cpp\"\n}\n")
         # A header that the source includes from now on has to stand before it.
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
     endforeach()
