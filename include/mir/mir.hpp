@@ -139,6 +139,7 @@
 #include "mir/micro/surfel.hpp"
 #include "mir/micro/surfel_bounces.hpp"
 #include "mir/micro/surfel_direct_light.hpp"
+#include "mir/micro/surfel_links.hpp"
 #include "mir/micro/surfel_node.hpp"
 #include "mir/micro/surfel_options.hpp"
 #include "mir/micro/surfel_radiance.hpp"

@@ -115,10 +115,10 @@ void add_reference(CLI::App& app, mir::RenderSettings& s) {
 
 void add_micro(CLI::App& app, mir::RenderSettings& s) {
     mir::MicroSettings& m = s.micro;
-    app.add_option("--surfels", m.surfels, "Discs wanted of --integrator micro (default 65536)")
+    app.add_option("--surfels", m.surfels, "Discs wanted of --integrator micro (default 16384)")
         ->check(between(1, 1.6e7, "1 to 16000000"));
     add_count(app, "--gather-rays", m.gather.rays, 1, 65536,
-              "Rays with which a luxel gathers (default 256)");
+              "Rays with which a luxel gathers (default 128)");
     add_choice<mir::GatherDirections>(
         app, "--gather-directions", m.gather.directions,
         {{"cosine", mir::GatherDirections::cosine}, {"uniform", mir::GatherDirections::uniform}},
@@ -128,7 +128,7 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
                    "exact (default 1)")
         ->check(between(0, 1e6, "0 to 1000000"));
     add_count(app, "--surfel-rays", m.surfel_rays, 1, 65536,
-              "Rays with which each side of a disc gathers later bounces (default 64)");
+              "Rays with which each side of a disc gathers later bounces (default 32)");
 }
 
 void add_sampling(CLI::App& app, RenderOptions& o) {

@@ -11,13 +11,14 @@ namespace mir {
 
 /// Upper bounds that are checked before memory is taken. Raise them knowingly.
 struct Limits {
-    std::uint64_t triangles = 200'000'000;        ///< after instancing
-    std::uint64_t vertices = 400'000'000;         ///< after instancing
-    std::uint64_t vpls = 4'000'000;               ///< geometric VPLs of one set
-    std::uint64_t surfels = 16'000'000;           ///< discs of one scene
-    std::uint64_t pixels = 1ull << 28;            ///< of one image
-    std::uint64_t file_bytes = 4ull << 30;        ///< of one input file
-    std::uint64_t visibility_bytes = 8ull << 30;  ///< of stored visibility, with its luxels
+    std::uint64_t triangles = 200'000'000;         ///< after instancing
+    std::uint64_t vertices = 400'000'000;          ///< after instancing
+    std::uint64_t vpls = 4'000'000;                ///< geometric VPLs of one set
+    std::uint64_t surfels = 16'000'000;            ///< discs of one scene
+    std::uint64_t surfel_link_bytes = 4ull << 30;  ///< of the rays between discs
+    std::uint64_t pixels = 1ull << 28;             ///< of one image
+    std::uint64_t file_bytes = 4ull << 30;         ///< of one input file
+    std::uint64_t visibility_bytes = 8ull << 30;   ///< of stored visibility, with its luxels
 };
 
 /// Product that saturates instead of wrapping.

@@ -16,7 +16,7 @@ enum class GatherDirections {
 
 /// How light is gathered at a point.
 struct GatherOptions {
-    std::uint32_t rays = 256;  ///< of each point, 1 to 65536
+    std::uint32_t rays = 128;  ///< of each point, 1 to 65536
     GatherDirections directions = GatherDirections::cosine;
     /// Largest solid angle of a node at which a ray stops, in units of the ray's own, which is
     /// 1 / (rays * density): 0 is exact, 1 the article's choice.
@@ -27,7 +27,7 @@ struct GatherOptions {
 /// @throws Error(invalid_argument) when an option is out of its range.
 inline void check(const GatherOptions& options) {
     expects(options.rays >= 1 && options.rays <= 65536,
-            "the rays of a gather must be 1 to 65536; 256 are usual");
+            "the rays of a gather must be 1 to 65536; 128 are usual");
     expects(options.threshold >= 0.0f && std::isfinite(options.threshold),
             "the threshold of a gather must be a finite number, not below 0 (it is the solid angle "
             "at which rays stop, in units of their own); 0 is exact, 1 usual");

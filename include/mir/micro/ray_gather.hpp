@@ -44,6 +44,30 @@ MIR_HD inline LocalDirection gather_direction(GatherDirections kind, Vec2 u) {
     return {w, cosine_hemisphere_pdf(w.z)};
 }
 
+/// The rays of one gather and what they meet.
+template <Space S>
+struct GatherRays {
+    SurfelTreeView<S> tree;
+    GatherOptions options;
+
+    /// Calls found(k, wi, d, hit) for each ray k above the horizon that meets something: its
+    /// direction in the world and in the frame of `normal`, and what closest_surfel() says.
+    template <class Found>
+    MIR_HD void each(const Hit& from, Vec3 normal, Random random, const Found& found) const {
+        const Frame frame = Frame::around(normal);
+        const ShiftedPoints points(random);
+        for (std::uint32_t k = 0; k < options.rays; ++k) {
+            const LocalDirection d = gather_direction(options.directions, points[k]);
+            const Vec3 wi = frame.to_world(d.w);
+            if (!(d.pdf > 0.0f) || !(d.w.z > 0.0f) || !(glm::dot(wi, from.normal) > 0.0f)) continue;
+            const float share = options.threshold / (static_cast<float>(options.rays) * d.pdf);
+            const SurfelHit hit =
+                closest_surfel(tree, {from.position, wi, from.normal, share}, options.shape);
+            if (hit.node != SurfelHit::none) found(k, wi, d, hit);
+        }
+    }
+};
+
 }  // namespace detail
 
 /// Light that reaches a luxel from discs, by rays: the mean of f L cos / p over directions with
@@ -63,24 +87,13 @@ struct RayGather {
                                         Random random) const {
         Rgb sum;
         if (is_empty(hit) || B::is_black(s.bsdf)) return sum;
-        const Frame frame = Frame::around(s.normal);
-        const detail::ShiftedPoints points(random);
-        for (std::uint32_t k = 0; k < options.rays; ++k) {
-            const detail::LocalDirection d =
-                detail::gather_direction(options.directions, points[k]);
-            const Vec3 wi = frame.to_world(d.w);
-            if (!(d.pdf > 0.0f) || !(d.w.z > 0.0f) || !(glm::dot(wi, hit.normal) > 0.0f)) continue;
-            sum += B::eval(s.bsdf, s.normal, wi, s.wo) * met(hit, wi, d.pdf) * (d.w.z / d.pdf);
-        }
+        const auto add = [&](std::uint32_t, Vec3 wi, const detail::LocalDirection& d,
+                             const SurfelHit& met) {
+            sum += B::eval(s.bsdf, s.normal, wi, s.wo) * radiance[met.node].of(met.front) *
+                   (d.w.z / d.pdf);
+        };
+        detail::GatherRays<S>{tree, options}.each(hit, s.normal, random, add);
         return sum * (1.0f / static_cast<float>(options.rays));
-    }
-
- private:
-    [[nodiscard]] MIR_HD Rgb met(const Hit& hit, Vec3 wi, float pdf) const {
-        const float share = options.threshold / (static_cast<float>(options.rays) * pdf);
-        const SurfelHit found =
-            closest_surfel(tree, {hit.position, wi, hit.normal, share}, options.shape);
-        return found.node == SurfelHit::none ? Rgb{} : radiance[found.node].of(found.front);
     }
 };
 

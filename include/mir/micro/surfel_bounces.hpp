@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/micro/ray_gather.hpp"
 #include "mir/micro/surfel_direct_light.hpp"
+#include "mir/micro/surfel_links.hpp"
 
 namespace mir {
 
@@ -10,23 +10,12 @@ namespace mir {
 struct SurfelBounceOptions {
     std::uint8_t last = 1;   ///< most reflections of the light that discs send out, 1 to 254
     float least = 1e-3f;     ///< a bounce that adds less than this share of the power is the last
-    GatherOptions gather;    ///< at each side of a disc
+    GatherOptions gather;    ///< at each side of a disc; cosine directions alone
     std::uint64_t seed = 0;  ///< of all random numbers
+    Limits limits;           ///< surfel_link_bytes counts
 };
 
 namespace detail {
-
-/// Light of the bounce before that a side of a disc gathers and reflects, for light_surfels().
-struct SurfelIndirectLight {
-    RayGather<Space::host, Lambert> gather;
-    std::uint64_t seed = 0;
-    std::uint8_t bounce = 2;
-
-    [[nodiscard]] Rgb operator()(const SurfelFace& face, std::uint64_t number) const {
-        return gather(face.hit, face.surface,
-                      {seed, Stream::surfel_gather, std::uint64_t{bounce} << 34 | number});
-    }
-};
 
 /// Luminance of what all discs send out, W.
 inline double sent_power(const SurfelTree& tree, std::span<const SurfelRadiance> radiance) {
@@ -39,25 +28,30 @@ inline double sent_power(const SurfelTree& tree, std::span<const SurfelRadiance>
 }  // namespace detail
 
 /// Light that discs send out, bounce by bounce: element b is that of b + 1 reflections, the first
-/// what they reflect of the lamps. Its length is options.last, or less where light runs out. 24
-/// bytes for each node and bounce.
-/// @throws Error(invalid_argument) on options out of range.
+/// what they reflect of the lamps. Its length is options.last, or less where light runs out. Rays
+/// from disc to disc are traced once: every bounce goes along the same ones. 24 bytes for each node
+/// and bounce, and SurfelLinks::bytes() meanwhile.
+/// @throws Error(invalid_argument) on options out of range, Error(limit_exceeded) by
+///     Limits::surfel_link_bytes.
 template <Visibility V, Executor E>
 std::vector<std::vector<SurfelRadiance>> surfel_bounces(const SurfelTree& tree,
                                                         const SurfelDirectLight<V>& direct,
                                                         float ray_offset,
                                                         const SurfelBounceOptions& options,
                                                         E& executor) {
-    check(options.gather);
     expects(options.last >= 1, "discs that reflect nothing send out nothing; ask for one bounce");
     std::vector<std::vector<SurfelRadiance>> bounces;
     bounces.push_back(light_surfels(tree, direct, ray_offset, executor));
+    if (options.last == 1) return bounces;
+    const SurfelLinks links(tree, options.gather, ray_offset, options.seed, options.limits,
+                            executor);
     double power = detail::sent_power(tree, bounces[0]);
     double added = power;
-    for (std::uint8_t b = 2; b <= options.last && added > options.least * power; ++b) {
-        const detail::SurfelIndirectLight light{
-            {tree.view(), bounces.back().data(), options.gather}, options.seed, b};
-        bounces.push_back(light_surfels(tree, light, ray_offset, executor));
+    while (bounces.size() < options.last && added > options.least * power) {
+        const auto reflected = [&](const SurfelFace& face, std::uint64_t number) {
+            return links(face, number, bounces.back());
+        };
+        bounces.push_back(light_surfels(tree, reflected, ray_offset, executor));
         added = detail::sent_power(tree, bounces.back());
         power += added;
     }

@@ -53,24 +53,31 @@ inline void average_radiance(const SurfelTree& tree, std::span<SurfelRadiance> r
     }
 }
 
+/// Calls visit(index) for every leaf whose disc is not black, in any order, from any thread.
+template <class Visit, Executor E>
+void for_each_reflecting_leaf(const SurfelTree& tree, E& executor, const Visit& visit) {
+    constexpr std::size_t part = 128;
+    const std::size_t nodes = tree.nodes().size();
+    executor.for_each((nodes + part - 1) / part, [&](std::size_t p) {
+        for (std::size_t i = p * part; i < std::min(nodes, (p + 1) * part); ++i)
+            if (tree.nodes()[i].is_leaf() && !is_black(tree.albedo()[i]))
+                visit(static_cast<std::uint32_t>(i));
+    });
+}
+
 /// Lights both sides of every disc. `light(face, number)` is the radiance that leaves a SurfelFace,
-/// W m^-2 sr^-1; `number` names it among all sides, for random numbers. Sides whose albedo is black
-/// are not asked. Element i belongs to node i. The same for any number of threads.
+/// W m^-2 sr^-1; `number` names it among all sides, for random numbers: twice that of the disc in
+/// the order of the tree, plus 1 for its back. Sides whose albedo is black are not asked. Element i
+/// belongs to node i. The same for any number of threads.
 template <class Light, Executor E>
 std::vector<SurfelRadiance> light_surfels(const SurfelTree& tree, const Light& light,
                                           float ray_offset, E& executor) {
     std::vector<SurfelRadiance> radiance(tree.nodes().size());
     const SurfelTreeView<Space::host> view = tree.view();
-    constexpr std::size_t part = 128;
-    executor.for_each((radiance.size() + part - 1) / part, [&](std::size_t p) {
-        for (std::size_t i = p * part; i < std::min(radiance.size(), (p + 1) * part); ++i) {
-            const auto index = static_cast<std::uint32_t>(i);
-            const SurfelNode& node = view.nodes[index];
-            if (!node.is_leaf() || is_black(view.albedo[index])) continue;
-            const std::uint64_t number = 2 * std::uint64_t{node.first};
-            radiance[i] = {light(surfel_face(view, index, true, ray_offset), number),
+    for_each_reflecting_leaf(tree, executor, [&](std::uint32_t index) {
+        const std::uint64_t number = 2 * std::uint64_t{view.nodes[index].first};
+        radiance[index] = {light(surfel_face(view, index, true, ray_offset), number),
                            light(surfel_face(view, index, false, ray_offset), number + 1)};
-        }
     });
     average_radiance(tree, radiance);
     return radiance;

@@ -78,10 +78,12 @@ auto MicroRender<B, Engine, E>::light(const SurfelTree& tree) -> std::vector<Rad
     options.last = static_cast<std::uint8_t>(job_.settings.max_bounce - 1);
     options.gather = m.gather;
     options.gather.rays = m.surfel_rays;
+    options.gather.directions = GatherDirections::cosine;
     // Fewer rays are wider; they still stop where those of luxels do.
     options.gather.threshold *=
         static_cast<float>(m.surfel_rays) / static_cast<float>(m.gather.rays);
     options.seed = job_.settings.seed;
+    options.limits = job_.settings.limits;
     const float offset = job_.geometry.ray_offset();
     const SurfelDirectLight direct(job_.lights, job_.engine.visibility(),
                                    job_.settings.direct_samples, job_.settings.seed);

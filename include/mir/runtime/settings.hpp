@@ -51,8 +51,8 @@ struct PathSettings {
 struct MicroSettings {
     /// Discs wanted: their largest area is that of the scene divided by it. There are one to four
     /// times as many, and at least one for each triangle.
-    std::uint32_t surfels = 65536;
-    std::uint32_t surfel_rays = 64;  ///< of each side of a disc and bounce, for later bounces
+    std::uint32_t surfels = 16384;
+    std::uint32_t surfel_rays = 32;  ///< of each side of a disc, for later bounces
     GatherOptions gather;            ///< at each luxel; but for the rays at discs too
 };
 
@@ -176,10 +176,10 @@ inline void RenderSettings::validate() const {
             "only the light of VPLs has a bounded geometry term (the picture would not be the one "
             "asked for); leave --bound out or use --integrator vpl");
     expects(micro.surfels > 0,
-            "0 discs were asked for (there would be no indirect light); 65536 are usual");
+            "0 discs were asked for (there would be no indirect light); 16384 are usual");
     check_limit(micro.surfels, limits.surfels, "surfels");
     expects(micro.surfel_rays >= 1 && micro.surfel_rays <= 65536,
-            "the rays of a disc must be 1 to 65536; 64 are usual");
+            "the rays of a disc must be 1 to 65536; 32 are usual");
     check(micro.gather);
 }
 
