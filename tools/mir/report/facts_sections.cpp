@@ -10,7 +10,7 @@
 namespace mirtool {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
+using FactRows = std::vector<std::vector<std::string>>;
 
 std::string bound_text(const mir::RenderSettings& s, const mir::RenderStatistics& statistics) {
     if (s.bound.kind == mir::BoundPolicy::Kind::none) return "none";
@@ -19,7 +19,7 @@ std::string bound_text(const mir::RenderSettings& s, const mir::RenderStatistics
            percent(statistics.removed_share()) + " of the VPLs' light";
 }
 
-void add_vpl_settings(Rows& rows, const mir::RenderSettings& s,
+void add_vpl_settings(FactRows& rows, const mir::RenderSettings& s,
                       const mir::RenderStatistics& statistics) {
     rows.push_back({"VPLs", std::to_string(statistics.vpls) + " placed, " + std::to_string(s.vpls) +
                                 " wanted"});
@@ -41,11 +41,11 @@ std::string settings_section(const ReportInput& in) {
     const mir::RenderSettings& s = in.options.settings;
     const mir::RenderStatistics& statistics = in.result.statistics;
     const std::string& camera = in.loaded.scene.cameras[s.camera].name;
-    Rows rows{{"size", mir::detail::size_text(s.image) + " pixels, " +
-                           std::to_string(s.luxels_per_pixel) + " luxels each"},
-              {"camera", camera.empty() ? std::to_string(s.camera) : camera},
-              {"filter", std::string(to_string(s.filter.kind))},
-              {"sampler", sampler_name(s)}};
+    FactRows rows{{"size", mir::detail::size_text(s.image) + " pixels"},
+                  {"luxels per pixel", std::to_string(s.luxels_per_pixel)},
+                  {"camera", camera.empty() ? std::to_string(s.camera) : camera},
+                  {"filter", std::string(to_string(s.filter.kind))},
+                  {"sampler", sampler_name(s)}};
     if (s.integrator == mir::Integrator::vpl) add_vpl_settings(rows, s, statistics);
     if (s.integrator == mir::Integrator::path)
         rows.push_back({"camera paths per luxel", std::to_string(s.path.samples)});
@@ -67,7 +67,7 @@ std::string settings_section(const ReportInput& in) {
 std::string scene_section(const ReportInput& in) {
     const mir::SceneReport& r = in.loaded.report;
     const mir::RenderStatistics& s = in.result.statistics;
-    Rows rows{
+    FactRows rows{
         {"file", in.options.scene},
         {"fingerprint", s.scene_hash},
         {"triangles", std::to_string(s.triangles) + ", " + std::to_string(r.emitting_triangles) +

@@ -4,7 +4,9 @@
 #include "report/sections.hpp"
 #include "text.hpp"
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace mirtool {
 namespace {
@@ -19,6 +21,19 @@ std::string luminance_text(const mir::PathLuminance& p) {
     return number(p.mean) + " ± " + number(p.standard_error) + " W/(m² sr), " +
            std::to_string(p.contributing) + " of " + std::to_string(p.paths) +
            " paths carried light";
+}
+
+/// The second estimate of P_c, and what it says about the first.
+std::vector<std::string> second_luminance_row(const mir::ChainHealth& h) {
+    const bool known = h.luminance.paths > 0 && h.large_step_luminance.paths > 0;
+    return {"P_c of the large steps", luminance_text(h.large_step_luminance),
+            known ? "a second estimate, " + fixed(std::fabs(h.luminance_z()), 1) +
+                        " standard errors away; beyond 4 light is missed"
+                  : "a second estimate"};
+}
+
+std::string r_hat_text(double r_hat) {
+    return std::isfinite(r_hat) ? number(r_hat) : "too few states to tell";
 }
 
 std::string mean_text(const std::array<double, 3>& mean) {
@@ -59,12 +74,11 @@ std::string chains_section(const mir::RenderStatistics& s) {
                   "what the VPLs are made of"},
                  {"effective samples", number(std::round(h.effective_samples)) + " of " + states,
                   "what the states are worth in independent ones; all of them is ideal"},
-                 {"split R-hat", number(h.split_r_hat), "disagreement of the chains; 1 is ideal"},
+                 {"split R-hat", r_hat_text(h.split_r_hat),
+                  "disagreement of the chains; 1 is ideal"},
                  {"P_c", luminance_text(h.luminance),
                   "mean luminance of all paths, a common factor of the VPLs' light"},
-                 {"P_c of the large steps", luminance_text(h.large_step_luminance),
-                  "a second estimate, " + fixed(std::fabs(h.luminance_z()), 1) +
-                      " standard errors away; beyond 4 light is missed"},
+                 second_luminance_row(h),
                  {"dropped share", percent(s.dropped_share),
                   "states whose VPL lights no luxel; their light is lost"}}});
 }

@@ -14,7 +14,7 @@ namespace {
 /// Pixels across of the picture that is shown where no script runs.
 constexpr std::uint32_t still_width = 640;
 
-std::vector<ReportLayer> layers_of(const ReportInput& in) {
+std::vector<ReportLayer> shown_layers(const ReportInput& in) {
     const mir::RenderResult& r = in.result;
     std::vector<ReportLayer> layers{{"direct", "Direct light", &r.direct, ""},
                                     {"emission", "Emission", &r.emission, ""}};
@@ -34,8 +34,8 @@ std::string png_of(const mir::Image<mir::Rgb>& image, float exposure, const Repo
 }
 
 /// Codes all pictures at one size and returns how many bytes they take; stops beyond `most`.
-std::size_t encode(ReportPictures& out, const mir::Image<mir::Rgb>& error, const ReportInput& in,
-                   std::size_t most) {
+std::size_t encode_all(ReportPictures& out, const mir::Image<mir::Rgb>& error,
+                       const ReportInput& in, std::size_t most) {
     std::size_t bytes = out.still.size();
     if (error.extent().area() > 0) out.error = png_of(shrunk(error, out.shrink), 0.0f, in);
     bytes += out.error.size();
@@ -70,7 +70,7 @@ mir::Image<mir::Rgb> shrunk(const mir::Image<mir::Rgb>& image, std::uint32_t fac
 ReportPictures report_pictures(const ReportInput& in, float exposure, std::size_t most_bytes) {
     const mir::Image<mir::Rgb>& beauty = in.result.beauty;
     ReportPictures out;
-    out.layers = layers_of(in);
+    out.layers = shown_layers(in);
     const std::uint32_t still = (beauty.width() + still_width - 1) / still_width;
     out.still = png_of(shrunk(beauty, still), exposure, in);
     mir::Image<mir::Rgb> error;
@@ -80,7 +80,7 @@ ReportPictures report_pictures(const ReportInput& in, float exposure, std::size_
         error = mir::signed_error_picture(errors, out.error_range);
     }
     const std::uint32_t most_shrink = std::max(beauty.width(), beauty.height());
-    while (encode(out, error, in, most_bytes) > most_bytes && out.shrink < most_shrink)
+    while (encode_all(out, error, in, most_bytes) > most_bytes && out.shrink < most_shrink)
         ++out.shrink;
     return out;
 }

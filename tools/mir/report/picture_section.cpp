@@ -6,6 +6,8 @@
 #include "report/vpl_drawing.hpp"
 #include "text.hpp"
 
+#include <algorithm>
+
 namespace mirtool {
 namespace {
 
@@ -63,10 +65,11 @@ std::string stage(const ReportInput& in, const ReportPictures& pictures, float e
     const auto side = [&](std::uint32_t n) {
         return std::to_string((n + pictures.shrink - 1) / pictures.shrink);
     };
-    return "<div class=\"stage\">\n<img id=\"still\" alt=\"" +
-           mir::detail::html_escaped(in.options.scene) + ", beauty at " + number(exposure) +
-           " EV\" width=\"" + std::to_string(full.width) + "\" height=\"" +
-           std::to_string(full.height) + "\" src=\"data:image/png;base64," + pictures.still +
+    return "<div class=\"stage\" style=\"max-width: " + std::to_string(std::max(full.width, 640u)) +
+           "px\">\n<img id=\"still\" alt=\"" + mir::detail::html_escaped(in.options.scene) +
+           ", beauty at " + number(exposure) + " EV\" width=\"" + std::to_string(full.width) +
+           "\" height=\"" + std::to_string(full.height) + "\" src=\"data:image/png;base64," +
+           pictures.still +
            "\">\n<canvas id=\"canvas\" role=\"img\" aria-label=\"Picture\" tabindex=\"0\" "
            "aria-describedby=\"keys\" width=\"" +
            side(full.width) + "\" height=\"" + side(full.height) + "\" data-shrink=\"" +

@@ -119,7 +119,7 @@ std::string vpl_controls(const ReportInput& in) {
     if (in.result.vpls.empty()) return "";
     std::string out =
         "<div><input type=\"checkbox\" id=\"vpl-show\"><label for=\"vpl-show\"> "
-        "Draw VPLs</label></div>\n<div><label for=\"vpl-bounce\">of bounce</label>"
+        "Draw VPLs</label> <label for=\"vpl-bounce\">of bounce</label>"
         "<select id=\"vpl-bounce\"><option value=\"all\">all</option>";
     const auto shares = shares_of(in.result.vpls);
     for (std::uint8_t colour = 1; colour <= colours; ++colour)
