@@ -62,7 +62,7 @@ inline mir::Image<mir::Rgb> layer_of(const std::string& page, const std::string&
             std::stoul(between(canvas, std::string(" ") + which + "=\"", "\"")));
     };
     const std::string code =
-        between(page, "<script type=\"application/octet-stream\" id=\"" + name + "\">", "<");
+        between(page, R"(<script type="application/octet-stream" id=")" + name + "\">", "<");
     return inflate_radiance(from_base64(code), {side("width"), side("height")});
 }
 

@@ -31,32 +31,31 @@ std::string layer_options(const ReportPictures& pictures) {
     if (!indirect.empty()) all += option(indirect, "Indirect light");
     all += single;
     if (!pictures.error.empty())
-        all += "<option value=\"error\" data-image=\"error\">Signed error</option>";
+        all += R"(<option value="error" data-image="error">Signed error</option>)";
     return all;
 }
 
 std::string range(const std::string& id, const std::string& label, const std::string& attributes) {
-    return "<div><label for=\"" + id + "\">" + label + "</label><input type=\"range\" id=\"" + id +
+    return "<div><label for=\"" + id + "\">" + label + R"(</label><input type="range" id=")" + id +
            "\" " + attributes + "><output id=\"" + id + "-value\" for=\"" + id +
            "\"></output></div>\n";
 }
 
 std::string controls(const ReportInput& in, const ReportPictures& pictures, float exposure) {
-    std::string out =
-        "<div id=\"controls\" class=\"controls\" role=\"group\" "
-        "aria-label=\"Controls of the picture\" hidden>\n"
-        "<div><label for=\"layer\">Layer</label><select id=\"layer\">" +
-        layer_options(pictures) + "</select></div>\n";
+    std::string out = R"(<div id="controls" class="controls" role="group" )"
+                      "aria-label=\"Controls of the picture\" hidden>\n"
+                      R"(<div><label for="layer">Layer</label><select id="layer">)" +
+                      layer_options(pictures) + "</select></div>\n";
     const double ev = static_cast<double>(exposure);
     out += range("exposure", "Exposure",
                  "min=\"" + number(ev - 10.0) + "\" max=\"" + number(ev + 10.0) +
-                     "\" step=\"0.1\" value=\"" + number(ev) + "\"");
-    out += "<div><label for=\"curve\">Tone curve</label><select id=\"curve\">" +
+                     R"(" step="0.1" value=")" + number(ev) + "\"");
+    out += R"(<div><label for="curve">Tone curve</label><select id="curve">)" +
            option("none", "none (clamped)") + option("reinhard", "Reinhard") +
            option("aces", "ACES (Narkowicz)") + "</select></div>\n";
     if (!pictures.error.empty())
         out += range("split", "Split: render left, reference right",
-                     "min=\"0\" max=\"100\" step=\"1\" value=\"50\"");
+                     R"(min="0" max="100" step="1" value="50")");
     return out + vpl_controls(in) + "</div>\n";
 }
 
@@ -65,13 +64,13 @@ std::string stage(const ReportInput& in, const ReportPictures& pictures, float e
     const auto side = [&](std::uint32_t n) {
         return std::to_string((n + pictures.shrink - 1) / pictures.shrink);
     };
-    return "<div class=\"stage\" style=\"max-width: " + std::to_string(std::max(full.width, 640u)) +
+    return R"(<div class="stage" style="max-width: )" + std::to_string(std::max(full.width, 640u)) +
            "px\">\n<img id=\"still\" alt=\"" + mir::detail::html_escaped(in.options.scene) +
            ", beauty at " + number(exposure) + " EV\" width=\"" + std::to_string(full.width) +
            "\" height=\"" + std::to_string(full.height) + "\" src=\"data:image/png;base64," +
            pictures.still +
            "\">\n<canvas id=\"canvas\" role=\"img\" aria-label=\"Picture\" tabindex=\"0\" "
-           "aria-describedby=\"keys\" width=\"" +
+           R"(aria-describedby="keys" width=")" +
            side(full.width) + "\" height=\"" + side(full.height) + "\" data-shrink=\"" +
            std::to_string(pictures.shrink) + "\" hidden></canvas>\n" + vpl_drawing(in) + "</div>\n";
 }
@@ -94,7 +93,7 @@ std::string error_figure(const ReportPictures& pictures) {
         "Signed error of luminance: red where the render is brighter than the reference, blue "
         "where it is darker, in full colour from " +
         number(pictures.error_range) + " W/(m² sr)";
-    return "<figure class=\"error\"><img id=\"error\" alt=\"" + caption +
+    return R"(<figure class="error"><img id="error" alt=")" + caption +
            "\" src=\"data:image/png;base64," + pictures.error + "\"><figcaption>" + caption +
            "</figcaption></figure>\n";
 }
@@ -109,7 +108,7 @@ std::string picture_section(const ReportInput& in, float exposure) {
         controls(in, pictures, exposure) + stage(in, pictures, exposure) + vpl_legend(in) +
         notes(pictures) + error_figure(pictures);
     for (const ReportLayer& layer : pictures.layers)
-        section += "<script type=\"application/octet-stream\" id=\"" + layer.id + "\">" +
+        section += R"(<script type="application/octet-stream" id=")" + layer.id + "\">" +
                    layer.code + "</script>\n";
     return section;
 }

@@ -20,18 +20,17 @@ std::string bar(const Stage& stage, std::size_t row, double longest) {
     const double length = std::max(1.0, room * stage.seconds / longest);
     const std::string y = std::to_string(22 * row);
     const std::string base = std::to_string(22 * row + 15);
-    return "<text x=\"110\" y=\"" + base + "\" text-anchor=\"end\">" + stage.name +
-           "</text><rect x=\"118\" y=\"" + y + "\" width=\"" + fixed(length, 1) +
-           "\" height=\"18\"/><text x=\"" + fixed(124.0 + length, 1) + "\" y=\"" + base + "\">" +
+    return R"(<text x="110" y=")" + base + R"(" text-anchor="end">)" + stage.name +
+           R"(</text><rect x="118" y=")" + y + "\" width=\"" + fixed(length, 1) +
+           R"(" height="18"/><text x=")" + fixed(124.0 + length, 1) + "\" y=\"" + base + "\">" +
            fixed(stage.seconds, 3) + " s</text>\n";
 }
 
 std::string chart(const std::vector<Stage>& stages, double longest) {
     const std::string height = std::to_string(22 * stages.size());
-    std::string svg =
-        "<svg class=\"chart\" role=\"img\" aria-label=\"Bars of the seconds by "
-        "stage; the table below has the numbers\" viewBox=\"0 0 690 " +
-        height + "\">\n";
+    std::string svg = R"(<svg class="chart" role="img" aria-label="Bars of the seconds by )"
+                      "stage; the table below has the numbers\" viewBox=\"0 0 690 " +
+                      height + "\">\n";
     for (std::size_t i = 0; i < stages.size(); ++i) svg += bar(stages[i], i, longest);
     return svg + "</svg>\n";
 }

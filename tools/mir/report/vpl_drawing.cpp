@@ -100,7 +100,7 @@ std::string vpl_drawing(const ReportInput& in) {
     const double mean_radius = 0.008 * std::max(size.width, size.height);
     const double scale = mean_radius * std::sqrt(static_cast<double>(spots.size()) / power);
     if (spots.size() > most_drawn_vpls) spots.resize(most_drawn_vpls);
-    std::string svg = "<svg id=\"vpls\" class=\"vpl off\" aria-hidden=\"true\" viewBox=\"0 0 " +
+    std::string svg = R"(<svg id="vpls" class="vpl off" aria-hidden="true" viewBox="0 0 )" +
                       std::to_string(size.width) + " " + std::to_string(size.height) + "\">\n";
     for (std::uint8_t colour = 1; colour <= colours; ++colour) {
         svg += "<g id=\"vpl-" + class_of(colour) + "\" class=\"" + class_of(colour) + "\">";
@@ -117,10 +117,9 @@ std::string vpl_drawing(const ReportInput& in) {
 
 std::string vpl_controls(const ReportInput& in) {
     if (in.result.vpls.empty()) return "";
-    std::string out =
-        "<div><input type=\"checkbox\" id=\"vpl-show\"><label for=\"vpl-show\"> "
-        "Draw VPLs</label> <label for=\"vpl-bounce\">of bounce</label>"
-        "<select id=\"vpl-bounce\"><option value=\"all\">all</option>";
+    std::string out = R"(<div><input type="checkbox" id="vpl-show"><label for="vpl-show"> )"
+                      "Draw VPLs</label> <label for=\"vpl-bounce\">of bounce</label>"
+                      R"(<select id="vpl-bounce"><option value="all">all</option>)";
     const auto shares = shares_of(in.result.vpls);
     for (std::uint8_t colour = 1; colour <= colours; ++colour)
         if (shares[colour].vpls > 0)
@@ -135,11 +134,10 @@ std::string vpl_legend(const ReportInput& in) {
     const auto shares = shares_of(in.result.vpls);
     for (std::uint8_t colour = 1; colour <= colours; ++colour)
         if (shares[colour].vpls > 0)
-            list +=
-                "<li><svg class=\"swatch\" aria-hidden=\"true\" viewBox=\"0 0 16 16\"><circle "
-                "class=\"" +
-                class_of(colour) + "\" cx=\"8\" cy=\"8\" r=\"7\"/></svg> VPLs of bounce " +
-                bounce_text(colour) + "</li>\n";
+            list += R"(<li><svg class="swatch" aria-hidden="true" viewBox="0 0 16 16"><circle )"
+                    "class=\"" +
+                    class_of(colour) + R"(" cx="8" cy="8" r="7"/></svg> VPLs of bounce )" +
+                    bounce_text(colour) + "</li>\n";
     return list + "</ul>\n";
 }
 
