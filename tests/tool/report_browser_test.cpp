@@ -79,6 +79,13 @@ TEST_CASE("a browser shows a report's layers in light and dark and has nothing t
     CHECK(has(dom.out, "data-ready=\"true\""));
     CHECK(has(dom.out, "Beauty of the render, left 50 %"));
     CHECK_FALSE(has(dom.err, "CONSOLE"));
+    // Another script in its place is none.
+    std::string changed = file_bytes(page);
+    changed.replace(changed.find("const find"), 10, "const  seek");
+    std::ofstream(folder / "changed.html", std::ios::binary) << changed;
+    const Outcome refused = open_page(folder / "changed.html", folder, {"--dump-dom"});
+    CHECK(has(refused.err, "CONSOLE"));
+    CHECK_FALSE(has(refused.out, "data-ready=\"true\""));
     const std::array<int, 3> light{0xe8, 0xe8, 0xe8}, dark{0x24, 0x24, 0x24};
     for (const auto& [scheme, back] : {std::pair{"1", light}, std::pair{"0", dark}}) {
         const std::string shot = (folder / "shot.png").string();

@@ -81,7 +81,10 @@
   };
 
   const chosen = () => find("layer").selectedOptions[0];
+  // What is seen left of `border` and right of it.
   let shown = null;
+  let beside = null;
+  let border = width;
   const draw = async () => {
     const still = chosen().dataset.image;
     const names = chosen().value;
@@ -93,9 +96,10 @@
     } else {
       shown = await picture(names);
       const split = find("split");
-      const border = split ? Math.round(width * Number(split.value) / 100) : width;
+      border = split ? Math.round(width * Number(split.value) / 100) : width;
       paint(shown, 0, border);
-      if (border < width) paint(await picture("reference"), border, width);
+      beside = border < width ? await picture("reference") : null;
+      if (beside) paint(beside, border, width);
       context.putImageData(image, 0, 0);
       if (border > 0 && border < width) {
         context.fillStyle = "#fff";
@@ -107,6 +111,7 @@
       }
     }
     canvas.setAttribute("aria-label", label);
+    if (find("readout").textContent) read();
   };
 
   let waiting = false;
@@ -122,12 +127,17 @@
   // Radiance under the pointer, or at the place that the arrow keys lead to.
   const place = { x: width >> 1, y: height >> 1 };
   const read = () => {
-    if (!shown) return;
+    const right = place.x >= border;
+    const radiance = right ? beside : shown;
+    if (!shown || !radiance) {
+      find("readout").textContent = "";
+      return;
+    }
     const at = 3 * (place.y * width + place.x);
-    const values = Array.from(shown.subarray(at, at + 3), (value) => value.toPrecision(3));
+    const values = Array.from(radiance.subarray(at, at + 3), (value) => value.toPrecision(3));
     const shrink = Number(canvas.dataset.shrink);
     find("readout").textContent =
-      `${chosen().textContent} at pixel ${place.x * shrink}, ${place.y * shrink}: ` +
+      `${right ? "Reference" : chosen().textContent} at pixel ${place.x * shrink}, ${place.y * shrink}: ` +
       `${values.join(", ")} W/(m² sr)`;
   };
   const move = (x, y) => {
