@@ -9,7 +9,7 @@ mir_say() { printf '%s\n' "$*" >&2; }
 
 mir_packages() {
     echo "g++ cmake ninja-build libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev" \
-        "libcli11-dev nlohmann-json3-dev libtinygltf-dev libtinyobjloader-dev"
+        "zlib1g-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libtinyobjloader-dev"
     case ${MIR_WANT:-render} in
     test | check) echo "catch2 libbenchmark-dev" ;;
     esac
@@ -21,7 +21,7 @@ mir_packages() {
 # The same list for systems without dpkg.
 mir_libraries() {
     printf '%s' "a C++20 compiler, CMake 3.25, Ninja, Embree 3.12 or 4, oneTBB, GLM, OpenEXR 3.1, " \
-        "libpng, CLI11, nlohmann-json, tinygltf, tinyobjloader"
+        "libpng, zlib, CLI11, nlohmann-json, tinygltf, tinyobjloader"
     case ${MIR_WANT:-render} in
     test | check) printf ', Catch2, Google Benchmark' ;;
     esac

@@ -82,6 +82,11 @@ void check_same(const RenderResult& a, const RenderResult& b) {
     CHECK(same_bits(a.guides.normal, b.guides.normal));
     CHECK(same_bits(a.guides.position, b.guides.position));
     CHECK(same_bits(a.guides.depth, b.guides.depth));
+    REQUIRE(a.vpls.size() == b.vpls.size());
+    for (std::size_t j = 0; j < a.vpls.size(); ++j) {
+        CHECK(a.vpls.vpls()[j].position == b.vpls.vpls()[j].position);
+        CHECK(a.vpls.vpls()[j].intensity == b.vpls.vpls()[j].intensity);
+    }
     CHECK(a.statistics.bound == b.statistics.bound);
     CHECK(a.statistics.indirect_luminance == b.statistics.indirect_luminance);
     CHECK(a.statistics.removed_luminance == b.statistics.removed_luminance);

@@ -44,6 +44,14 @@ TEST_CASE("chains that do well are not warned of") {
     CHECK(warnings_after([](mir::RenderStatistics&) {}).empty());
 }
 
+TEST_CASE("chains too short for a second estimate of the luminance are not warned of one") {
+    CHECK(warnings_after([](mir::RenderStatistics& s) {
+              s.health->mutations = 0;
+              s.health->large = s.health->small = {};
+              s.health->large_step_luminance = {};
+          }).empty());
+}
+
 TEST_CASE("each bad value of a render is one worded warning") {
     using Statistics = mir::RenderStatistics;
     struct Case {

@@ -3,10 +3,10 @@
 #include "compare_output.hpp"
 #include "exit_code.hpp"
 #include "mir/cpu/tbb_executor.hpp"
-#include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
 #include "progress.hpp"
+#include "read_picture.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -15,16 +15,6 @@
 
 namespace mirtool {
 namespace {
-
-mir::Image<mir::Rgb> read_picture(const std::string& name, const std::string& layer) {
-    try {
-        return mir::read_exr(name, layer).image;
-    } catch (const mir::Error& e) {
-        // A file that is too large is the input's fault, not that of the command line.
-        if (e.code() != mir::ErrorCode::limit_exceeded) throw;
-        throw mir::Error(mir::ErrorCode::invalid_input, name + ": " + e.what(), e.where());
-    }
-}
 
 mir::Image<mir::Rgb> exposed(mir::Image<mir::Rgb> image, float exposure_ev) {
     const float scale = std::exp2(exposure_ev);

@@ -2,19 +2,18 @@
 #include "compare_output.hpp"
 
 #include "mir/compare/error_picture.hpp"
-#include "mir/io/atomic_file.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/html_report.hpp"
 #include "mir/io/png.hpp"
 #include "mir/version.hpp"
+#include "output_places.hpp"
+#include "text.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <set>
 #include <utility>
 
 namespace mirtool {
@@ -24,12 +23,6 @@ using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
 constexpr std::array<const char*, 3> channel_names{"R", "G", "B"};
-
-std::string number(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.6g", value);
-    return text.data();
-}
 
 std::string triple(const std::array<double, 3>& v) {
     return number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]);
@@ -132,19 +125,7 @@ void write_report(const Comparison& c, const CompareOptions& o,
 }  // namespace
 
 void check_outputs(const CompareOptions& o) {
-    const auto place = [](const std::string& name) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
-    };
-    std::set<std::filesystem::path> taken{place(o.image), place(o.reference)};
-    for (const std::string& name : {o.report, o.error}) {
-        if (name.empty()) continue;
-        if (!taken.insert(place(name)).second)
-            throw mir::Error(mir::ErrorCode::invalid_argument,
-                             name +
-                                 ": it would replace another file of this comparison (each "
-                                 "needs a place of its own); give another name");
-        const mir::AtomicFile writable(name);
-    }
+    check_output_places({o.image, o.reference}, {o.report, o.error}, "comparison");
 }
 
 void write_outputs(const Comparison& c, const CompareOptions& o) {

@@ -15,9 +15,12 @@ namespace mirtool {
 /// `mir render`.
 struct RenderOptions {
     std::string scene;
-    std::string output;   ///< EXR; empty: named after the scene
-    std::string preview;  ///< PNG; empty: beside the EXR
-    std::string camera;   ///< name or index; empty: the first
+    std::string output;            ///< EXR; empty: named after the scene
+    std::string preview;           ///< PNG; empty: beside the EXR
+    std::string report;            ///< HTML; empty: none
+    std::string report_reference;  ///< EXR to compare the report's picture with; empty: none
+    std::string vpls_out;          ///< PLY of the VPLs; empty: none
+    std::string camera;            ///< name or index; empty: the first
     std::optional<std::uint32_t> width;
     std::optional<std::uint32_t> height;
     std::vector<std::string> layers{"albedo", "normal",   "position", "depth",

@@ -201,6 +201,23 @@ void add_output(CLI::App& app, RenderOptions& o) {
     app.add_flag("-q,--quiet", o.quiet, "No progress, no summary");
 }
 
+/// Files that show how a picture came about.
+void add_report(CLI::App& app, RenderOptions& o) {
+    CLI::Option* report = app.add_option(
+        "--report", o.report, "Report to write, one HTML file with picture, VPLs and statistics");
+    app.add_option("--report-reference", o.report_reference,
+                   "OpenEXR picture that the report compares the render with")
+        ->needs(report);
+    app.add_option("--vpls-out", o.vpls_out, "VPLs to write, as points (.ply)")
+        ->check(CLI::Validator(
+            [](const std::string& name) {
+                return name.ends_with(".ply")
+                           ? std::string()
+                           : "'" + name + "' does not end in .ply, the format of VPLs";
+            },
+            ""));
+}
+
 void add_execution(CLI::App& app, RenderOptions& o) {
     mir::RenderSettings& s = o.settings;
     app.add_option("--threads", s.threads, "Threads (default 0: every core)")
@@ -233,6 +250,7 @@ void add_execution(CLI::App& app, RenderOptions& o) {
 
 void add_render(CLI::App& app, RenderOptions& options) {
     add_output(app, options);
+    add_report(app, options);
     add_image(app, options);
     add_sampling(app, options);
     add_chains(app, options.settings);

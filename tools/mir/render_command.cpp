@@ -7,6 +7,7 @@
 #include "mir/scene/framing.hpp"
 #include "progress.hpp"
 #include "render_output.hpp"
+#include "report/render_report.hpp"
 
 #include <tbb/global_control.h>
 
@@ -127,12 +128,14 @@ int run(const RenderOptions& options) {
     RenderOptions o = options;
     o.settings.validate();
     const OutputPaths paths = choose_outputs(o);
+    const mir::Image<mir::Rgb> reference = read_report_reference(o);
     // Bounds Embree's build too, which runs on the same library.
     std::optional<tbb::global_control> threads;
     if (o.settings.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, o.settings.threads);
     SceneAndReport loaded = load_scene(o.scene, o.settings.limits);
     blaming(o.scene, [&] { prepare(o, loaded); });
+    check_report_reference(o, reference);
     // Also while files are written, since a signal that ended the program there would leave halves.
     mir::Monitor monitor;
     const CancelOnInterrupt cancel(monitor);
@@ -140,12 +143,14 @@ int run(const RenderOptions& options) {
         blaming(o.scene, [&] { return render(o, loaded.scene, monitor); });
     monitor.check();
     write_outputs(paths, result, o);
+    write_render_report({o, loaded, result, reference});
     if (!o.quiet) print_summary(result);
     if (o.json) {
         print_json(paths, result, o);
     } else {
         std::printf("%s\n", paths.exr.c_str());
-        if (!paths.png.empty()) std::printf("%s\n", paths.png.c_str());
+        for (const std::string& name : {paths.png, o.report, o.vpls_out})
+            if (!name.empty()) std::printf("%s\n", name.c_str());
     }
     return exit_done;
 }

@@ -2,10 +2,11 @@
 #include "render_output.hpp"
 
 #include "load_scene.hpp"
-#include "mir/io/atomic_file.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
+#include "mir/io/vpl_ply.hpp"
 #include "mir/version.hpp"
+#include "output_places.hpp"
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -18,15 +19,6 @@ namespace mirtool {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* sampler_name(const mir::RenderSettings& s) {
-    if (s.integrator == mir::Integrator::path) return "path";
-    if (s.integrator == mir::Integrator::micro) return "micro";
-    if (s.sampler == mir::SamplerKind::metropolis) return "mir";
-    if (s.sampler == mir::SamplerKind::bidirectional) return "bir";
-    if (s.vpl_roulette) return "roulette";
-    return s.termination == mir::Termination::roulette ? "ir" : "keller";
-}
 
 bool wants(const RenderOptions& o, const char* layer) {
     return std::find(o.layers.begin(), o.layers.end(), layer) != o.layers.end();
@@ -96,20 +88,6 @@ Json seconds_of(const mir::StageSeconds& t) {
     return out;
 }
 
-/// Contributions per second of everything that pairs of luxels and VPLs cost.
-double rate_of(const mir::RenderStatistics& s) {
-    const mir::StageSeconds& t = s.seconds;
-    const double seconds = t.visibility + t.response + t.reconstruction;
-    return seconds > 0.0 ? static_cast<double>(s.contributions) / seconds : 0.0;
-}
-
-/// Largest resident set of the process so far.
-std::uint64_t peak_memory_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
 Json count_of(const mir::MutationCount& m) {
     return {{"proposed", m.proposed}, {"accepted", m.accepted}, {"rate", m.rate()}};
 }
@@ -160,6 +138,27 @@ bool are_one_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+const char* sampler_name(const mir::RenderSettings& s) {
+    if (s.integrator == mir::Integrator::path) return "path";
+    if (s.integrator == mir::Integrator::micro) return "micro";
+    if (s.sampler == mir::SamplerKind::metropolis) return "mir";
+    if (s.sampler == mir::SamplerKind::bidirectional) return "bir";
+    if (s.vpl_roulette) return "roulette";
+    return s.termination == mir::Termination::roulette ? "ir" : "keller";
+}
+
+double contributions_per_second(const mir::RenderStatistics& s) {
+    const mir::StageSeconds& t = s.seconds;
+    const double seconds = t.visibility + t.response + t.reconstruction;
+    return seconds > 0.0 ? static_cast<double>(s.contributions) / seconds : 0.0;
+}
+
+std::uint64_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
 OutputPaths choose_outputs(const RenderOptions& o) {
     OutputPaths paths{o.output.empty() ? stem_of(o.scene) + ".exr" : o.output, o.preview};
     mir::expects(paths.exr != "-", "a picture cannot be written to standard output; name a file");
@@ -170,8 +169,11 @@ OutputPaths choose_outputs(const RenderOptions& o) {
                  "picture and preview have the same name; let the picture end in .exr");
     mir::expects(!are_one_file(o.scene, paths.exr) && !are_one_file(o.scene, paths.png),
                  "the picture would replace the scene that it shows; give another name with -o");
-    const mir::AtomicFile exr(paths.exr);
-    if (!paths.png.empty()) const mir::AtomicFile png(paths.png);
+    mir::expects(o.vpls_out.empty() || o.settings.integrator == mir::Integrator::vpl,
+                 "this integrator places no VPLs (there would be none to write); leave --vpls-out "
+                 "out or use --integrator vpl");
+    check_output_places({o.scene, o.report_reference}, {paths.exr, paths.png, o.report, o.vpls_out},
+                        "render");
     return paths;
 }
 
@@ -180,21 +182,22 @@ void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const R
     if (!paths.png.empty())
         mir::write_png(paths.png, r.beauty,
                        o.exposure ? *o.exposure : mir::auto_exposure(r.beauty));
+    if (!o.vpls_out.empty()) mir::write_vpls_ply(o.vpls_out, r.vpls);
 }
 
 void print_summary(const mir::RenderResult& r) {
     const mir::RenderStatistics& s = r.statistics;
-    std::fprintf(stderr,
-                 "mir: %llu triangles, %llu luxels, %u VPLs from %llu light paths, %s\n"
-                 "mir: %.2f s (VPLs %.2f, camera rays %.2f, direct %.2f, visibility %.2f, response "
-                 "%.2f, reconstruction %.2f, ledger %.2f, film %.2f), "
-                 "%.1f M contributions/s\n",
-                 static_cast<unsigned long long>(s.triangles),
-                 static_cast<unsigned long long>(s.luxels), s.vpls,
-                 static_cast<unsigned long long>(s.light_paths), s.scheduler.c_str(),
-                 s.seconds.total, s.seconds.bootstrap + s.seconds.sampling, s.seconds.gbuffer,
-                 s.seconds.direct, s.seconds.visibility, s.seconds.response,
-                 s.seconds.reconstruction, s.seconds.ledger, s.seconds.film, 1e-6 * rate_of(s));
+    std::fprintf(
+        stderr,
+        "mir: %llu triangles, %llu luxels, %u VPLs from %llu light paths, %s\n"
+        "mir: %.2f s (VPLs %.2f, camera rays %.2f, direct %.2f, visibility %.2f, response "
+        "%.2f, reconstruction %.2f, ledger %.2f, film %.2f), "
+        "%.1f M contributions/s\n",
+        static_cast<unsigned long long>(s.triangles), static_cast<unsigned long long>(s.luxels),
+        s.vpls, static_cast<unsigned long long>(s.light_paths), s.scheduler.c_str(),
+        s.seconds.total, s.seconds.bootstrap + s.seconds.sampling, s.seconds.gbuffer,
+        s.seconds.direct, s.seconds.visibility, s.seconds.response, s.seconds.reconstruction,
+        s.seconds.ledger, s.seconds.film, 1e-6 * contributions_per_second(s));
     if (s.health)
         std::fprintf(stderr,
                      "mir: P_c %.4g +- %.2g from %llu paths; %llu states worth %.0f, R-hat %.2f\n",
@@ -213,6 +216,8 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
              {"scene_hash", s.scene_hash},
              {"picture", paths.exr}};
     if (!paths.png.empty()) out["preview"] = paths.png;
+    if (!o.report.empty()) out["report"] = o.report;
+    if (!o.vpls_out.empty()) out["vpl_file"] = o.vpls_out;
     out["width"] = r.beauty.width();
     out["height"] = r.beauty.height();
     out["seed"] = o.settings.seed;
@@ -229,7 +234,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["vpls"] = s.vpls;
     out["surfels"] = s.surfels;
     out["contributions"] = s.contributions;
-    out["contributions_per_second"] = rate_of(s);
+    out["contributions_per_second"] = contributions_per_second(s);
     out["emitted_power"] = s.emitted_power;
     out["non_lambertian_share"] = s.non_lambertian_share;
     out["normalisation"] = s.normalisation;

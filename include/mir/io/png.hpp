@@ -4,18 +4,15 @@
 #include "mir/core/error.hpp"
 #include "mir/core/rgb.hpp"
 #include "mir/data/image.hpp"
-#include "mir/io/atomic_file.hpp"
+#include "mir/io/detail/write_file.hpp"
 
 #include <png.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -57,25 +54,27 @@ namespace mir {
 
 namespace detail {
 
-[[noreturn]] inline void cannot_write_png(const std::filesystem::path& path,
-                                          const std::string& reason) {
-    throw Error(ErrorCode::io, path.string() + ": the preview cannot be written (" + reason +
-                                   "); free space there or choose another folder");
-}
-
-/// PNG file of 8-bit RGB rows. libpng's simplified interface keeps its longjmp to itself, so that
-/// no C++ frame is ever jumped over.
-inline std::vector<std::uint8_t> encode_png(Extent extent, const std::vector<std::uint8_t>& codes,
+/// PNG file of 8-bit sRGB, for the file at `path`: radiance times 2^`exposure_ev`, clamped.
+/// libpng's simplified interface keeps its longjmp to itself, so that no C++ frame is ever jumped
+/// over.
+inline std::vector<std::uint8_t> encode_png(const Image<Rgb>& linear, float exposure_ev,
                                             const std::filesystem::path& path) {
+    const float scale = std::exp2(exposure_ev);
+    std::vector<std::uint8_t> codes;
+    codes.reserve(linear.pixels().size() * 3);
+    for (const Rgb& pixel : linear.pixels())
+        for (const float value : {pixel.r, pixel.g, pixel.b})
+            codes.push_back(to_srgb8(value * scale));
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    image.width = extent.width;
-    image.height = extent.height;
+    image.width = linear.width();
+    image.height = linear.height();
     image.format = PNG_FORMAT_RGB;
     png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::vector<std::uint8_t> file(bytes);
     if (png_image_write_to_memory(&image, file.data(), &bytes, 0, codes.data(), 0, nullptr) == 0)
-        cannot_write_png(path, image.message);
+        throw Error(ErrorCode::io, path.string() + ": the picture cannot be compressed (" +
+                                       image.message + "); ask for a smaller one");
     file.resize(bytes);
     return file;
 }
@@ -96,21 +95,9 @@ inline void write_png(const std::filesystem::path& path, const Image<Rgb>& linea
                 extent.height <= most,
             "this image has no preview (a PNG has 1 to 1000000 pixels a side and 2^28 in all); "
             "write OpenEXR");
-    const float scale = std::exp2(exposure_ev);
-    std::vector<std::uint8_t> codes;
-    codes.reserve(linear.pixels().size() * 3);
-    for (const Rgb& pixel : linear.pixels())
-        for (const float value : {pixel.r, pixel.g, pixel.b})
-            codes.push_back(to_srgb8(value * scale));
-    const std::vector<std::uint8_t> file = detail::encode_png(extent, codes, path);
-    AtomicFile target(path);
-    errno = 0;
-    std::ofstream stream(target.temporary(), std::ios::binary | std::ios::trunc);
-    stream.write(reinterpret_cast<const char*>(file.data()),
-                 static_cast<std::streamsize>(file.size()));
-    stream.close();
-    if (!stream) detail::cannot_write_png(path, std::strerror(errno != 0 ? errno : EIO));
-    target.commit();
+    const std::vector<std::uint8_t> file = detail::encode_png(linear, exposure_ev, path);
+    detail::write_file(path, {reinterpret_cast<const char*>(file.data()), file.size()},
+                       "the preview");
 }
 
 }  // namespace mir

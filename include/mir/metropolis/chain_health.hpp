@@ -59,8 +59,10 @@ struct ChainHealth {
         capped = capped || chain.capped;
     }
 
-    /// Difference of the two estimates of P_c in standard errors; 0 when one has none.
+    /// Difference of the two estimates of P_c in standard errors; 0 when one has no paths, or both
+    /// have no error.
     [[nodiscard]] double luminance_z() const {
+        if (luminance.paths == 0 || large_step_luminance.paths == 0) return 0.0;
         const double error =
             std::hypot(luminance.standard_error, large_step_luminance.standard_error);
         return error > 0.0 ? (large_step_luminance.mean - luminance.mean) / error : 0.0;

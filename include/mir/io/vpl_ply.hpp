@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/error.hpp"
+#include "mir/data/main_bounces.hpp"
+#include "mir/data/vpl_list.hpp"
+#include "mir/io/detail/write_file.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mir {
+namespace detail {
+
+/// Everything before the numbers of a PLY file of VPLs.
+inline std::string vpl_ply_header(std::uint32_t count) {
+    return "ply\n"
+           "format binary_little_endian 1.0\n"
+           "comment virtual point lights: points that shine into the hemisphere of their normal\n"
+           "comment position in metres; radiant intensity J cos(angle to the normal), J in W/sr,\n"
+           "comment linear Rec. 709; the power of a light is pi J, in W\n"
+           "comment bounce: scattering events up to the camera, 1 for light of a lamp itself\n"
+           "element vertex " +
+           std::to_string(count) +
+           "\n"
+           "property float x\n"
+           "property float y\n"
+           "property float z\n"
+           "property float nx\n"
+           "property float ny\n"
+           "property float nz\n"
+           "property float intensity_red\n"
+           "property float intensity_green\n"
+           "property float intensity_blue\n"
+           "property uchar bounce\n"
+           "end_header\n";
+}
+
+/// Appends the bytes of a number, lowest first.
+inline void append_little_endian(std::string& out, float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    for (int shift = 0; shift < 32; shift += 8)
+        out += static_cast<char>(static_cast<unsigned char>(bits >> shift));
+}
+
+}  // namespace detail
+
+/// Writes VPLs as a PLY file of points, binary little endian: one vertex per geometric VPL, black
+/// ones included, in the order of the list. Properties: position x y z, metres; normal nx ny nz;
+/// intensity_red, intensity_green, intensity_blue, the J of Vpl in W sr^-1; bounce, that of
+/// main_bounces(). Equal lists give equal bytes; the file appears complete or not at all.
+/// Thread-safe for different files.
+/// @throws Error(io) when the file cannot be written.
+/// Source of the format: Turk, "The PLY polygon file format", 1994.
+inline void write_vpls_ply(const std::filesystem::path& path, const VplList& list) {
+    std::string bytes = detail::vpl_ply_header(list.size());
+    const std::vector<std::uint8_t> bounces = main_bounces(list);
+    for (std::size_t j = 0; j < bounces.size(); ++j) {
+        const Vpl& vpl = list.vpls()[j];
+        for (const Vec3& v : {vpl.position, vpl.normal})
+            for (const float x : {v.x, v.y, v.z}) detail::append_little_endian(bytes, x);
+        for (const float x : {vpl.intensity.r, vpl.intensity.g, vpl.intensity.b})
+            detail::append_little_endian(bytes, x);
+        bytes += static_cast<char>(bounces[j]);
+    }
+    detail::write_file(path, bytes, "the VPLs");
+}
+
+}  // namespace mir

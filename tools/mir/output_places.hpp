@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mirtool {
+
+/// Makes sure, before any work is done, that the files `outputs` of a job (such as "render") can be
+/// written and that none of them would replace another or one of `inputs`. Empty names are left
+/// out.
+/// @throws mir::Error(io or invalid_argument).
+void check_output_places(const std::vector<std::string>& inputs,
+                         const std::vector<std::string>& outputs, const std::string& job);
+
+}  // namespace mirtool

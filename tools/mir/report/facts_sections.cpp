@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "mir/compare/comparable.hpp"
+#include "mir/io/detail/html_page.hpp"
+#include "render_output.hpp"
+#include "report/sections.hpp"
+#include "text.hpp"
+
+#include <vector>
+
+namespace mirtool {
+namespace {
+
+using FactRows = std::vector<std::vector<std::string>>;
+
+std::string bound_text(const mir::RenderSettings& s, const mir::RenderStatistics& statistics) {
+    if (s.bound.kind == mir::BoundPolicy::Kind::none) return "none";
+    const char* how = s.bound.kind == mir::BoundPolicy::Kind::automatic ? " (automatic)" : "";
+    return number(statistics.bound) + " per m²" + how + ", removed " +
+           percent(statistics.removed_share()) + " of the VPLs' light";
+}
+
+void add_vpl_settings(FactRows& rows, const mir::RenderSettings& s,
+                      const mir::RenderStatistics& statistics) {
+    rows.push_back({"VPLs", std::to_string(statistics.vpls) + " placed, " + std::to_string(s.vpls) +
+                                " wanted"});
+    rows.push_back({"direct light",
+                    s.direct == mir::DirectLight::vpl ? "by VPLs on lamps" : "by lamp samples"});
+    rows.push_back({"bound", bound_text(s, statistics)});
+    rows.push_back({"normalisation", statistics.normalisation});
+    if (s.sampler == mir::SamplerKind::metropolis)
+        rows.push_back({"stride", std::to_string(s.metropolis.stride) + " mutations"});
+}
+
+std::string machine_text(const mir::RenderStatistics& s) {
+    return s.backend + (s.device.empty() ? "" : " (" + s.device + ")");
+}
+
+}  // namespace
+
+std::string settings_section(const ReportInput& in) {
+    const mir::RenderSettings& s = in.options.settings;
+    const mir::RenderStatistics& statistics = in.result.statistics;
+    const std::string& camera = in.loaded.scene.cameras[s.camera].name;
+    FactRows rows{{"size", mir::detail::size_text(s.image) + " pixels"},
+                  {"luxels per pixel", std::to_string(s.luxels_per_pixel)},
+                  {"camera", camera.empty() ? std::to_string(s.camera) : camera},
+                  {"filter", std::string(to_string(s.filter.kind))},
+                  {"sampler", sampler_name(s)}};
+    if (s.integrator == mir::Integrator::vpl) add_vpl_settings(rows, s, statistics);
+    if (s.integrator == mir::Integrator::path)
+        rows.push_back({"camera paths per luxel", std::to_string(s.path.samples)});
+    if (s.integrator == mir::Integrator::micro)
+        rows.push_back({"discs", std::to_string(statistics.surfels)});
+    rows.insert(rows.end(),
+                {{"lamp samples per pixel", std::to_string(s.direct_samples)},
+                 {"largest bounce", std::to_string(s.max_bounce)},
+                 {"seed", std::to_string(s.seed)},
+                 {"machine", machine_text(statistics)},
+                 {"acceleration structure", statistics.acceleration},
+                 {"scheduler", statistics.scheduler},
+                 {"threads", s.threads == 0 ? "every core" : std::to_string(s.threads)},
+                 {"contributions per second", number(contributions_per_second(statistics))},
+                 {"peak memory", number(1e-6 * static_cast<double>(peak_memory_bytes())) + " MB"}});
+    return "<h2>Settings</h2>\n" + mir::detail::html_table({"How it was rendered", {}, rows});
+}
+
+std::string scene_section(const ReportInput& in) {
+    const mir::SceneReport& r = in.loaded.report;
+    const mir::RenderStatistics& s = in.result.statistics;
+    FactRows rows{
+        {"file", in.options.scene},
+        {"fingerprint", s.scene_hash},
+        {"triangles", std::to_string(s.triangles) + ", " + std::to_string(r.emitting_triangles) +
+                          " of them emit"},
+        {"triangles without area", std::to_string(s.dropped_triangles) + " left out"},
+        {"meshes", std::to_string(r.meshes) + ", placed " + std::to_string(r.instances) + " times"},
+        {"materials", std::to_string(r.materials) + ", " + std::to_string(r.emitting_materials) +
+                          " of them emit"},
+        {"lights", std::to_string(r.point_lights) + " points, " + std::to_string(r.spot_lights) +
+                       " spots, " + std::to_string(r.directional_lights) + " directional"},
+        {"emitted power", number(s.emitted_power) + " W (luminance)"}};
+    for (const auto& [what, times] : r.ignored)
+        rows.push_back({"ignored", what + " (" + std::to_string(times) + ")"});
+    for (const std::string& note : r.notes) rows.push_back({"note", note});
+    return "<h2>Scene</h2>\n" + mir::detail::html_table({"What the scene holds", {}, rows});
+}
+
+}  // namespace mirtool

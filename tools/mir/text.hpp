@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace mirtool {
+
+/// A number in up to six digits.
+inline std::string number(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
+/// A number with `digits` behind the point.
+inline std::string fixed(double value, int digits) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+    return text.data();
+}
+
+/// A share of 0..1 in percent.
+inline std::string percent(double share) { return fixed(100.0 * share, 1) + " %"; }
+
+}  // namespace mirtool
