@@ -47,6 +47,33 @@ int predicted_code(const Image<RadianceCode>& codes, std::uint32_t x, std::uint3
     return y == 0 ? left : (left + above) / 2;
 }
 
+/// The four planes of deflate_radiance(), before compression.
+inline std::vector<std::uint8_t> radiance_planes(const Image<Rgb>& image) {
+    Image<RadianceCode> codes(image.extent());
+    std::transform(image.pixels().begin(), image.pixels().end(), codes.pixels().begin(),
+                   radiance_code);
+    const std::size_t n = codes.pixels().size();
+    std::vector<std::uint8_t> planes(4 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto x = static_cast<std::uint32_t>(i % image.width());
+        const auto y = static_cast<std::uint32_t>(i / image.width());
+        RadianceCode& code = codes.pixels()[i];
+        const auto d =
+            static_cast<std::int16_t>(code.sum - predicted_code(codes, x, y, &RadianceCode::sum));
+        const auto zigzag = static_cast<std::uint16_t>(d < 0 ? -2 * d - 1 : 2 * d);
+        const int red = predicted_code(codes, x, y, &RadianceCode::red);
+        const int green = predicted_code(codes, x, y, &RadianceCode::green);
+        // Black has no colour: that which costs nothing.
+        if (code.sum == 0)
+            code = {0, static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green)};
+        planes[i] = static_cast<std::uint8_t>(zigzag >> 8);
+        planes[n + i] = static_cast<std::uint8_t>(zigzag);
+        planes[2 * n + i] = static_cast<std::uint8_t>(code.red - red);
+        planes[3 * n + i] = static_cast<std::uint8_t>(code.green - green);
+    }
+    return planes;
+}
+
 }  // namespace detail
 
 /// Radiance in few bytes, for readers such as web pages: zlib's format of four planes of one byte
@@ -63,31 +90,7 @@ inline std::vector<std::uint8_t> deflate_radiance(const Image<Rgb>& image) {
     const std::uint64_t pixels = image.extent().area();
     expects(pixels > 0 && pixels <= 1ull << 28,
             "an image to be coded must have 1 to 2^28 pixels; shrink it");
-    Image<detail::RadianceCode> codes(image.extent());
-    std::transform(image.pixels().begin(), image.pixels().end(), codes.pixels().begin(),
-                   detail::radiance_code);
-    std::vector<std::uint8_t> planes(4 * pixels);
-    for (std::uint32_t y = 0; y < image.height(); ++y) {
-        for (std::uint32_t x = 0; x < image.width(); ++x) {
-            using detail::predicted_code;
-            using Code = detail::RadianceCode;
-            Code& code = codes(x, y);
-            const std::size_t i = std::size_t{y} * image.width() + x;
-            const auto d =
-                static_cast<std::int16_t>(code.sum - predicted_code(codes, x, y, &Code::sum));
-            const auto zigzag = static_cast<std::uint16_t>(d < 0 ? -2 * d - 1 : 2 * d);
-            const int red = predicted_code(codes, x, y, &Code::red);
-            const int green = predicted_code(codes, x, y, &Code::green);
-            if (code.sum == 0) {
-                code.red = static_cast<std::uint8_t>(red);
-                code.green = static_cast<std::uint8_t>(green);
-            }
-            planes[i] = static_cast<std::uint8_t>(zigzag >> 8);
-            planes[pixels + i] = static_cast<std::uint8_t>(zigzag);
-            planes[2 * pixels + i] = static_cast<std::uint8_t>(code.red - red);
-            planes[3 * pixels + i] = static_cast<std::uint8_t>(code.green - green);
-        }
-    }
+    const std::vector<std::uint8_t> planes = detail::radiance_planes(image);
     uLongf bytes = compressBound(static_cast<uLong>(planes.size()));
     std::vector<std::uint8_t> out(bytes);
     if (compress2(out.data(), &bytes, planes.data(), static_cast<uLong>(planes.size()),
