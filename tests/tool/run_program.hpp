@@ -9,12 +9,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 namespace mirtest {
@@ -24,6 +26,14 @@ inline std::string file_bytes(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(path)) return "";
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Waits until there is a file, for at most a minute.
+inline void wait_for(const std::filesystem::path& path) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + std::chrono::minutes(1);
+    while (!std::filesystem::exists(path) && Clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
 /// How a program ended and what it said.

@@ -23,7 +23,8 @@ TEST_CASE("the help of render names every option") {
           "--luxels",         "--camera",  "--filter",         "--sampler",  "--sequence",
           "--vpls",           "--direct",  "--direct-samples", "--bounces",  "--bound",
           "--seed",           "--threads", "--scheduler",      "--tile",     "--allow-no-light",
-          "--backend",        "--accel"})
+          "--backend",        "--accel",   "--passes",         "--time",     "--target-error",
+          "--save-every",     "--resume"})
         CHECK(has(help, option));
 }
 
@@ -74,7 +75,12 @@ TEST_CASE("values out of range are refused before any work") {
           Words{"--exposure", "bright"},  Words{"--exposure", "nan"},
           Words{"--bound", "0"},          Words{"--bound", "-1"},
           Words{"--bound", "nan"},        Words{"--bound", "inf"},
-          Words{"--bound", "large"}}) {
+          Words{"--bound", "large"},      Words{"--passes", "0"},
+          Words{"--passes", "1000001"},   Words{"--passes", "1.5"},
+          Words{"--time", "0"},           Words{"--time", "-1"},
+          Words{"--time", "nan"},         Words{"--target-error", "0"},
+          Words{"--target-error", "2"},   Words{"--target-error", "small"},
+          Words{"--save-every", "-1"}}) {
         INFO(wrong[0] << " " << wrong[1]);
         check_failing_render(Words{"builtin:sphere"} + wrong, 2, wrong[0]);
     }
@@ -89,6 +95,14 @@ TEST_CASE("the path tracer, which has no bound, refuses one") {
                             Words{"--integrator", "path", "--samples", "1", "--bound", none};
         CHECK(run_mir(small).exit_code == 0);
     }
+}
+
+TEST_CASE("options of passes that contradict each other are refused") {
+    check_failing_render({"builtin:sphere", "--passes", "1", "--target-error", "0.1"}, 2,
+                         "a target error and a single pass");
+    check_failing_render({"builtin:sphere", "--save-every", "1"}, 2, "--save-every was given for");
+    check_failing_render({"builtin:sphere", "--passes", "1", "--time", "3", "--save-every", "1"}, 2,
+                         "--save-every was given for");
 }
 
 TEST_CASE("a tile is two positive numbers and nothing more") {

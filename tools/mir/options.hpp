@@ -12,6 +12,15 @@
 
 namespace mirtool {
 
+/// Of a progressive `mir render`; none given: a single pass.
+struct PassOptions {
+    std::optional<std::uint32_t> passes;
+    std::optional<double> seconds;         ///< time limit
+    std::optional<double> relative_error;  ///< wanted
+    std::optional<double> save_every;      ///< seconds; none: 10
+    bool resume = false;                   ///< keep a journal and go on from it
+};
+
 /// `mir render`.
 struct RenderOptions {
     std::string scene;
@@ -31,6 +40,7 @@ struct RenderOptions {
     bool record_seconds = false;  ///< seconds in the EXR: its bytes then differ every time
     bool quiet = false;
     bool json = false;
+    PassOptions passes;
     mir::RenderSettings settings;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace mirtool {
 namespace {
@@ -53,12 +54,17 @@ Progress::~Progress() {
 
 void Progress::run() {
     const auto period = terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
+    std::uint32_t passes = 0;
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, period, [this] { return stop_; })) {
+        const std::uint32_t done = monitor_.passes.load();
+        if (done != std::exchange(passes, done)) start_ = std::chrono::steady_clock::now();
         const double seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-        const std::string text = progress_text(monitor_.contributions.load(),
-                                               monitor_.planned_contributions.load(), seconds);
+        const std::string text =
+            (passes > 0 ? "pass " + std::to_string(passes + 1) + "  " : std::string()) +
+            progress_text(monitor_.contributions.load(), monitor_.planned_contributions.load(),
+                          seconds);
         std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "mir: %s\n", text.c_str());
         std::fflush(stderr);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arguments.hpp"
+#include "mir/runtime/pass_goal.hpp"
 #include "option_types.hpp"
 
 #include <cmath>
@@ -218,6 +219,25 @@ void add_report(CLI::App& app, RenderOptions& o) {
             ""));
 }
 
+void add_passes(CLI::App& app, PassOptions& p) {
+    const auto seconds = between(0.001, 3.2e7, "0.001 to 32000000 seconds");
+    app.add_option("--passes", p.passes,
+                   "Renders with random numbers of their own whose mean is the picture (default 1; "
+                   "no limit with --time or --target-error)")
+        ->check(between(1, mir::max_passes, "1 to 1000000"));
+    app.add_option("--time", p.seconds, "Start no further pass after so many seconds")
+        ->check(seconds);
+    app.add_option("--target-error", p.relative_error,
+                   "Start no further pass once the relative error, from the spread of the passes, "
+                   "is so small; 0.01 is one percent")
+        ->check(between(1e-6, 1, "0.000001 to 1"));
+    app.add_option("--save-every", p.save_every,
+                   "Write the picture of the passes so far every so many seconds (default 10)")
+        ->check(between(0, 3.2e7, "0 to 32000000 seconds"));
+    app.add_flag("--resume", p.resume,
+                 "Keep the passes in PICTURE.journal, and go on from those that are in it");
+}
+
 void add_execution(CLI::App& app, RenderOptions& o) {
     mir::RenderSettings& s = o.settings;
     app.add_option("--threads", s.threads, "Threads (default 0: every core)")
@@ -256,6 +276,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
     add_chains(app, options.settings);
     add_reference(app, options.settings);
     add_micro(app, options.settings);
+    add_passes(app, options.passes);
     add_execution(app, options);
 }
 

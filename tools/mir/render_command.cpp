@@ -7,6 +7,7 @@
 #include "mir/scene/framing.hpp"
 #include "progress.hpp"
 #include "render_output.hpp"
+#include "render_passes.hpp"
 #include "report/render_report.hpp"
 
 #include <tbb/global_control.h>
@@ -101,13 +102,14 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
                      o.scene.c_str());
 }
 
-mir::RenderResult render(const RenderOptions& o, const mir::Scene& scene, mir::Monitor& monitor) {
+mir::RenderResult render(const RenderOptions& o, const mir::Scene& scene, const OutputPaths& paths,
+                         mir::Monitor& monitor) {
     mir::Registry registry;
     mir::add_all_to(registry);
     const auto renderer = registry.make(o.settings.backend, o.settings.scheduler);
     std::optional<Progress> progress;
     if (!o.quiet) progress.emplace(monitor);
-    return renderer->render(scene, o.settings, &monitor);
+    return render_passes(*renderer, scene, o, paths, monitor);
 }
 
 /// Does `work`; a failure that is the fault of the scene names it.
@@ -127,6 +129,7 @@ auto blaming(const std::string& scene, const Work& work) {
 int run(const RenderOptions& options) {
     RenderOptions o = options;
     o.settings.validate();
+    check(o.passes);
     const OutputPaths paths = choose_outputs(o);
     const mir::Image<mir::Rgb> reference = read_report_reference(o);
     // Bounds Embree's build too, which runs on the same library.
@@ -140,8 +143,7 @@ int run(const RenderOptions& options) {
     mir::Monitor monitor;
     const CancelOnInterrupt cancel(monitor);
     const mir::RenderResult result =
-        blaming(o.scene, [&] { return render(o, loaded.scene, monitor); });
-    monitor.check();
+        blaming(o.scene, [&] { return render(o, loaded.scene, paths, monitor); });
     write_outputs(paths, result, o);
     write_render_report({o, loaded, result, reference});
     if (!o.quiet) print_summary(result);
@@ -152,7 +154,11 @@ int run(const RenderOptions& options) {
         for (const std::string& name : {paths.png, o.report, o.vpls_out})
             if (!name.empty()) std::printf("%s\n", name.c_str());
     }
-    return exit_done;
+    if (result.statistics.complete) return exit_done;
+    std::fprintf(stderr,
+                 "mir: interrupted; the picture is the mean of %u passes, marked incomplete\n",
+                 result.statistics.passes);
+    return exit_interrupted;
 }
 
 }  // namespace mirtool

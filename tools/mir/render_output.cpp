@@ -60,6 +60,13 @@ void append_chain_attributes(const mir::RenderStatistics& s, mir::ExrAttributes&
     add("mir:dropped_share", s.dropped_share);
 }
 
+void append_pass_attributes(const mir::RenderStatistics& s, mir::ExrAttributes& all) {
+    all.push_back({"mir:passes", static_cast<int>(s.passes)});
+    all.push_back({"mir:complete", s.complete ? 1 : 0});
+    if (s.relative_error)
+        all.push_back({"mir:relative_error", static_cast<float>(*s.relative_error)});
+}
+
 mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions& o) {
     const mir::RenderStatistics& s = r.statistics;
     mir::ExrAttributes all{
@@ -75,6 +82,7 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
         {"mir:bound", s.bound},
         {"mir:removed_share", static_cast<float>(s.removed_share())},
     };
+    append_pass_attributes(s, all);
     append_chain_attributes(s, all);
     if (o.record_seconds) all.push_back({"mir:seconds", static_cast<float>(s.seconds.total)});
     return all;
@@ -187,6 +195,9 @@ void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const R
 
 void print_summary(const mir::RenderResult& r) {
     const mir::RenderStatistics& s = r.statistics;
+    if (s.relative_error)
+        std::fprintf(stderr, "mir: %u passes, relative error %.2g %%\n", s.passes,
+                     100.0 * *s.relative_error);
     std::fprintf(
         stderr,
         "mir: %llu triangles, %llu luxels, %u VPLs from %llu light paths, %s\n"
@@ -228,6 +239,9 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["scheduler"] = s.scheduler;
     out["triangles"] = s.triangles;
     out["dropped_triangles"] = s.dropped_triangles;
+    out["passes"] = s.passes;
+    out["complete"] = s.complete;
+    out["relative_error"] = s.relative_error ? Json(*s.relative_error) : Json();
     out["luxels"] = s.luxels;
     out["light_paths"] = s.light_paths;
     out["camera_paths"] = s.camera_paths;

@@ -23,7 +23,8 @@ enum class Stream : std::uint32_t {
     reference,      ///< path tracer
     surfel_light,   ///< lamps as discs see them
     surfel_gather,  ///< directions in which discs look for discs
-    gather          ///< directions in which luxels look for discs
+    gather,         ///< directions in which luxels look for discs
+    pass            ///< seeds of the passes of a progressive render
 };
 
 /// 128 bits as four words; a plain array, because device code cannot index std::array.

@@ -39,6 +39,9 @@ struct RenderStatistics {
     std::string scheduler;
     std::string scene_hash;
     StageSeconds seconds;
+    std::uint32_t passes = 1;  ///< renders whose mean the picture is (ProgressiveRender)
+    std::optional<double> relative_error;  ///< of the picture, from their spread; needs two
+    bool complete = true;                  ///< false: passes that were asked for are missing
 
     /// Share of the VPLs' light that the bound removed, 0..1.
     [[nodiscard]] double removed_share() const {

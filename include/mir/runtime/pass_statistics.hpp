@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/limits.hpp"
+#include "mir/runtime/result.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace mir {
+
+namespace detail {
+
+/// Mean of `count` numbers and one more.
+inline double mean_with(double mean, double next, std::uint32_t count) {
+    return mean + (next - mean) / (count + 1.0);
+}
+
+/// Estimates of one P_c from independent paths: their mean and its standard error.
+inline void add_pass(PathLuminance& all, const PathLuminance& pass, std::uint32_t earlier) {
+    all.mean = mean_with(all.mean, pass.mean, earlier);
+    all.standard_error =
+        std::hypot(all.standard_error * earlier, pass.standard_error) / (earlier + 1.0);
+    all.paths += pass.paths;
+    all.contributing += pass.contributing;
+}
+
+inline void add_pass(ChainHealth& all, const ChainHealth& pass, std::uint32_t earlier) {
+    all.add(pass);
+    all.chains += pass.chains - 1;  // that pass counts as one there
+    all.distinct_vpls += pass.distinct_vpls;
+    all.effective_samples += pass.effective_samples;
+    all.split_r_hat = std::max(all.split_r_hat, pass.split_r_hat);
+    add_pass(all.luminance, pass.luminance, earlier);
+    add_pass(all.large_step_luminance, pass.large_step_luminance, earlier);
+}
+
+}  // namespace detail
+
+/// Adds the numbers of one more pass to those of `earlier` >= 1 passes: what counts or lasts adds
+/// up, shares and luminances become means, what is the same in every pass stays.
+inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::uint32_t earlier) {
+    constexpr std::uint32_t most_vpls = 0x7fffffff;  // what an attribute of a picture holds
+    all.vpls =
+        all.vpls < most_vpls - std::min(pass.vpls, most_vpls) ? all.vpls + pass.vpls : most_vpls;
+    all.light_paths += pass.light_paths;
+    all.camera_paths += pass.camera_paths;
+    all.contributions += pass.contributions;
+    all.states += pass.states;
+    for (double RenderStatistics::*mean :
+         {&RenderStatistics::path_luminance, &RenderStatistics::dropped_share,
+          &RenderStatistics::indirect_luminance, &RenderStatistics::removed_luminance})
+        all.*mean = detail::mean_with(all.*mean, pass.*mean, earlier);
+    all.non_lambertian_share = static_cast<float>(
+        detail::mean_with(static_cast<double>(all.non_lambertian_share),
+                          static_cast<double>(pass.non_lambertian_share), earlier));
+    if (all.health && pass.health) detail::add_pass(*all.health, *pass.health, earlier);
+    for (const RenderStage& stage : render_stages)
+        all.seconds.*stage.seconds += pass.seconds.*stage.seconds;
+    all.seconds.total += pass.seconds.total;
+    all.passes = earlier + 1;
+}
+
+}  // namespace mir

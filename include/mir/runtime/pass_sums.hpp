@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/film_layers.hpp"
+#include "mir/runtime/layer_sum.hpp"
+#include "mir/runtime/luminance_spread.hpp"
+#include "mir/runtime/pass_statistics.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mir {
+
+/// What independent renders of one scene, which differ in their seeds alone, amount to together.
+/// Added in a fixed order they give the same bits whatever happens between. Takes 24 bytes for each
+/// pixel and layer (direct, emission, indirect, albedo, normal, bounces) and 32 more for each
+/// pixel. One thread at a time.
+class PassSums {
+ public:
+    /// Adds one more render, of the size of those before.
+    void add(RenderResult pass) {
+        const std::uint32_t earlier = passes();
+        if (earlier == 0)
+            begin(pass);
+        else
+            add_pass(statistics_, pass.statistics, earlier);
+        vpls_ = std::move(pass.vpls);
+        direct_.add(pass.direct);
+        emission_.add(pass.emission);
+        indirect_.add(pass.indirect);
+        albedo_.add(pass.guides.albedo);
+        normal_.add(pass.guides.normal);
+        add_bounces(pass);
+        spread_.add(pass.beauty, earlier);
+    }
+
+    [[nodiscard]] std::uint32_t passes() const { return statistics_.passes; }
+
+    /// LuminanceSpread::relative_error() of the mean picture. It sees what differs between passes,
+    /// and no bias that they share.
+    [[nodiscard]] std::optional<double> relative_error() const {
+        return spread_.relative_error(passes());
+    }
+
+    /// The mean picture of at least one pass; of one pass that pass in every bit. Position and
+    /// depth are those of the first pass, because a mean of two surfaces lies on neither; the VPLs
+    /// are those of the last. `complete` says whether further passes were wanted.
+    [[nodiscard]] RenderResult result(bool complete = true) const;
+
+    /// Hands all that `self` consists of, but the VPLs, to `archive`, which reads or, unless const,
+    /// replaces it.
+    template <class Self, class Archive>
+    static void transfer(Self& self, Archive& archive) {
+        archive(self.statistics_, self.remarks_, self.position_, self.depth_, self.spread_,
+                self.direct_, self.emission_, self.indirect_, self.albedo_, self.normal_,
+                self.bounces_);
+    }
+
+ private:
+    void begin(RenderResult& first) {
+        statistics_ = first.statistics;
+        position_ = std::move(first.guides.position);
+        depth_ = std::move(first.guides.depth);
+        std::vector<std::string> of_numbers;
+        add_result_warnings(first, of_numbers);
+        for (const std::string& warning : first.warnings)
+            if (std::find(of_numbers.begin(), of_numbers.end(), warning) == of_numbers.end())
+                remarks_.push_back(warning);
+    }
+
+    /// A pass without light of a bounce adds black.
+    void add_bounces(const RenderResult& pass) {
+        while (bounces_.size() < pass.bounces.size()) {
+            bounces_.emplace_back();
+            if (passes() > 1) bounces_.back().add(Image<Rgb>(pass.beauty.extent()));
+        }
+        for (std::size_t b = 0; b < pass.bounces.size(); ++b) bounces_[b].add(pass.bounces[b]);
+    }
+
+    RenderStatistics statistics_ = no_passes();
+    std::vector<std::string> remarks_;  ///< warnings that do not follow from statistics
+    VplList vpls_;
+    Image<Vec3> position_;
+    Image<float> depth_;
+    LuminanceSpread spread_;
+    LayerSum<Rgb> direct_;
+    LayerSum<Rgb> emission_;
+    LayerSum<Rgb> indirect_;
+    LayerSum<Rgb> albedo_;
+    LayerSum<Vec3> normal_;
+    std::vector<LayerSum<Rgb>> bounces_;
+
+    static RenderStatistics no_passes() {
+        RenderStatistics none;
+        none.passes = 0;
+        return none;
+    }
+};
+
+inline RenderResult PassSums::result(bool complete) const {
+    expects(passes() > 0, "the picture of no pass was asked for (there is none); add one first");
+    const std::uint32_t n = passes();
+    RenderResult mean{{}, {}, {}, {}, {}, Guides({0, 0}), vpls_, statistics_, remarks_};
+    mean.emission = emission_.mean(n);
+    mean.direct = direct_.mean(n);
+    mean.indirect = indirect_.mean(n);
+    for (const LayerSum<Rgb>& bounce : bounces_) mean.bounces.push_back(bounce.mean(n));
+    InlineExecutor executor;
+    add_up_layers(mean, executor);
+    mean.guides.albedo = albedo_.mean(n);
+    mean.guides.normal = normal_.mean(n);
+    mean.guides.position = position_;
+    mean.guides.depth = depth_;
+    mean.statistics.relative_error = relative_error();
+    mean.statistics.complete = complete;
+    add_result_warnings(mean, mean.warnings);
+    return mean;
+}
+
+}  // namespace mir

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/pass_goal.hpp"
+#include "mir/runtime/pass_seed.hpp"
+#include "mir/runtime/pass_sums.hpp"
+#include "mir/runtime/renderer.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace mir {
+
+/// A picture that gets better pass by pass. Each pass is a whole render with random numbers of its
+/// own (pass_seed()): other luxels where a pixel has several, other VPLs, other light samples; the
+/// picture is the mean. Its variance falls as one over the number of passes. Everything is made
+/// anew in each pass, the acceleration structure and the G-buffer too. One thread at a time.
+class ProgressiveRender {
+ public:
+    /// Starts the clock of the goal. `renderer`, `scene` and `monitor`, which may be null, must
+    /// outlive it. `done` are passes of the same scene and settings that were rendered earlier.
+    /// @throws Error(invalid_argument) for a goal that cannot be reached.
+    ProgressiveRender(const Renderer& renderer, const Scene& scene, RenderSettings settings,
+                      const PassGoal& goal, Monitor* monitor = nullptr, PassSums done = {})
+        : renderer_(renderer),
+          scene_(scene),
+          settings_(std::move(settings)),
+          seed_(settings_.seed),
+          goal_(goal),
+          monitor_(monitor),
+          sums_(std::move(done)) {
+        goal_.validate();
+        look_at_goal();
+    }
+
+    /// True when the goal was reached at the end of the last pass.
+    [[nodiscard]] bool is_complete() const { return complete_; }
+
+    /// Renders one more pass, whatever the goal.
+    /// @throws Error as Renderer::render(), Error(cancelled) too: then it is as it was before.
+    void next_pass() {
+        if (monitor_ != nullptr) {
+            monitor_->check();
+            monitor_->passes = sums_.passes();
+            monitor_->planned_contributions = 0;
+            monitor_->contributions = 0;
+        }
+        settings_.seed = pass_seed(seed_, sums_.passes());
+        sums_.add(renderer_.render(scene_, settings_, monitor_));
+        look_at_goal();
+    }
+
+    /// The passes done.
+    [[nodiscard]] const PassSums& sums() const { return sums_; }
+
+    /// The picture so far, of at least one pass; says whether it is complete.
+    [[nodiscard]] RenderResult result() const { return sums_.result(complete_); }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+
+    void look_at_goal() {
+        const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+        complete_ =
+            goal_.is_reached(sums_.passes(), elapsed,
+                             goal_.relative_error > 0.0 ? sums_.relative_error() : std::nullopt);
+    }
+
+    const Renderer& renderer_;
+    const Scene& scene_;
+    RenderSettings settings_;
+    std::uint64_t seed_;
+    PassGoal goal_;
+    Monitor* monitor_;
+    PassSums sums_;
+    Clock::time_point start_ = Clock::now();
+    bool complete_ = false;
+};
+
+}  // namespace mir

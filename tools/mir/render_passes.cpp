@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "render_passes.hpp"
+
+#include "mir/io/pass_journal.hpp"
+#include "mir/runtime/progressive_render.hpp"
+
+#include <chrono>
+
+namespace mirtool {
+namespace {
+
+constexpr double default_save_every = 10.0;
+
+mir::PassGoal goal_of(const PassOptions& o) {
+    const bool open = o.seconds || o.relative_error;
+    mir::PassGoal goal;
+    goal.passes = o.passes.value_or(open ? mir::max_passes : 1);
+    if (o.seconds) goal.seconds = *o.seconds;
+    if (o.relative_error) goal.relative_error = *o.relative_error;
+    return goal;
+}
+
+/// Tells when so many seconds have passed since it last did, or since it was made.
+class Alarm {
+ public:
+    explicit Alarm(double seconds) : period_(seconds) {}
+
+    [[nodiscard]] bool rings() {
+        const auto now = Clock::now();
+        if (std::chrono::duration<double>(now - last_).count() < period_) return false;
+        last_ = now;
+        return true;
+    }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+
+    double period_;
+    Clock::time_point last_ = Clock::now();
+};
+
+/// The journal of --resume.
+std::optional<mir::PassJournal> open_journal(const RenderOptions& o, const mir::Scene& scene,
+                                             const OutputPaths& paths) {
+    if (!o.passes.resume) return std::nullopt;
+    return mir::PassJournal(paths.exr + ".journal", scene, o.settings);
+}
+
+}  // namespace
+
+void check(const PassOptions& options) {
+    const mir::PassGoal goal = goal_of(options);
+    goal.validate();
+    mir::expects(!options.save_every || goal.passes > 1,
+                 "--save-every was given for a single pass (there is nothing to write before its "
+                 "end); add --passes, --time or --target-error, or leave it out");
+}
+
+mir::RenderResult render_passes(const mir::Renderer& renderer, const mir::Scene& scene,
+                                const RenderOptions& o, const OutputPaths& paths,
+                                mir::Monitor& monitor) {
+    const mir::PassGoal goal = goal_of(o.passes);
+    const std::optional<mir::PassJournal> journal = open_journal(o, scene, paths);
+    mir::ProgressiveRender render(renderer, scene, o.settings, goal, &monitor,
+                                  journal ? journal->read() : mir::PassSums());
+    const auto keep = [&] {
+        if (journal) journal->write(render.sums());
+    };
+    Alarm save(o.passes.save_every.value_or(default_save_every));
+    try {
+        while (!render.is_complete()) {
+            render.next_pass();
+            if (render.is_complete() || !save.rings()) continue;
+            keep();
+            write_outputs(paths, render.result(), o);
+        }
+    } catch (const mir::Error& e) {
+        if (e.code() != mir::ErrorCode::cancelled || render.sums().passes() == 0) throw;
+    }
+    if (goal.passes == 1) monitor.check();
+    keep();
+    return render.result();
+}
+
+}  // namespace mirtool

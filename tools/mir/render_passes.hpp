@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/runtime/renderer.hpp"
+#include "options.hpp"
+#include "render_output.hpp"
+
+namespace mirtool {
+
+/// @throws mir::Error(invalid_argument) for options that contradict each other.
+void check(const PassOptions& options);
+
+/// Renders passes until their goal is reached or `monitor` is cancelled; in between writes the
+/// picture of those done from time to time. An interrupted picture is not complete.
+/// @throws mir::Error as Renderer::render(); Error(cancelled) before the first pass is done.
+mir::RenderResult render_passes(const mir::Renderer& renderer, const mir::Scene& scene,
+                                const RenderOptions& options, const OutputPaths& paths,
+                                mir::Monitor& monitor);
+
+}  // namespace mirtool
