@@ -52,6 +52,9 @@ TEST_CASE("a render tells on standard error what it did, unless it shall be quie
     CHECK(outcome.exit_code == 0);
     CHECK(has(outcome.err, "36 triangles, 432 luxels"));
     for (const std::string& line : lines_of(outcome.err)) CHECK(line.rfind("mir: ", 0) == 0);
+    // As many chains as VPLs, so that none has two states to compare.
+    CHECK(!has(outcome.err, "R-hat"));
+    CHECK(has(run_mir(loud + Words{"--chains", "2"}).err, ", R-hat "));
 }
 
 TEST_CASE("pictures are named after the scene and written here when no name is given") {

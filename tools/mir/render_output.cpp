@@ -12,6 +12,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -144,6 +145,16 @@ bool are_one_file(const std::string& a, const std::string& b) {
     return !a.empty() && !b.empty() && place(a) == place(b);
 }
 
+void print_health(const mir::ChainHealth& h) {
+    std::fprintf(stderr, "mir: P_c %.4g +- %.2g from %llu paths; %llu states worth %.0f",
+                 h.luminance.mean, h.luminance.standard_error,
+                 static_cast<unsigned long long>(h.luminance.paths),
+                 static_cast<unsigned long long>(h.recorded_states), h.effective_samples);
+    // Chains that record once say nothing about how they mix.
+    if (std::isfinite(h.split_r_hat)) std::fprintf(stderr, ", R-hat %.2f", h.split_r_hat);
+    std::fprintf(stderr, "\n");
+}
+
 }  // namespace
 
 const char* sampler_name(const mir::RenderSettings& s) {
@@ -209,13 +220,7 @@ void print_summary(const mir::RenderResult& r) {
         s.seconds.total, s.seconds.bootstrap + s.seconds.sampling, s.seconds.gbuffer,
         s.seconds.direct, s.seconds.visibility, s.seconds.response, s.seconds.reconstruction,
         s.seconds.ledger, s.seconds.film, 1e-6 * contributions_per_second(s));
-    if (s.health)
-        std::fprintf(stderr,
-                     "mir: P_c %.4g +- %.2g from %llu paths; %llu states worth %.0f, R-hat %.2f\n",
-                     s.health->luminance.mean, s.health->luminance.standard_error,
-                     static_cast<unsigned long long>(s.health->luminance.paths),
-                     static_cast<unsigned long long>(s.health->recorded_states),
-                     s.health->effective_samples, s.health->split_r_hat);
+    if (s.health) print_health(*s.health);
     for (const std::string& warning : r.warnings)
         std::fprintf(stderr, "mir: warning: %s\n", warning.c_str());
 }
