@@ -46,6 +46,14 @@ std::optional<mir::PassJournal> open_journal(const RenderOptions& o, const mir::
     return mir::PassJournal(paths.exr + ".journal", scene, o.settings);
 }
 
+/// The same bits as one pass, without memory for sums.
+mir::RenderResult render_once(const mir::Renderer& renderer, const mir::Scene& scene,
+                              const RenderOptions& o, mir::Monitor& monitor) {
+    mir::RenderResult result = renderer.render(scene, o.settings, &monitor);
+    monitor.check();
+    return result;
+}
+
 }  // namespace
 
 void check(const PassOptions& options) {
@@ -60,6 +68,7 @@ mir::RenderResult render_passes(const mir::Renderer& renderer, const mir::Scene&
                                 const RenderOptions& o, const OutputPaths& paths,
                                 mir::Monitor& monitor) {
     const mir::PassGoal goal = goal_of(o.passes);
+    if (goal.passes == 1 && !o.passes.resume) return render_once(renderer, scene, o, monitor);
     const std::optional<mir::PassJournal> journal = open_journal(o, scene, paths);
     mir::ProgressiveRender render(renderer, scene, o.settings, goal, &monitor,
                                   journal ? journal->read() : mir::PassSums());
