@@ -103,13 +103,15 @@ TEST_CASE("every integrator renders in passes") {
     }
 }
 
-TEST_CASE("a summary tells passes and error") {
+TEST_CASE("a summary tells passes and error, and so does a report") {
     const TemporaryFolder folder("passes_summary");
-    Words loud = small_render(folder / "a.exr") + Words{"--passes", "2"};
+    Words loud =
+        small_render(folder / "a.exr") + Words{"--passes", "2", "--report", folder / "a.html"};
     loud.erase(std::find(loud.begin(), loud.end(), "--quiet"));
     const Outcome outcome = run_mir(loud);
     CHECK(has(outcome.err, "mir: 2 passes, relative error "));
-    CHECK(lines_of(outcome.out).size() == 2);
+    CHECK(lines_of(outcome.out).size() == 3);
+    CHECK(has(file_bytes(folder / "a.html"), "relative error, from their spread"));
 }
 
 TEST_CASE("killed at any moment, a render resumes to the bytes of one that never stopped") {

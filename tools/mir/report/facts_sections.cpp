@@ -31,6 +31,12 @@ void add_vpl_settings(FactRows& rows, const mir::RenderSettings& s,
         rows.push_back({"stride", std::to_string(s.metropolis.stride) + " mutations"});
 }
 
+void add_passes(FactRows& rows, const mir::RenderStatistics& s) {
+    if (!s.relative_error) return;
+    rows.push_back({"passes", std::to_string(s.passes) + (s.complete ? "" : ", interrupted")});
+    rows.push_back({"relative error, from their spread", percent(*s.relative_error)});
+}
+
 std::string machine_text(const mir::RenderStatistics& s) {
     return s.backend + (s.device.empty() ? "" : " (" + s.device + ")");
 }
@@ -51,6 +57,7 @@ std::string settings_section(const ReportInput& in) {
         rows.push_back({"camera paths per luxel", std::to_string(s.path.samples)});
     if (s.integrator == mir::Integrator::micro)
         rows.push_back({"discs", std::to_string(statistics.surfels)});
+    add_passes(rows, statistics);
     rows.insert(rows.end(),
                 {{"lamp samples per pixel", std::to_string(s.direct_samples)},
                  {"largest bounce", std::to_string(s.max_bounce)},
