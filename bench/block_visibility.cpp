@@ -4,9 +4,9 @@
 // block as sched::CpuBlocks asks, by Embree's packets of sixteen rays from the VPL, by our packets
 // and by single segments, over those of blocks by shafts.
 #include "mir/cpu/embree_visibility.hpp"
+#include "mir/host/shaft_scene.hpp"
 #include "mir/runtime/stopwatch.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
-#include "mir/shaft/shaft_scene.hpp"
 #include "support/bench_scene.hpp"
 
 #include <benchmark/benchmark.h>

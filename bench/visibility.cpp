@@ -2,8 +2,8 @@
 //
 // What shafts are worth: seconds for the visibility of all pairs by shafts over those of the same
 // segments one by one through the same hierarchy, and what becomes of pairs.
-#include "mir/accel/wide_bvh_scene.hpp"
 #include "mir/data/visibility_words.hpp"
+#include "mir/host/wide_bvh_scene.hpp"
 #include "mir/runtime/stopwatch.hpp"
 #include "mir/shaft/cluster_order.hpp"
 #include "mir/shaft/pair_tally.hpp"

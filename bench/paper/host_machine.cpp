@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "backend_machine.hpp"
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 
@@ -26,7 +26,7 @@ Run run_host_scheduler(PaperScene& scene, const S& scheduler, const GBuffer& lux
 }  // namespace
 
 std::unique_ptr<Machine> make_host_machine(Executor& executor) {
-    using B = mir::cpu::Backend<Executor>;
+    using B = mir::host::Backend<Executor>;
     using Alloc = std::allocator<std::uint32_t>;
     return std::make_unique<BackendMachine<B, Alloc>>(
         B(executor), Alloc(), "cpu", std::to_string(executor.concurrency()) + " threads", executor);

@@ -2,7 +2,7 @@
 #include "mir/accel/quantised_node.hpp"
 
 #include "conformance/worlds.hpp"
-#include "mir/accel/wide_build.hpp"
+#include "mir/host/wide_build.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
@@ -89,7 +89,7 @@ TEST_CASE("The kernel quantises every node of a hierarchy, that without triangle
     for (const mirtest::World& world : {mirtest::triangle_soup(200, 3, 1.0f, mir::Vec3(0.0f)),
                                         mirtest::triangle_soup(0, 3, 1.0f, mir::Vec3(0.0f))}) {
         mir::InlineExecutor executor;
-        const mir::WideBvh bvh(world.geometry, {}, executor);
+        const mir::WideBvh bvh = mir::build_wide_bvh(world.geometry, executor);
         std::vector<mir::QuantisedNode> boxes(bvh.nodes().size());
         const mir::QuantiseNodes<mir::Space::host> kernel{bvh.view(), boxes.data()};
         for (std::uint32_t i = 0; i < boxes.size(); ++i) kernel(i);

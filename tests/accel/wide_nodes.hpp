@@ -2,7 +2,8 @@
 #pragma once
 
 #include "mir/accel/kd_node.hpp"
-#include "mir/accel/wide_build.hpp"
+#include "mir/accel/wide_statistics.hpp"
+#include "mir/host/wide_build.hpp"
 
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace mirtest {
 inline mir::WideBvh build_wide(const mir::WorldGeometry& geometry,
                                const mir::WideBvhOptions& options = {}) {
     mir::InlineExecutor executor;
-    return {geometry, options, executor};
+    return mir::build_wide_bvh(geometry, executor, options);
 }
 
 /// A child of a node, as found by walking the whole tree.

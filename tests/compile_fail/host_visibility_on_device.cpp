@@ -1,8 +1,8 @@
 // expect: mir: this Visibility cannot be traced by the scheduler's backend
 // SPDX-License-Identifier: MIT
 #include "mir/concepts/archetypes.hpp"
-#include "mir/cpu/backend.hpp"
 #include "mir/data/gbuffer.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/sched/reconstruct.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/vpl_shading.hpp"
@@ -18,7 +18,7 @@ mir::Image<mir::Rgb> draw() {
     using mir::archetype::make;
     mir::InlineExecutor executor;
     const mir::BlockedGBuffer<mir::Lambert::Params> gbuffer({16, 16}, {16, 16});
-    return mir::reconstruct(mir::sched::Reconstruct{mir::cpu::Backend(executor)}, gbuffer,
+    return mir::reconstruct(mir::sched::Reconstruct{mir::host::Backend(executor)}, gbuffer,
                             mir::VplSpan<mir::Space::host>{}, Wrong{make},
                             mir::VplShading<mir::Lambert>{});
 }

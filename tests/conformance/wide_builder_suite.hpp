@@ -14,10 +14,10 @@ namespace mirtest {
 /// Everything that can be seen by walking a tree; gives the tree.
 template <class Build>
 CopiedWideBvh build_and_check(const Build& build, const mir::WorldGeometry& geometry,
-                              const mir::WideClusterOptions& options = {}) {
+                              const mir::WideBvhOptions& options = {}) {
     CopiedWideBvh bvh = build(geometry, options);
     check_whole(geometry, bvh);
-    const WideCount count = count_wide(bvh);
+    const mir::WideBvhStatistics count = mir::wide_statistics(bvh.nodes());
     CHECK(count.depth == bvh.depth());
     CHECK(count.depth <= mir::WideBvhOptions::depth_limit);
     CHECK(count.largest_leaf <= options.leaf_size);
@@ -27,7 +27,7 @@ CopiedWideBvh build_and_check(const Build& build, const mir::WorldGeometry& geom
 /// Bits of segments and rays are those of asking every triangle.
 template <class Build>
 void check_bits(const Build& build, const World& world, std::uint64_t index,
-                const mir::WideClusterOptions& options = {}) {
+                const mir::WideBvhOptions& options = {}) {
     const CopiedWideBvh bvh = build_and_check(build, world.geometry, options);
     const std::vector<mir::KdNode> planes = box_planes(bvh);
     check_equal_bits(compare(world, bvh.view(), planes, 10000, index));
@@ -43,7 +43,7 @@ void bits_are_those_of_every_triangle(const Build& build) {
     SECTION("among coincident triangles") { check_bits(build, coincident(50), 7); }
     SECTION("among nested triangles") { check_bits(build, nested_triangles(200, 10), 8); }
     SECTION("with leaves of any size") {
-        mir::WideClusterOptions options;
+        mir::WideBvhOptions options;
         options.leaf_size = GENERATE(1u, 2u, 8u);
         check_bits(build, triangle_soup(150, 9), 10, options);
     }
@@ -85,7 +85,8 @@ void hard_scenes_make_whole_trees(const Build& build) {
     }
     SECTION("a flat grid, whose leaves lie apart") {
         const World world = flat_grid(32, GENERATE(0, 1, 2));
-        CHECK(count_wide(build_and_check(build, world.geometry)).tests_area < 16.0);
+        CHECK(mir::wide_statistics(build_and_check(build, world.geometry).nodes()).expected_tests <
+              16.0);
     }
     SECTION("far from the origin") {
         build_and_check(build, triangle_soup(700, 14, 1.0f, {1e4f, -1e4f, 3e3f}).geometry);
@@ -96,7 +97,7 @@ void hard_scenes_make_whole_trees(const Build& build) {
 
 template <class Build>
 void depth_is_never_exceeded(const Build& build) {
-    mir::WideClusterOptions options;
+    mir::WideBvhOptions options;
     options.max_depth = GENERATE(1u, 4u, 5u, 6u, 8u, 32u);
     const World world = nested_triangles(3000, GENERATE(30, 150));
     const CopiedWideBvh bvh = build_and_check(build, world.geometry, options);
@@ -117,7 +118,7 @@ void scale_changes_nothing(const Build& build) {
 template <class Build>
 void what_cannot_be_built_is_refused(const Build& build) {
     CHECK_THROWS_AS(build(triangle_soup(2, 18, 1e37f).geometry, {}), mir::Error);
-    mir::WideClusterOptions options;
+    mir::WideBvhOptions options;
     SECTION("no triangle in a leaf") { options.leaf_size = 0; }
     SECTION("too many triangles in a leaf") { options.leaf_size = 9; }
     SECTION("no neighbour") { options.radius = 0; }
@@ -142,7 +143,8 @@ void wide_builder_suite(const Build& build) {
 }
 
 /// Whether two trees have the same bytes.
-inline bool same_trees(const CopiedWideBvh& a, const CopiedWideBvh& b) {
+template <class A, class B>
+bool same_trees(const A& a, const B& b) {
     return equal_bytes(a.nodes(), b.nodes()) && equal_bytes(a.triangles(), b.triangles()) &&
            equal_bytes(a.indices(), b.indices());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 
 #include "conformance/backend_suite.hpp"
 #include "mir/cpu/tbb_executor.hpp"
@@ -22,8 +22,8 @@ void check_all(const std::vector<mirtest::Finding>& findings) {
 TEST_CASE("The host keeps the axioms of Backend, on one thread and on many") {
     mir::InlineExecutor one;
     mir::cpu::TbbExecutor many(3);
-    check_all(mirtest::examine_backend(mir::cpu::Backend(one)));
-    check_all(mirtest::examine_backend(mir::cpu::Backend(many)));
+    check_all(mirtest::examine_backend(mir::host::Backend(one)));
+    check_all(mirtest::examine_backend(mir::host::Backend(many)));
 }
 
 TEST_CASE("A host that does nothing before it has to keeps the axioms of Backend") {

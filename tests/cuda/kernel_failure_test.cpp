@@ -3,7 +3,7 @@
 
 #include "cuda/experiments.hpp"
 #include "mir/concepts/executor.hpp"
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 #include "support/catch.hpp"
 
 #include <cstdio>
@@ -54,7 +54,7 @@ int mirtest::report_kernel_failure() {
     report("host", [] {
         mir::InlineExecutor executor;
         std::size_t wrong = 0;
-        for (const auto& f : examine_backend(mir::cpu::Backend(executor))) wrong += f.wrong;
+        for (const auto& f : examine_backend(mir::host::Backend(executor))) wrong += f.wrong;
         if (wrong > 0) throw mir::Error(mir::ErrorCode::internal, "the host computes wrong");
     });
     return 0;

@@ -7,7 +7,7 @@ namespace mirtest {
 
 CopiedWideBvh build_wide_on_gpu(const mir::cuda::Backend& backend,
                                 const mir::WorldGeometry& geometry,
-                                const mir::WideClusterOptions& options) {
+                                const mir::WideBvhOptions& options) {
     return build_wide_on(backend, geometry, options);
 }
 

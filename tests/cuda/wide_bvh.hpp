@@ -11,6 +11,6 @@ namespace mirtest {
 /// build_wide_on() the GPU.
 CopiedWideBvh build_wide_on_gpu(const mir::cuda::Backend& backend,
                                 const mir::WorldGeometry& geometry,
-                                const mir::WideClusterOptions& options = {});
+                                const mir::WideBvhOptions& options = {});
 
 }  // namespace mirtest

@@ -2,16 +2,15 @@
 #include "cuda/wide_bvh.hpp"
 
 #include "conformance/wide_builder_suite.hpp"
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 
 using namespace mirtest;
 
 TEST_CASE("Wide trees that the GPU builds keep their promises") {
     const mir::cuda::Backend backend(mir::cuda::select_device(0));
-    wide_builder_suite(
-        [&](const mir::WorldGeometry& geometry, const mir::WideClusterOptions& options) {
-            return build_wide_on_gpu(backend, geometry, options);
-        });
+    wide_builder_suite([&](const mir::WorldGeometry& geometry, const mir::WideBvhOptions& options) {
+        return build_wide_on_gpu(backend, geometry, options);
+    });
 }
 
 TEST_CASE("The GPU builds the wide trees of the host, byte for byte") {
@@ -19,5 +18,5 @@ TEST_CASE("The GPU builds the wide trees of the host, byte for byte") {
     mir::InlineExecutor executor;
     for (const World& world : worlds_to_compare())
         CHECK(same_trees(build_wide_on_gpu(backend, world.geometry),
-                         build_wide_on(mir::cpu::Backend(executor), world.geometry)));
+                         build_wide_on(mir::host::Backend(executor), world.geometry)));
 }

@@ -4,7 +4,7 @@
 #include "conformance/brute_force.hpp"
 #include "conformance/gbuffer_suite.hpp"
 #include "conformance/scheduler_suite.hpp"
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/sched/reconstruct.hpp"
@@ -13,7 +13,7 @@
 
 namespace {
 
-using Backend = mir::cpu::Backend<mir::InlineExecutor>;
+using Backend = mir::host::Backend<mir::InlineExecutor>;
 using Params = mir::CookTorrance::Params;
 using There = mir::BackendGBuffer<Backend, Params>;
 using Here = mir::BlockedGBuffer<Params>;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/resident/backend_shafts.hpp"
 
-#include "mir/cpu/backend.hpp"
 #include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/backend.hpp"
 #include "shaft/shaft_stage.hpp"
 #include "support/catch.hpp"
 #include "support/lazy_backend.hpp"
@@ -17,7 +17,7 @@ using mirtest::Lit;
 using mirtest::ShaftStage;
 using mirtest::soup;
 using mirtest::stage_of;
-using HostBackend = mir::cpu::Backend<mir::InlineExecutor>;
+using HostBackend = mir::host::Backend<mir::InlineExecutor>;
 
 mirtest::ShaftInput input(const ShaftStage& stage) {
     return {stage.hits(), stage.lit().vpls, &stage.bvh(), stage.sigma()};
@@ -148,7 +148,7 @@ TEST_CASE("Shafts of a backend that runs late, or on many threads, give the same
     const ShaftStage stage = stage_of(world, 5000, 30);
     const auto truth = words(stage);
     mir::cpu::TbbExecutor many(4);
-    CHECK(mirtest::shaft_words(mir::cpu::Backend(many), input(stage), {}) == truth);
+    CHECK(mirtest::shaft_words(mir::host::Backend(many), input(stage), {}) == truth);
     mirtest::PutOff work(0);
     CHECK(mirtest::shaft_words(mirtest::LazyBackend(work), input(stage), {}) == truth);
 }

@@ -3,8 +3,8 @@
 
 #include "conformance/stage.hpp"
 #include "kernels/brute_finder.hpp"
-#include "mir/cpu/backend.hpp"
 #include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_surfaces.hpp"
@@ -98,7 +98,7 @@ TEMPLATE_TEST_CASE("Primary hits by kernels have the words of those on the host"
     const Extent image{100, 70};
     const Camera<TestType> camera(image);
     mir::cpu::TbbExecutor executor(2);
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     const Extent tile = GENERATE(Extent{48, 32}, Extent{16, 16}, Extent{20, 13}, Extent{256, 512});
     const auto wanted = camera.by_host(image, tile);
     // Some luxels see the box, others pass it.
@@ -113,7 +113,7 @@ TEST_CASE("Primary hits of many luxels per pixel and of a lens are those of the 
     camera.rays.camera.focus_distance = 3.0f;
     const Extent luxels = camera.rays.grid.luxels();
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     const auto wanted = camera.by_host(luxels, {32, 32});
     CHECK(words_that_differ(camera.by_kernels(backend, luxels, {32, 32}), wanted) == 0);
 }
@@ -121,7 +121,7 @@ TEST_CASE("Primary hits of many luxels per pixel and of a lens are those of the 
 TEST_CASE("Primary hits of a band of rows are those of these rows of the image") {
     const Camera<mir::Lambert> camera({100, 70});
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     const auto found = camera.by_kernels(backend, {100, 22}, {48, 16}, 48);
     CHECK(words_that_differ(found, camera.by_host({100, 22}, {48, 16}, 48)) == 0);
     CHECK(words_that_differ(found, camera.by_host({100, 22}, {48, 16}, 0)) > 1000);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/kernels/response.hpp"
 
-#include "mir/cpu/backend.hpp"
 #include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/normalise/response.hpp"
 #include "mir/resident/backend_response.hpp"
 #include "mir/shading/vpl_shading.hpp"
@@ -62,7 +62,7 @@ TEMPLATE_TEST_CASE("Responses on a backend are those of the host", "", mir::Lamb
     mir::cpu::TbbExecutor executor(2);
     const mir::VplShading<TestType> shading{3.0f};
     const Responses wanted = on_host(box, shading);
-    const Responses found = on_backend(mir::cpu::Backend(executor), box, image, {48, 32}, shading);
+    const Responses found = on_backend(mir::host::Backend(executor), box, image, {48, 32}, shading);
     REQUIRE(found.size() == wanted.size());
     double largest = 0.0;
     std::uint64_t lit = 0;
@@ -87,7 +87,7 @@ TEST_CASE("Responses on a backend have the same bits for any tiles, bands, memor
     const mirtest::LitBox<mir::CookTorrance> box(image, {16, 16}, 80);
     REQUIRE(box.vpls.size() > 64);
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     const Responses wanted = on_host(box, glossy);
     const auto check = [&](const Responses& found) { CHECK(same_bits(found, wanted)); };
     check(on_backend(backend, box, image, {16, 16}, glossy));
@@ -134,9 +134,9 @@ TEST_CASE("Black luxels do not count as lit on a backend") {
             black.store(t, i, black.view(t).hit(i), surface);
         }
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     auto queue = backend.queue();
-    using B = mir::cpu::Backend<mir::InlineExecutor>;
+    using B = mir::host::Backend<mir::InlineExecutor>;
     mir::BackendVisibility<B> seen(backend, mir::TileGrid::of(image, black.tiles()),
                                    box.vpls.size());
     seen.find(queue, black, box.vpls.span(), box.engine.visibility());
@@ -151,8 +151,8 @@ TEST_CASE("Black luxels do not count as lit on a backend") {
 TEST_CASE("A response of no VPLs is empty") {
     const mirtest::LitBox<mir::Lambert> box({16, 16}, {16, 16}, 2);
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
-    using B = mir::cpu::Backend<mir::InlineExecutor>;
+    const mir::host::Backend backend(executor);
+    using B = mir::host::Backend<mir::InlineExecutor>;
     auto queue = backend.queue();
     const mir::VplSpan<mir::Space::host> none;
     mir::BackendVisibility<B> seen(backend, mir::TileGrid::of({16, 16}, box.gbuffer.tiles()), 0);
@@ -166,8 +166,8 @@ TEST_CASE("Luxels, VPLs and visibility that do not belong together are refused o
     const Extent image{32, 32};
     const mirtest::LitBox<mir::Lambert> box(image, {16, 16}, 2);
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
-    using B = mir::cpu::Backend<mir::InlineExecutor>;
+    const mir::host::Backend backend(executor);
+    using B = mir::host::Backend<mir::InlineExecutor>;
     auto queue = backend.queue();
     const std::uint32_t n = box.vpls.size();
     const auto grid = mir::TileGrid::of(image, box.gbuffer.tiles());
@@ -195,8 +195,8 @@ TEST_CASE("Luxels, VPLs and visibility that do not belong together are refused o
 
 TEST_CASE("Visibility on a backend keeps the limit of stored visibility") {
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
-    using Seen = mir::BackendVisibility<mir::cpu::Backend<mir::InlineExecutor>>;
+    const mir::host::Backend backend(executor);
+    using Seen = mir::BackendVisibility<mir::host::Backend<mir::InlineExecutor>>;
     const mir::TileGrid grid{{32, 32}, {32, 32}};
     CHECK(Seen::bytes_for(grid, 3) == 32 * 32 / 8 * 3);
     mir::Limits limits;

@@ -34,7 +34,7 @@ void check_on_cpu(const mir::Scene& scene, const MetropolisOptions& options) {
     const ChainScene<B> stage(scene);
     const VplRecords wanted = stage.sampled_on_host(options);
     mir::cpu::TbbExecutor threads(3);
-    const VplRecords found = chains_on(mir::cpu::Backend(threads), stage.parts(), options);
+    const VplRecords found = chains_on(mir::host::Backend(threads), stage.parts(), options);
     REQUIRE(!wanted.records.empty());
     CHECK(same_records(found, wanted));
     CHECK(same_health(*found.health, *wanted.health));
@@ -85,7 +85,7 @@ TEST_CASE("Chains that do not fit into memory together run in turn") {
     const MetropolisOptions options = few_chains(Mutation::primary);
     const VplRecords wanted = stage.sampled_on_host(options);
     mir::InlineExecutor one;
-    const mir::cpu::Backend backend(one);
+    const mir::host::Backend backend(one);
     for (const std::uint64_t bytes : {1, 200'000}) {
         const VplRecords found = chains_on(backend, stage.parts(), options, {.bytes = bytes});
         CHECK(same_records(found, wanted));
@@ -113,7 +113,7 @@ TEST_CASE("Without light chains on a backend make no record") {
     options.bootstrap.max_paths = options.bootstrap.min_paths;
     const ChainScene<Lambert> stage(scene);
     mir::InlineExecutor one;
-    const VplRecords found = chains_on(mir::cpu::Backend(one), stage.parts(), options);
+    const VplRecords found = chains_on(mir::host::Backend(one), stage.parts(), options);
     const VplRecords wanted = stage.sampled_on_host(options);
     CHECK(found.records.empty());
     CHECK(found.emitted_power == wanted.emitted_power);
@@ -134,7 +134,7 @@ TEST_CASE("Another seed is told from the same one") {
 TEST_CASE("Chains on a backend refuse what MetropolisSampler refuses, and stop when told to") {
     const ChainScene<Lambert> stage(Wedge(WedgeLights::ceiling).scene());
     mir::InlineExecutor one;
-    const mir::cpu::Backend backend(one);
+    const mir::host::Backend backend(one);
     MetropolisOptions options = few_chains(Mutation::primary);
     options.states = 0;
     CHECK_THROWS_AS(chains_on(backend, stage.parts(), options), mir::Error);

@@ -80,7 +80,7 @@ class CancellingExecutor {
 int loops_of(const Stage& stage, const MetropolisOptions& options) {
     mir::Monitor never;
     CancellingExecutor executor(never, 0);
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     auto queue = backend.queue();
     static_cast<void>(
         BackendMetropolis(backend, stage.world(), options, {}, small_portions()).sample(queue));
@@ -148,7 +148,7 @@ TEST_CASE("More chains than thread blocks are worth make the sampler's records")
     options.states = options.chains = 8200;
     options.suffix_refresh = 0;
     mir::InlineExecutor one;
-    const VplRecords found = chains_on(mir::cpu::Backend(one), stage.parts(), options);
+    const VplRecords found = chains_on(mir::host::Backend(one), stage.parts(), options);
     CHECK(same(found, stage.sampled_on_host(options)));
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("A run is cancelled between any two kernels, and leaves nothing behind
         CAPTURE(last);
         mir::Monitor monitor;
         CancellingExecutor executor(monitor, last);
-        const mir::cpu::Backend backend(executor);
+        const mir::host::Backend backend(executor);
         auto queue = backend.queue();
         const BackendMetropolis chains(backend, stage.world(), options, {}, small_portions());
         CHECK(error_of([&] { return chains.sample(queue, &monitor); }) ==
@@ -200,7 +200,7 @@ TEST_CASE("Anything may fail under chains: an error, nothing leaks, the next run
 TEST_CASE("Kernels without a mutation are refused") {
     const Stage stage = wedge();
     mir::InlineExecutor one;
-    const mir::cpu::Backend backend(one);
+    const mir::host::Backend backend(one);
     CHECK_THROWS_AS(BackendMetropolis(backend, stage.world(), few_chains(Mutation::primary), {},
                                       ChainPortions{.mutations = 0}),
                     mir::Error);

@@ -4,7 +4,7 @@
 // those of the host's own stages: the same bits.
 #include "conformance/stage.hpp"
 #include "mir/accel/kd_tree_scene.hpp"
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/runtime/backend_engine_kernels.hpp"
 #include "mir/runtime/tiled_render.hpp"
 #include "mir/sched/cpu.hpp"
@@ -22,7 +22,7 @@ using mir::InlineExecutor;
 using mir::RenderResult;
 using mir::RenderSettings;
 using mir::Scene;
-using Host = mir::cpu::Backend<InlineExecutor>;
+using Host = mir::host::Backend<InlineExecutor>;
 using Engine = mir::BackendEngine<Host, CookTorrance, InlineExecutor>;
 
 static_assert(mir::BandEngine<Engine> && mir::SamplingEngine<Engine>);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/resident/backend_film.hpp"
 
-#include "mir/cpu/backend.hpp"
 #include "mir/film/film.hpp"
+#include "mir/host/backend.hpp"
 #include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
 #include "support/lazy_backend.hpp"
@@ -96,7 +96,7 @@ TEST_CASE("A film on a backend has the bits of the host's for all filters, bands
     mir::InlineExecutor executor;
     host.add_rows(executor, 0, layers);
 
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     mirtest::PutOff work(0);
     for (const std::vector<std::uint32_t>& heights :
          {std::vector<std::uint32_t>{21 * ny}, {16 * ny, 5 * ny}, {ny, ny, 2 * ny, 16 * ny, ny}}) {
@@ -112,10 +112,10 @@ TEST_CASE("A film on a backend has the bits of the host's for all filters, bands
 
 TEST_CASE("A film on a backend refuses bands that do not continue it") {
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     auto queue = backend.queue();
     const mir::LuxelGrid grid = mir::luxel_grid({20, 12}, 1);
-    using Host = mir::cpu::Backend<mir::InlineExecutor>;
+    using Host = mir::host::Backend<mir::InlineExecutor>;
     mir::BackendFilm<Host> film(backend, queue, grid, {}, 0, 1, 8);
     const auto band = [&](Extent extent, std::size_t count) {
         std::vector<mir::BackendLayer<Host>> layers;

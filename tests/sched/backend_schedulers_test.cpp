@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/brute_force.hpp"
 #include "conformance/scheduler_suite.hpp"
-#include "mir/cpu/backend.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_visibility.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/reshade.hpp"
 #include "mir/sched/reconstruct.hpp"
 #include "mir/sched/reconstruct_visibility_parallel.hpp"
@@ -33,9 +33,9 @@ TEMPLATE_TEST_CASE("OS, RC and RCVP on the host keep the axioms of Scheduler", "
     const Stage<TestType> stage({100, 70}, {48, 32}, 37);
     mir::InlineExecutor one;
     mir::cpu::TbbExecutor many(3);
-    with_each(mir::cpu::Backend(one), one, nullptr,
+    with_each(mir::host::Backend(one), one, nullptr,
               [&](const auto& scheduler) { mirtest::scheduler_suite(scheduler, stage); });
-    with_each(mir::cpu::Backend(many), many, nullptr,
+    with_each(mir::host::Backend(many), many, nullptr,
               [&](const auto& scheduler) { mirtest::scheduler_suite(scheduler, stage); });
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("OS, RC and RCVP reshade from known visibility") {
     fill_visibility(matrix, stage.gbuffer(), stage.vpls(), stage.visibility(), executor);
     const mir::VplShading<mir::Lambert> shading{};
     const auto wanted = mirtest::oracle(stage, shading);
-    with_each(mir::cpu::Backend(executor), executor, nullptr, [&](const auto& scheduler) {
+    with_each(mir::host::Backend(executor), executor, nullptr, [&](const auto& scheduler) {
         const auto found = mir::reshade(scheduler, stage.gbuffer(), stage.vpls(), matrix, shading);
         CHECK(mirtest::pixels_that_differ(found, wanted) == 0);
     });
@@ -75,7 +75,7 @@ TEST_CASE("OS, RC and RCVP count contributions and stop when they are told to") 
     const Stage<mir::Lambert> stage({20, 20}, {16, 16}, 3);
     mir::InlineExecutor executor;
     mir::Monitor monitor;
-    with_each(mir::cpu::Backend(executor), executor, &monitor, [&](const auto& scheduler) {
+    with_each(mir::host::Backend(executor), executor, &monitor, [&](const auto& scheduler) {
         const auto run = [&] {
             return mir::reconstruct(scheduler, stage.gbuffer(), stage.vpls(), stage.visibility(),
                                     mir::VplShading<mir::Lambert>{});
@@ -99,7 +99,7 @@ TEST_CASE("OS, RC and RCVP may have one tile that is larger than the image") {
     const mir::VplShading<mir::Lambert> shading{};
     const auto wanted = mirtest::oracle(stage, shading);
     mir::InlineExecutor executor;
-    with_each(mir::cpu::Backend(executor), executor, nullptr, [&](const auto& scheduler) {
+    with_each(mir::host::Backend(executor), executor, nullptr, [&](const auto& scheduler) {
         const auto found =
             mir::reconstruct(scheduler, stage.gbuffer(), stage.vpls(), stage.visibility(), shading);
         CHECK(mirtest::pixels_that_differ(found, wanted) == 0);

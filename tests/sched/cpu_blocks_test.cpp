@@ -4,7 +4,7 @@
 #include "conformance/brute_force.hpp"
 #include "conformance/scheduler_suite.hpp"
 #include "mir/fill_visibility.hpp"
-#include "mir/shaft/shaft_scene.hpp"
+#include "mir/host/shaft_scene.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
 

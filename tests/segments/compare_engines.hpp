@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 #include "support/random_segments.hpp"
 #include "support/segment_bits.hpp"
 #include "support/segment_judge.hpp"
@@ -80,7 +80,7 @@ Comparison compare_engines(const mir::WorldGeometry& geometry, const Tree& tree,
     constexpr std::uint64_t batch = std::uint64_t{1} << 20;
     const RandomSegments random(geometry);
     const SegmentJudge judge(geometry);
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     Comparison found;
     for (std::uint64_t first = 0; first < count; first += batch) {
         const auto segments = random.make(first, std::min(batch, count - first), executor);

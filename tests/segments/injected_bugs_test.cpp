@@ -90,7 +90,7 @@ TEST_CASE("Packets that lose a lane are noticed") {
 TEST_CASE("One fused product changes some bits of random segments") {
     const SphereRoom room;
     mir::InlineExecutor executor;
-    const mir::cpu::Backend backend(executor);
+    const mir::host::Backend backend(executor);
     const auto asked = room.random_segments();
     const auto right = mirtest::segment_bits(backend, room.tree.visibility(), asked);
     const mirtest::FusedVisibility<mir::Space::host> fused{room.tree.tree().view()};

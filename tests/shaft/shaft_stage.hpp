@@ -3,9 +3,9 @@
 
 #include "accel/hard_segments.hpp"
 #include "conformance/worlds.hpp"
-#include "mir/accel/wide_build.hpp"
 #include "mir/data/visibility_words.hpp"
 #include "mir/data/vpl_list.hpp"
+#include "mir/host/wide_build.hpp"
 #include "mir/shaft/cluster_order.hpp"
 #include "mir/shaft/pair_tally.hpp"
 #include "mir/shaft/shaft_pass.hpp"
@@ -56,7 +56,7 @@ class ShaftStage {
  public:
     /// Luxels in the order in which they are given, padded with empty ones.
     ShaftStage(const mir::WorldGeometry& geometry, Lit lit, const mir::WideBvhOptions& options = {})
-        : bvh_(geometry, options, executor_),
+        : bvh_(mir::build_wide_bvh(geometry, executor_, options)),
           sigma_(float_sigma(mir::magnitude_of(geometry.bounds()))),
           lit_(std::move(lit)) {
         const std::size_t blocks = (lit_.luxels.size() + mir::block_luxels - 1) / mir::block_luxels;

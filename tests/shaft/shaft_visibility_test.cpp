@@ -5,7 +5,7 @@
 #include "conformance/packet_suite.hpp"
 #include "conformance/ray_caster_suite.hpp"
 #include "conformance/visibility_suite.hpp"
-#include "mir/shaft/shaft_scene.hpp"
+#include "mir/host/shaft_scene.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("Visibility by shafts keeps the axioms of every face") {

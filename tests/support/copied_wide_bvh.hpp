@@ -42,7 +42,7 @@ class CopiedWideBvh {
 /// The tree that a backend builds.
 template <mir::Backend B>
 CopiedWideBvh build_wide_on(const B& backend, const mir::WorldGeometry& geometry,
-                            const mir::WideClusterOptions& options = {}) {
+                            const mir::WideBvhOptions& options = {}) {
     auto queue = backend.queue();
     const mir::UploadedGeometry<B> there(backend, queue, geometry);
     const mir::WaitAtEnd wait(queue);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/concepts/backend.hpp"
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -63,9 +63,9 @@ class LazyBackend {
     static constexpr mir::Space space = mir::Space::host;
 
     template <class T>
-    class Buffer : public mir::cpu::Buffer<T> {
+    class Buffer : public mir::host::Buffer<T> {
      public:
-        explicit Buffer(std::size_t size) : mir::cpu::Buffer<T>(size) {
+        explicit Buffer(std::size_t size) : mir::host::Buffer<T>(size) {
             if (size > 0) std::memset(static_cast<void*>(this->data()), 0xFF, size * sizeof(T));
         }
     };
@@ -131,9 +131,9 @@ class LazyBackend {
         }
 
      private:
-        static mir::cpu::Queue<mir::InlineExecutor> at_once() {
+        static mir::host::Queue<mir::InlineExecutor> at_once() {
             static mir::InlineExecutor executor;
-            return mir::cpu::Queue<mir::InlineExecutor>(executor);
+            return mir::host::Queue<mir::InlineExecutor>(executor);
         }
         void later(std::function<void()> operation) { work_->add(index_, std::move(operation)); }
 

@@ -2,8 +2,8 @@
 #include "mir/accel/kd_tree_scene.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/register.hpp"
+#include "mir/host/shaft_scene.hpp"
 #include "mir/runtime/check_scene.hpp"
-#include "mir/shaft/shaft_scene.hpp"
 #include "render_on_host.hpp"
 
 namespace mir::cpu {

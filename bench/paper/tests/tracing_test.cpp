@@ -2,7 +2,7 @@
 #include "conformance/backend_suite.hpp"
 #include "conformance/brute_force.hpp"
 #include "conformance/scheduler_suite.hpp"
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/sched/reconstruct.hpp"
 #include "mir/sched/reconstruct_visibility_parallel.hpp"
 #include "mir/sched/shading_only.hpp"
@@ -12,7 +12,7 @@
 
 namespace {
 
-using Host = mir::cpu::Backend<mir::InlineExecutor>;
+using Host = mir::host::Backend<mir::InlineExecutor>;
 using Traced = mirpaper::TracingBackend<Host>;
 using mirpaper::Work;
 

@@ -1,47 +1,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/detail/raw_array.hpp"
 #include "mir/accel/wide_bvh_view.hpp"
-#include "mir/accel/wide_options.hpp"
-#include "mir/accel/wide_statistics.hpp"
-#include "mir/concepts/executor.hpp"
-#include "mir/scene/world_geometry.hpp"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mir {
 
-namespace detail {
-struct WideTally;
-}  // namespace detail
-
-/// A wide bounding volume hierarchy over all triangles of a scene, in host memory. Move only; const
-/// use from any thread. Equal in bytes for any number of threads. The constructor is defined in
-/// wide_build.hpp.
+/// A wide bounding volume hierarchy in host memory. Const use from any thread. build_wide_bvh()
+/// makes one of a scene.
 class WideBvh {
  public:
-    /// Builds from the root down. A node starts as one group of triangles; the group with the
-    /// largest surface is cut in two until there are eight. Cuts follow the surface area heuristic
-    /// over binned centres of accept boxes (accept_box.hpp); triangles are not split, so each lies
-    /// in one leaf. O(N log N).
-    /// Sources: Wald, Benthin and Boulos, "Getting rid of packets: efficient SIMD single-ray
-    /// traversal using multi-branching BVHs", IEEE Symposium on Interactive Ray Tracing 2008;
-    /// Wald, "On fast construction of SAH-based bounding volume hierarchies", the same 2007.
-    /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
-    ///         beyond 1e36 metres.
-    template <Executor E>
-    WideBvh(const WorldGeometry& geometry, const WideBvhOptions& options, E& executor);
+    /// Of parts that keep what WideBvhView promises: a root at least, and as many `indices` as
+    /// `triangles`.
+    WideBvh(std::vector<WideNode> nodes, std::vector<TriangleRows> triangles,
+            std::vector<std::uint32_t> indices, float reach)
+        : nodes_(std::move(nodes)),
+          triangles_(std::move(triangles)),
+          indices_(std::move(indices)),
+          reach_(reach) {}
 
     [[nodiscard]] WideBvhView<Space::host> view() const {
         return {nodes_.data(), triangles_.data(), indices_.data(), reach_};
     }
-    [[nodiscard]] const WideBvhStatistics& statistics() const { return statistics_; }
 
     [[nodiscard]] std::span<const WideNode> nodes() const { return nodes_; }
-    [[nodiscard]] std::span<const TriangleRows> triangles() const { return triangles_.span(); }
-    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_.span(); }
+    [[nodiscard]] std::span<const TriangleRows> triangles() const { return triangles_; }
+    [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
 
     /// Memory held, bytes.
     [[nodiscard]] std::size_t bytes() const {
@@ -49,13 +36,10 @@ class WideBvh {
     }
 
  private:
-    void count_parts(const detail::WideTally& tally);
-
     std::vector<WideNode> nodes_;
-    detail::RawArray<TriangleRows> triangles_;
-    detail::RawArray<std::uint32_t> indices_;
-    float reach_ = 0.0f;
-    WideBvhStatistics statistics_;
+    std::vector<TriangleRows> triangles_;
+    std::vector<std::uint32_t> indices_;
+    float reach_;
 };
 
 }  // namespace mir

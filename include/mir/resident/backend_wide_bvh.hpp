@@ -32,7 +32,7 @@ class BackendWideBvh {
     ///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more; what the
     ///         backend throws.
     BackendWideBvh(const B& backend, typename B::Queue& queue, const WorldGeometry& geometry,
-                   GeometryView<B::space> uploaded, const WideClusterOptions& options = {})
+                   GeometryView<B::space> uploaded, const WideBvhOptions& options = {})
         : BackendWideBvh(backend, queue,
                          detail::WideBuild<B>(backend, queue, geometry, uploaded, options)) {}
 

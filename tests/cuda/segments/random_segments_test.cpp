@@ -3,7 +3,7 @@
 
 #include "cuda/segments/gpu_segment_bits.hpp"
 #include "mir/accel/kd_tree_scene.hpp"
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 #include "support/catch.hpp"
 #include "support/segment_bits.hpp"
 #include "support/segment_scenes.hpp"
@@ -44,7 +44,7 @@ Count compare(const mir::cuda::Backend& gpu, const mir::WorldGeometry& geometry,
         const auto asked =
             random.make(count.asked, std::min(batch, segments - count.asked), executor);
         const Words host =
-            mirtest::segment_bits(mir::cpu::Backend(executor), tree.visibility(), asked);
+            mirtest::segment_bits(mir::host::Backend(executor), tree.visibility(), asked);
         const Words there = mirtest::gpu_segment_bits(gpu, tree.tree(), asked, rounding);
         count.hidden += asked.size() - bits_that_differ(host, Words(host.size()));
         count.different += bits_that_differ(host, there);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/accel/detail/construction.hpp"
-#include "mir/accel/wide_cluster_options.hpp"
+#include "mir/accel/wide_options.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -63,7 +63,7 @@ inline void check_triangle_count(std::size_t triangles) {
 
 /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
 ///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more.
-inline ClusterPlan cluster_plan(const WorldGeometry& geometry, const WideClusterOptions& options) {
+inline ClusterPlan cluster_plan(const WorldGeometry& geometry, const WideBvhOptions& options) {
     check(options);
     check_coordinates(geometry);
     check_triangle_count(geometry.triangles().size());

@@ -20,17 +20,19 @@ struct WideNotes {
     std::uint32_t* roots = nullptr;  ///< nodes of the binary tree of which they are made
     WideChildren* children = nullptr;
     std::uint32_t* first_child = nullptr;  ///< the first wide node among their children
+    /// Place of the first triangle below. Those in leaves of the node itself come first, side by
+    /// side, for they are read together.
+    std::uint32_t* first_triangle = nullptr;
 };
 
 /// Kernel over one index: the first wide node is made of all.
 struct StartAtRoot {
     const Cluster* all = nullptr;
     WideNotes notes;
-    std::uint32_t* first = nullptr;
 
     MIR_HD void operator()(std::uint32_t /*i*/) const {
         notes.roots[0] = all->node;
-        first[all->node] = 0;
+        notes.first_triangle[0] = 0;
     }
 };
 
@@ -53,7 +55,8 @@ struct ChooseChildren {
     }
 };
 
-/// Kernel over the nodes of a level and one index more: numbers the nodes of the next.
+/// Kernel over the nodes of a level and one index more: numbers the nodes of the next, and their
+/// triangles.
 struct NumberChildren {
     const BinaryNode* nodes = nullptr;
     const std::uint32_t* inner_before = nullptr;
@@ -67,11 +70,28 @@ struct NumberChildren {
             *next_size = inner_before[i];
             return;
         }
+        const std::uint32_t at = level.begin + i;
+        const WideChildren& children = notes.children[at];
         std::uint32_t next = level.end() + inner_before[i];
-        notes.first_child[level.begin + i] = next;
-        const WideChildren& children = notes.children[level.begin + i];
-        for (std::uint32_t k = 0; k < children.count; ++k)
-            if (nodes[children.at[k]].count > leaf_size) notes.roots[next++] = children.at[k];
+        std::uint32_t place = notes.first_triangle[at] + triangles_in_leaves(children);
+        notes.first_child[at] = next;
+        for (std::uint32_t k = 0; k < children.count; ++k) {
+            const std::uint32_t count = nodes[children.at[k]].count;
+            if (count <= leaf_size) continue;
+            notes.roots[next] = children.at[k];
+            notes.first_triangle[next++] = place;
+            place += count;
+        }
+    }
+
+ private:
+    [[nodiscard]] MIR_HD std::uint32_t triangles_in_leaves(const WideChildren& children) const {
+        std::uint32_t sum = 0;
+        for (std::uint32_t k = 0; k < children.count; ++k) {
+            const std::uint32_t count = nodes[children.at[k]].count;
+            if (count <= leaf_size) sum += count;
+        }
+        return sum;
     }
 };
 

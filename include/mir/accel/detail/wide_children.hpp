@@ -27,22 +27,22 @@ struct WideChildren {
     MIR_HD void add(std::uint32_t node) { at[count++] = node; }
 };
 
-/// Chooses the children of wide nodes. Whenever a node is replaced by its children, it is noted
-/// where their triangles begin in the order of leaves: where those of the node do, in `first`.
+/// Chooses the children of wide nodes.
 struct ChildChoice {
     CostedTree tree;
-    std::uint32_t* first = nullptr;  ///< by node; written once for each
     std::uint32_t leaf_size = 0;
     std::uint32_t max_depth = 0;  ///< nodes
     float area_scale = 0.0f;
 
-    /// The children of a wide node below `depth` others.
+    /// The children of a wide node below `depth` others, the largest last: walks go down by the
+    /// last slot first, and what hides a whole block of luxels is large.
     MIR_HD void choose(std::uint32_t root, std::uint32_t depth, WideChildren& children) const {
         children.count = 0;
         if (depth + 1 + (tree.nodes[root].height + 1) / 3 <= max_depth)
             choose_cheapest(root, children);
         else
             open_highest(root, children);
+        sort_by_area(children);
     }
 
  private:
@@ -64,7 +64,6 @@ struct ChildChoice {
                 children.add(next.node);
                 continue;
             }
-            note_first(next.node);
             const SlotCosts& left = tree.costs[tree.nodes[next.node].left];
             const SlotCosts& right = tree.costs[tree.nodes[next.node].right];
             const std::uint32_t to_left = share_slots(left, right, next.slots).left;
@@ -79,7 +78,6 @@ struct ChildChoice {
             const std::uint32_t place = highest(children);
             const std::uint32_t opened = children.at[place];
             if (tree.nodes[opened].count == 1) break;
-            note_first(opened);
             children.at[place] = tree.nodes[opened].left;
             children.add(tree.nodes[opened].right);
         }
@@ -98,10 +96,17 @@ struct ChildChoice {
         return half_area(a.low, a.high, area_scale) > half_area(b.low, b.high, area_scale);
     }
 
-    MIR_HD void note_first(std::uint32_t node) const {
-        const BinaryNode& opened = tree.nodes[node];
-        first[opened.left] = first[node];
-        first[opened.right] = first[node] + tree.nodes[opened.left].count;
+    MIR_HD void sort_by_area(WideChildren& children) const {
+        for (std::uint32_t i = 1; i < children.count; ++i) {
+            const std::uint32_t child = children.at[i];
+            std::uint32_t k = i;
+            for (; k > 0 && area(child) < area(children.at[k - 1]); --k)
+                children.at[k] = children.at[k - 1];
+            children.at[k] = child;
+        }
+    }
+    [[nodiscard]] MIR_HD float area(std::uint32_t node) const {
+        return half_area(tree.nodes[node].low, tree.nodes[node].high, area_scale);
     }
 };
 

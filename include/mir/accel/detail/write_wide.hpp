@@ -28,7 +28,6 @@ struct WriteEmptyRoot {
 /// Kernel over wide nodes: writes them, and the triangles of their leaves.
 struct WriteWideNodes {
     const BinaryNode* binary = nullptr;
-    const std::uint32_t* first = nullptr;  ///< place of the first triangle below a binary node
     WideNotes notes;
     WideArrays to;
     std::uint32_t leaf_size = 0;
@@ -36,6 +35,7 @@ struct WriteWideNodes {
 
     MIR_HD void operator()(std::uint32_t i) const {
         std::uint32_t next = notes.first_child[i];
+        std::uint32_t place = notes.first_triangle[i];
         WideNode& node = to.nodes[i];
         for (std::uint32_t slot = 0; slot < WideNode::width; ++slot) {
             if (slot >= notes.children[i].count) {
@@ -46,7 +46,7 @@ struct WriteWideNodes {
             if (binary[child].count > leaf_size)
                 set_child(node, slot, child, next++, WideNode::inner);
             else
-                set_leaf(node, slot, child);
+                place = set_leaf(node, slot, child, place);
         }
     }
 
@@ -61,9 +61,12 @@ struct WriteWideNodes {
         node.count[slot] = count;
     }
 
-    MIR_HD void set_leaf(WideNode& node, std::uint32_t slot, std::uint32_t child) const {
-        set_child(node, slot, child, first[child], static_cast<std::int32_t>(binary[child].count));
-        list_triangles(child, first[child]);
+    /// The place after its triangles.
+    [[nodiscard]] MIR_HD std::uint32_t set_leaf(WideNode& node, std::uint32_t slot,
+                                                std::uint32_t child, std::uint32_t place) const {
+        set_child(node, slot, child, place, static_cast<std::int32_t>(binary[child].count));
+        list_triangles(child, place);
+        return place + binary[child].count;
     }
 
     /// From left to right. No way down to one of 8 triangles has more branches than 7.

@@ -14,7 +14,7 @@ class WideBuild {
  public:
     /// `queue` must outlive it.
     WideBuild(const B& backend, typename B::Queue& queue, const WorldGeometry& geometry,
-              GeometryView<B::space> uploaded, const WideClusterOptions& options)
+              GeometryView<B::space> uploaded, const WideBvhOptions& options)
         : plan_(cluster_plan(geometry, options)),
           scratch_(backend.template buffer<std::byte>(queue.scratch_bytes(plan_.room() + 1))),
           tree_(backend, plan_),
@@ -37,9 +37,8 @@ class WideBuild {
             queue.for_each(1, WriteEmptyRoot{to, plan_.reach});
             return;
         }
-        queue.for_each(collapse_.node_count(),
-                       WriteWideNodes{tree_.view().nodes, collapse_.first(), collapse_.notes(), to,
-                                      plan_.leaf_size, plan_.reach});
+        queue.for_each(collapse_.node_count(), WriteWideNodes{tree_.view().nodes, collapse_.notes(),
+                                                              to, plan_.leaf_size, plan_.reach});
         queue.for_each(plan_.triangles, WriteRows<B::space>{uploaded_, to});
     }
 

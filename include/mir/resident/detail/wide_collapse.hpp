@@ -12,10 +12,10 @@ class WideCollapse {
  public:
     WideCollapse(const B& backend, const ClusterPlan& plan)
         : plan_(plan),
-          first_(backend.template buffer<std::uint32_t>(2 * std::size_t{plan.room()} - 1)),
           roots_(backend.template buffer<std::uint32_t>(most_nodes(plan))),
           children_(backend.template buffer<WideChildren>(most_nodes(plan))),
           first_child_(backend.template buffer<std::uint32_t>(most_nodes(plan))),
+          first_triangle_(backend.template buffer<std::uint32_t>(most_nodes(plan))),
           inner_(backend.template buffer<std::uint32_t>(most_nodes(plan) + 1)),
           inner_before_(backend.template buffer<std::uint32_t>(most_nodes(plan) + 1)),
           next_size_(backend) {}
@@ -23,7 +23,7 @@ class WideCollapse {
     /// All of it. There are triangles.
     void run(typename B::Queue& queue, const ClusterTree<B>& tree,
              typename B::template Buffer<std::byte>& scratch) {
-        queue.for_each(1, StartAtRoot{tree.all(), notes(), first_.data()});
+        queue.for_each(1, StartAtRoot{tree.all(), notes()});
         while (level_.size > 0) {
             choose(queue, tree, scratch);
             const std::uint32_t size = next_size_.read(queue);
@@ -33,9 +33,8 @@ class WideCollapse {
 
     [[nodiscard]] std::uint32_t node_count() const { return level_.begin; }
     [[nodiscard]] std::uint32_t depth() const { return level_.depth; }
-    [[nodiscard]] const std::uint32_t* first() const { return first_.data(); }
     [[nodiscard]] WideNotes notes() {
-        return {roots_.data(), children_.data(), first_child_.data()};
+        return {roots_.data(), children_.data(), first_child_.data(), first_triangle_.data()};
     }
 
  private:
@@ -46,8 +45,7 @@ class WideCollapse {
 
     void choose(typename B::Queue& queue, const ClusterTree<B>& tree,
                 typename B::template Buffer<std::byte>& scratch) {
-        const ChildChoice choice{tree.view(), first_.data(), plan_.leaf_size, plan_.max_depth,
-                                 plan_.area_scale};
+        const ChildChoice choice{tree.view(), plan_.leaf_size, plan_.max_depth, plan_.area_scale};
         const std::uint32_t n = level_.size + 1;
         queue.for_each(n, ChooseChildren{choice, notes(), inner_.data(), level_});
         queue.sum_before(n, inner_.data(), inner_before_.data(), scratch);
@@ -59,10 +57,10 @@ class WideCollapse {
     using Buffer = typename B::template Buffer<T>;
 
     ClusterPlan plan_;
-    Buffer<std::uint32_t> first_;
     Buffer<std::uint32_t> roots_;
     Buffer<WideChildren> children_;
     Buffer<std::uint32_t> first_child_;
+    Buffer<std::uint32_t> first_triangle_;
     Buffer<std::uint32_t> inner_;
     Buffer<std::uint32_t> inner_before_;
     Counter<B> next_size_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cpu/backend.hpp"
+#include "mir/host/backend.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/sched/reconstruct.hpp"
@@ -56,22 +56,22 @@ struct AnyScheduler {
             explicit Schedulers(const AnyScheduler& s)
                 : cpu{s.executor, s.monitor},
                   blocks{s.executor, s.monitor},
-                  os{Backend<E>(s.executor), s.executor, s.monitor},
-                  rc{Backend<E>(s.executor), s.monitor},
-                  rcvp{Backend<E>(s.executor), s.monitor} {}
+                  os{host::Backend<E>(s.executor), s.executor, s.monitor},
+                  rc{host::Backend<E>(s.executor), s.monitor},
+                  rcvp{host::Backend<E>(s.executor), s.monitor} {}
 
             sched::Cpu<E> cpu;
             sched::CpuBlocks<E> blocks;
-            sched::ShadingOnly<Backend<E>, E> os;
-            sched::Reconstruct<Backend<E>> rc;
-            sched::ReconstructVisibilityParallel<Backend<E>> rcvp;
+            sched::ShadingOnly<host::Backend<E>, E> os;
+            sched::Reconstruct<host::Backend<E>> rc;
+            sched::ReconstructVisibilityParallel<host::Backend<E>> rcvp;
         };
         using Any = std::variant<
             typename sched::Cpu<E>::template Pipeline<In>,
             typename sched::CpuBlocks<E>::template Pipeline<In>,
-            typename sched::ShadingOnly<Backend<E>, E>::template Pipeline<In>,
-            typename sched::Reconstruct<Backend<E>>::template Pipeline<In>,
-            typename sched::ReconstructVisibilityParallel<Backend<E>>::template Pipeline<In>>;
+            typename sched::ShadingOnly<host::Backend<E>, E>::template Pipeline<In>,
+            typename sched::Reconstruct<host::Backend<E>>::template Pipeline<In>,
+            typename sched::ReconstructVisibilityParallel<host::Backend<E>>::template Pipeline<In>>;
 
         [[nodiscard]] Any open(const In& in, Image<Rgb>& image, HostScheduler chosen) const {
             switch (chosen) {

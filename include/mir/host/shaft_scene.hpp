@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh_scene.hpp"
+#include "mir/host/wide_bvh_scene.hpp"
 #include "mir/shaft/shaft_visibility.hpp"
 
 namespace mir {
@@ -11,7 +11,7 @@ namespace mir {
 /// geometry must outlive it. Const use from any thread.
 class ShaftScene {
  public:
-    /// @throws Error what WideBvh throws.
+    /// @throws Error what build_wide_bvh() throws.
     template <Executor E>
     ShaftScene(const WorldGeometry& geometry, E& executor, const WideBvhOptions& options = {})
         : scene_(geometry, executor, options), lanes_(make_triangle_lanes(bvh().triangles())) {}

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace mir::cpu {
+namespace mir::host {
 
 /// Memory of the CPU backend. The CPU copies from any memory equally well, so this is also its
 /// host buffer.
@@ -118,11 +118,11 @@ class Backend {
  public:
     static constexpr Space space = Space::host;
     template <class T>
-    using Buffer = cpu::Buffer<T>;
+    using Buffer = host::Buffer<T>;
     template <class T>
-    using HostBuffer = cpu::Buffer<T>;
-    using Event = cpu::Event;
-    using Queue = cpu::Queue<E>;
+    using HostBuffer = host::Buffer<T>;
+    using Event = host::Event;
+    using Queue = host::Queue<E>;
 
     /// `executor` must outlive the backend and what it hands out.
     explicit Backend(E& executor) : executor_(&executor) {}
@@ -143,4 +143,4 @@ class Backend {
 
 static_assert(mir::Backend<Backend<InlineExecutor>>);
 
-}  // namespace mir::cpu
+}  // namespace mir::host

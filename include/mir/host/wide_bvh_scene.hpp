@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_build.hpp"
 #include "mir/accel/wide_bvh_visibility.hpp"
 #include "mir/accel/wide_ray_caster.hpp"
+#include "mir/host/wide_build.hpp"
 
 namespace mir {
 
@@ -12,16 +12,16 @@ namespace mir {
 /// thread.
 class WideBvhScene {
  public:
-    /// @throws Error what WideBvh throws.
+    /// @throws Error what build_wide_bvh() throws.
     template <Executor E>
     WideBvhScene(const WorldGeometry& geometry, E& executor, const WideBvhOptions& options = {})
-        : geometry_(&geometry), bvh_(geometry, options, executor) {}
+        : geometry_(&geometry), bvh_(build_wide_bvh(geometry, executor, options)) {}
 
     /// Builds on the calling thread.
     explicit WideBvhScene(const WorldGeometry& geometry)
         : geometry_(&geometry), bvh_([&] {
               InlineExecutor executor;
-              return WideBvh(geometry, {}, executor);
+              return build_wide_bvh(geometry, executor);
           }()) {}
 
     [[nodiscard]] WideBvhVisibility<Space::host> visibility() const { return {bvh_.view()}; }

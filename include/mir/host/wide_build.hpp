@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/wide_bvh.hpp"
+#include "mir/host/backend.hpp"
+#include "mir/resident/detail/wide_build.hpp"
+
+namespace mir {
+
+/// Builds the hierarchy over all triangles of a scene that BackendWideBvh builds, in every byte, on
+/// the executor's threads.
+/// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
+///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more.
+template <Executor E>
+[[nodiscard]] WideBvh build_wide_bvh(const WorldGeometry& geometry, E& executor,
+                                     const WideBvhOptions& options = {}) {
+    const host::Backend backend(executor);
+    auto queue = backend.queue();
+    detail::WideBuild<host::Backend<E>> build(backend, queue, geometry, geometry.view(), options);
+    std::vector<WideNode> nodes(build.nodes());
+    std::vector<TriangleRows> triangles(build.triangles());
+    std::vector<std::uint32_t> indices(build.triangles());
+    build.write(queue, {nodes.data(), triangles.data(), indices.data()});
+    return {std::move(nodes), std::move(triangles), std::move(indices), build.reach()};
+}
+
+}  // namespace mir
