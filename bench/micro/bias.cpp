@@ -23,6 +23,7 @@ struct Plan {
     std::uint32_t fewest = 1024;   ///< discs wanted at first
     std::uint32_t sizes = 3;       ///< numbers of discs, each four times the last
     std::uint32_t bounce = 4;      ///< the last one looked at, 2 to 4
+    std::uint32_t lamp_samples = 64;
 };
 
 const char* name_of(mir::DiscExtent extent) {
@@ -39,9 +40,7 @@ class BiasStudy {
         using mir::DiscExtent;
         using mir::StopShape;
         std::printf("scene,discs,extent,rays,shape,threshold,bounce,mean,rms,worst\n");
-        for (const auto extent : {DiscExtent::equal_area, DiscExtent::cover, DiscExtent::piece})
-            for (std::uint32_t i = 0; i < plan_.sizes; ++i)
-                run({plan_.fewest << 2 * i, extent, {.rays = 256, .threshold = 0.0f}});
+        for (std::uint32_t i = 0; i < plan_.sizes; ++i) run_exact(i, DiscExtent::piece);
         const std::uint32_t most = plan_.fewest << 2 * (plan_.sizes - 1);
         for (const float threshold : {0.25f, 1.0f, 4.0f, 16.0f, 64.0f})
             run({most, DiscExtent::piece, {.rays = 256, .threshold = threshold}});
@@ -51,9 +50,15 @@ class BiasStudy {
                  {.rays = 256, .threshold = threshold, .shape = StopShape::sphere}});
         for (const std::uint32_t rays : {16u, 64u, 1024u})
             run({most, DiscExtent::piece, {.rays = rays}});
+        for (const auto extent : {DiscExtent::equal_area, DiscExtent::cover})
+            for (std::uint32_t i = 0; i < plan_.sizes; ++i) run_exact(i, extent);
     }
 
  private:
+    void run_exact(std::uint32_t size, mir::DiscExtent extent) {
+        run({plan_.fewest << 2 * size, extent, {.rays = 256, .threshold = 0.0f}});
+    }
+
     void run(const Choice& c) {
         if (!tree_ || c.surfels != surfels_ || c.extent != extent_) {
             tree_.emplace(make_tree(s_, c.surfels, c.extent));
@@ -63,10 +68,11 @@ class BiasStudy {
         }
         // The first reflection knows no rays between discs.
         if (bounces_.empty() || plan_.bounce > 2)
-            bounces_ = light_discs(s_, *tree_, c.gather, plan_.bounce);
+            bounces_ = light_discs(s_, *tree_, c.gather,
+                                   {std::uint8_t(plan_.bounce - 1), plan_.lamp_samples});
         for (std::uint32_t b = 2; b <= plan_.bounce; ++b) {
-            const TileError e =
-                compare(gather(s_, *tree_, bounces_[b - 2], c.gather), truth_.bounce(b));
+            const TileError e = compare(gather(s_, *tree_, bounces_[b - 2], c.gather),
+                                        truth_.bounce(static_cast<std::uint8_t>(b)));
             std::printf("%s,%zu,%s,%u,%s,%g,%u,%.3f,%.3f,%.3f\n", s_.scene.name.c_str(),
                         tree_->surfels().size(), name_of(c.extent), c.gather.rays,
                         c.gather.shape == mir::StopShape::disc ? "disc" : "sphere",
@@ -94,7 +100,7 @@ int main(int argc, char** argv) try {
     };
     mirstudy::Plan plan;
     plan = {number(2, plan.samples), number(3, plan.fewest), number(4, plan.sizes),
-            number(5, plan.bounce)};
+            number(5, plan.bounce), number(6, plan.lamp_samples)};
     mirstudy::SceneStudy study(name);
     study.scene.name = mirtool::stem_of(name);
     mirstudy::BiasStudy(study, plan).run_all();

@@ -58,26 +58,34 @@ inline mir::SurfelTree make_tree(SceneStudy& s, std::uint32_t surfels, mir::Disc
             options, s.executor};
 }
 
-/// Light that discs send out after 1, 2 and 3 reflections.
+/// How discs are lit.
+struct LightPlan {
+    std::uint8_t bounces = last_bounce - 1;  ///< reflections of what they send out
+    std::uint32_t lamp_samples = 64;         ///< of each side of a disc
+};
+
+/// Light that discs send out after 1 reflection up to plan.bounces.
 inline std::vector<std::vector<mir::SurfelRadiance>> light_discs(SceneStudy& s,
                                                                  const mir::SurfelTree& tree,
                                                                  const mir::GatherOptions& gather,
-                                                                 std::uint32_t lamp_samples = 64) {
+                                                                 const LightPlan& plan = {}) {
     mir::SurfelBounceOptions options;
-    options.last = last_bounce - 1;
+    options.last = plan.bounces;
     options.least = 0.0f;
     options.gather = gather;
     options.gather.rays = 32;
     options.gather.directions = mir::GatherDirections::cosine;
     options.gather.threshold *= 32.0f / static_cast<float>(gather.rays);
-    return surfel_bounces(tree,
-                          mir::SurfelDirectLight(s.lights, s.engine.visibility(), lamp_samples, 1),
-                          s.geometry.ray_offset(), options, s.executor);
+    return surfel_bounces(
+        tree, mir::SurfelDirectLight(s.lights, s.engine.visibility(), plan.lamp_samples, 1),
+        s.geometry.ray_offset(), options, s.executor);
 }
 
-inline mir::Image<mir::Rgb> gather(SceneStudy& s, const mir::SurfelTree& tree,
-                                   const std::vector<mir::SurfelRadiance>& radiance,
-                                   const mir::GatherOptions& options) {
+/// `options` are those of rays or of a micro-buffer.
+template <class Options>
+mir::Image<mir::Rgb> gather(SceneStudy& s, const mir::SurfelTree& tree,
+                            const std::vector<mir::SurfelRadiance>& radiance,
+                            const Options& options) {
     return mir::gather_light<mir::Lambert>(s.gbuffer, tree, radiance, options, {0, s.rays.grid, 3},
                                            s.executor);
 }

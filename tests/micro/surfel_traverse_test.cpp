@@ -2,6 +2,7 @@
 #include "mir/micro/surfel_traverse.hpp"
 
 #include "micro/brute_force_cut.hpp"
+#include "micro/nearest_triangle.hpp"
 #include "micro/surfel_worlds.hpp"
 #include "support/catch.hpp"
 
@@ -36,21 +37,6 @@ SurfelRay random_ray(const World& world, mir::Random& random) {
     Vec3 d = direction(random);
     if (glm::dot(d, n) < 0.0f) d = -d;
     return {mir::lift(p.position, n, world.geometry.ray_offset()), d, n};
-}
-
-/// Distance to the nearest triangle, by Cramer's rule in double precision for each; infinity.
-double nearest_triangle(const mir::WorldGeometry& geometry, const SurfelRay& ray) {
-    using Double3 = glm::dvec3;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t t = 0; t < geometry.triangles().size(); ++t) {
-        const Double3 a(geometry.corner(t, 0));
-        const glm::dmat3 m(Double3(geometry.corner(t, 1)) - a, Double3(geometry.corner(t, 2)) - a,
-                           -Double3(ray.direction));
-        const Double3 x = glm::inverse(m) * (Double3(ray.origin) - a);
-        if (x.x >= 0.0 && x.y >= 0.0 && x.x + x.y <= 1.0 && x.z > 0.0)
-            nearest = std::min(nearest, x.z);
-    }
-    return nearest;
 }
 
 /// True when all discs below a node show the same side to a point, seen in double precision.
