@@ -1,116 +1,109 @@
 // SPDX-License-Identifier: MIT
-// Not a benchmark: one indirect bounce gathered from discs against D_2 of the path tracer, luxel by
-// luxel, for several sizes of discs and thresholds. CSV on standard output. Arguments: the name of
-// a built-in scene, paths per luxel of the reference.
-#include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
-#include "mir/micro/gather_light.hpp"
-#include "mir/micro/material_albedo.hpp"
-#include "mir/micro/surfel_direct_light.hpp"
-#include "mir/micro/surfel_tree_build.hpp"
-#include "mir/reference/trace_reference.hpp"
-#include "mir/scene/builtin.hpp"
+// Not a benchmark: bounces gathered from discs against those of the path tracer, for several
+// numbers of discs, thresholds and rays: docs/micro_rendering.md. CSV on standard output.
+// Arguments: `builtin:NAME` or a scene file, and the numbers of Plan in their order.
+#include "scene_study.hpp"
 
 #include <cstdio>
-#include <string>
+#include <optional>
 
+namespace mirstudy {
 namespace {
 
-using mir::Lambert;
-using Params = Lambert::Params;
-
-constexpr std::uint32_t side = 48;
-
-struct Study {
-    explicit Study(const std::string& name) : scene(mir::builtin::make(name)) {}
-
-    mir::Scene scene;
-    mir::WorldGeometry geometry{scene};
-    mir::LightTable lights{scene, geometry};
-    mir::SurfaceTable<Lambert> surfaces{scene};
-    mir::cpu::EmbreeScene engine{geometry};
-    mir::cpu::TbbExecutor executor;
-    mir::CameraRays rays{scene.cameras.front(), {{side, side}}, 7};
+/// What one row is measured with.
+struct Choice {
+    std::uint32_t surfels = 16384;
+    mir::DiscExtent extent = mir::DiscExtent::piece;
+    mir::GatherOptions gather;
 };
 
-double luminance_of(const mir::Image<mir::Rgb>& image) {
-    double sum = 0.0;
-    for (const mir::Rgb& p : image.pixels()) sum += static_cast<double>(luminance(p));
-    return sum / static_cast<double>(image.pixels().size());
+/// What all rows share.
+struct Plan {
+    std::uint32_t samples = 2048;  ///< paths per luxel of the reference
+    std::uint32_t fewest = 1024;   ///< discs wanted at first
+    std::uint32_t sizes = 3;       ///< numbers of discs, each four times the last
+    std::uint32_t bounce = 4;      ///< the last one looked at, 2 to 4
+    std::uint32_t lamp_samples = 64;
+};
+
+const char* name_of(mir::DiscExtent extent) {
+    if (extent == mir::DiscExtent::piece) return "piece";
+    return extent == mir::DiscExtent::cover ? "cover" : "equal_area";
 }
 
-mir::Image<mir::Rgb> reference(Study& s, std::uint32_t samples) {
-    const mir::PathTracer<Lambert, mir::cpu::EmbreeRayCaster, mir::cpu::EmbreeVisibility> tracer(
-        {s.geometry, s.lights, s.surfaces, s.engine.ray_caster(), s.engine.visibility()},
-        {.light = mir::LightSearch::lamps, .max_bounce = 2});
-    mir::ReferenceOptions wanted;
-    wanted.samples = samples;
-    wanted.replicates = 1;
-    wanted.last_bounce = 2;
-    return trace_reference(tracer, s.rays, wanted, s.executor).bounce(2);
-}
+class BiasStudy {
+ public:
+    BiasStudy(SceneStudy& s, const Plan& plan)
+        : s_(s), plan_(plan), truth_(reference(s, plan.samples)) {}
 
-/// Mean error and root mean square error of 8 x 8 luxels, relative to the mean of the reference.
-void compare(const mir::Image<mir::Rgb>& image, const mir::Image<mir::Rgb>& truth) {
-    const double mean = luminance_of(truth);
-    double squares = 0.0;
-    double worst = 0.0;
-    for (std::uint32_t y = 0; y < side; y += 8)
-        for (std::uint32_t x = 0; x < side; x += 8) {
-            double off = 0.0;
-            for (std::uint32_t k = 0; k < 64; ++k) {
-                const std::uint32_t px = x + k % 8;
-                const std::uint32_t py = y + k / 8;
-                off += double(luminance(image(px, py))) - double(luminance(truth(px, py)));
-            }
-            off /= 64.0 * mean;
-            squares += off * off / 36.0;
-            worst = std::max(worst, std::fabs(off));
+    void run_all() {
+        using mir::DiscExtent;
+        using mir::StopShape;
+        std::printf("scene,discs,extent,rays,shape,threshold,bounce,mean,rms,worst\n");
+        for (std::uint32_t i = 0; i < plan_.sizes; ++i) run_exact(i, DiscExtent::piece);
+        const std::uint32_t most = plan_.fewest << 2 * (plan_.sizes - 1);
+        for (const float threshold : {0.25f, 1.0f, 4.0f, 16.0f, 64.0f})
+            run({most, DiscExtent::piece, {.rays = 256, .threshold = threshold}});
+        for (const float threshold : {0.25f, 16.0f})
+            run({most,
+                 DiscExtent::piece,
+                 {.rays = 256, .threshold = threshold, .shape = StopShape::sphere}});
+        for (const std::uint32_t rays : {16u, 64u, 1024u})
+            run({most, DiscExtent::piece, {.rays = rays}});
+        for (const auto extent : {DiscExtent::equal_area, DiscExtent::cover})
+            for (std::uint32_t i = 0; i < plan_.sizes; ++i) run_exact(i, extent);
+    }
+
+ private:
+    void run_exact(std::uint32_t size, mir::DiscExtent extent) {
+        run({plan_.fewest << 2 * size, extent, {.rays = 256, .threshold = 0.0f}});
+    }
+
+    void run(const Choice& c) {
+        if (!tree_ || c.surfels != surfels_ || c.extent != extent_) {
+            tree_.emplace(make_tree(s_, c.surfels, c.extent));
+            bounces_.clear();
+            surfels_ = c.surfels;
+            extent_ = c.extent;
         }
-    std::printf("%.3f,%.3f,%.3f", 100.0 * (luminance_of(image) / mean - 1.0),
-                100.0 * std::sqrt(squares), 100.0 * worst);
-}
+        // The first reflection knows no rays between discs.
+        if (bounces_.empty() || plan_.bounce > 2)
+            bounces_ = light_discs(s_, *tree_, c.gather,
+                                   {std::uint8_t(plan_.bounce - 1), plan_.lamp_samples});
+        for (std::uint32_t b = 2; b <= plan_.bounce; ++b) {
+            const TileError e = compare(gather(s_, *tree_, bounces_[b - 2], c.gather),
+                                        truth_.bounce(static_cast<std::uint8_t>(b)));
+            std::printf("%s,%zu,%s,%u,%s,%g,%u,%.3f,%.3f,%.3f\n", s_.scene.name.c_str(),
+                        tree_->surfels().size(), name_of(c.extent), c.gather.rays,
+                        c.gather.shape == mir::StopShape::disc ? "disc" : "sphere",
+                        double(c.gather.threshold), b, e.mean, e.rms, e.worst);
+        }
+        std::fflush(stdout);
+    }
 
-void run(Study& s, const mir::Image<mir::Rgb>& truth, float area, mir::DiscExtent extent,
-         const mir::GatherOptions& options) {
-    const auto albedo = mir::material_albedo(s.surfaces);
-    const mir::SurfelTree tree(make_surfels(s.geometry, {area, extent}, {}, s.executor), albedo, {},
-                               s.executor);
-    const float offset = s.geometry.ray_offset();
-    const auto radiance = light_surfels(
-        tree, mir::SurfelDirectLight(s.lights, s.engine.visibility(), 64, 1), offset, s.executor);
-    mir::BlockedGBuffer<Params> gbuffer({side, side}, {side, side});
-    fill_gbuffer<Lambert>(gbuffer, 0, s.rays, s.engine.ray_caster(), s.surfaces, offset,
-                          s.executor);
-    const auto image = mir::gather_light<Lambert>(gbuffer, tree, radiance, options,
-                                                  {0, s.rays.grid, 3}, s.executor);
-    std::printf("%g,%zu,%s,%u,%s,%s,%g,", double(area), tree.surfels().size(),
-                extent == mir::DiscExtent::cover ? "cover" : "equal", options.rays,
-                options.directions == mir::GatherDirections::cosine ? "cosine" : "uniform",
-                options.shape == mir::StopShape::disc ? "disc" : "sphere",
-                double(options.threshold));
-    compare(image, truth);
-    std::printf("\n");
-    std::fflush(stdout);
-}
-
-void run_all(Study& s, std::uint32_t samples) {
-    const auto truth = reference(s, samples);
-    std::printf("area,discs,extent,rays,directions,shape,threshold,mean,rmse,worst\n");
-    for (float area : {0.04f, 0.01f, 2.5e-3f, 6e-4f, 1.5e-4f})
-        for (auto extent : {mir::DiscExtent::cover, mir::DiscExtent::equal_area})
-            run(s, truth, area, extent, {.rays = 256, .threshold = 0.0f});
-    for (auto shape : {mir::StopShape::disc, mir::StopShape::sphere})
-        for (float threshold : {0.25f, 1.0f, 4.0f, 16.0f, 64.0f})
-            run(s, truth, 6e-4f, mir::DiscExtent::cover,
-                {.rays = 256, .threshold = threshold, .shape = shape});
-}
+    SceneStudy& s_;
+    Plan plan_;
+    mir::ReferenceImage truth_;
+    std::optional<mir::SurfelTree> tree_;
+    std::vector<std::vector<mir::SurfelRadiance>> bounces_;
+    std::uint32_t surfels_ = 0;
+    mir::DiscExtent extent_ = mir::DiscExtent::piece;
+};
 
 }  // namespace
+}  // namespace mirstudy
 
 int main(int argc, char** argv) try {
-    Study study(argc > 1 ? argv[1] : "cornell-box");
-    run_all(study, argc > 2 ? static_cast<std::uint32_t>(std::stoul(argv[2])) : 1024);
+    const std::string name = argc > 1 ? argv[1] : "builtin:cornell-box";
+    const auto number = [&](int i, std::uint32_t usual) {
+        return argc > i ? static_cast<std::uint32_t>(std::stoul(argv[i])) : usual;
+    };
+    mirstudy::Plan plan;
+    plan = {number(2, plan.samples), number(3, plan.fewest), number(4, plan.sizes),
+            number(5, plan.bounce), number(6, plan.lamp_samples)};
+    mirstudy::SceneStudy study(name);
+    study.scene.name = mirtool::stem_of(name);
+    mirstudy::BiasStudy(study, plan).run_all();
     return 0;
 } catch (const std::exception& e) {
     std::fprintf(stderr, "micro_bias: %s\n", e.what());

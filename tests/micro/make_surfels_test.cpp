@@ -107,13 +107,37 @@ TEST_CASE("Discs lie in the middle of the pieces that cutting in four makes, in 
 
 TEST_CASE("Covering discs leave no gap, discs of equal area do") {
     const World world = triangle_soup(5, 905);
-    const auto cover = cut(world, {.max_area = 1e-2f});
+    const auto cover = cut(world, {1e-2f, mir::DiscExtent::cover});
     CHECK(covered(world, cover) == 1.0);
     const auto equal = cut(world, {1e-2f, mir::DiscExtent::equal_area});
     const double share = covered(world, equal);
     CHECK((share > 0.5 && share < 0.97));
     for (const Surfel& s : equal)
         CHECK(mir::pi * s.radius * s.radius == Approx(s.area).epsilon(1e-6));
+}
+
+TEST_CASE("Every point of a triangle lies in one piece of it, and in the disc there") {
+    const World soup = triangle_soup(5, 910, 1.0f, {1, 2, 3});
+    const World thin = needles(5, 1e3f, 911);
+    for (const World* world : {&soup, &thin}) {
+        const auto surfels = cut(*world, {.max_area = 2e-3f});
+        mir::Random random = test_random(912);
+        std::uint32_t in_one = 0;
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            const mir::SurfacePoint p = random_surface_point(world->geometry, random);
+            std::uint32_t pieces = 0;
+            std::uint32_t discs = 0;
+            for (const Surfel& s : surfels) {
+                const Vec3 off = p.position - s.position;
+                if (s.triangle != p.triangle || !s.in_piece(off, 0.0f)) continue;
+                ++pieces;
+                discs += glm::length(off) <= s.radius * (1.0f + 1e-4f) ? 1 : 0;
+            }
+            in_one += pieces == 1 && discs == 1 ? 1 : 0;
+        }
+        // Rounding decides on edges.
+        CHECK(in_one >= 1990);
+    }
 }
 
 TEST_CASE("A disc has the normal and the material of its triangle") {

@@ -2,6 +2,7 @@
 #include "mir/micro/surfel_traverse.hpp"
 
 #include "micro/brute_force_cut.hpp"
+#include "micro/nearest_triangle.hpp"
 #include "micro/surfel_worlds.hpp"
 #include "support/catch.hpp"
 
@@ -24,7 +25,7 @@ bool same(const SurfelHit& a, const SurfelHit& b) {
 SurfelHit brute_force(const SurfelTree& tree, const SurfelRay& ray) {
     SurfelHit hit;
     for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)
-        if (tree.nodes()[i].is_leaf()) mir::detail::meet_disc(tree.nodes()[i], i, ray, hit);
+        if (tree.nodes()[i].is_leaf()) mir::detail::meet_disc(tree.view(), i, ray, hit);
     return hit;
 }
 
@@ -57,10 +58,11 @@ TEST_CASE("Exact rays meet what asking every disc finds, in every bit") {
     mir::SurfelTreeOptions options;
     options.sphere = GENERATE(mir::SphereFit::mean, mir::SphereFit::smallest);
     options.split = GENERATE(mir::SurfelSplit::median, mir::SurfelSplit::orientation);
+    const auto extent = GENERATE(mir::DiscExtent::piece, mir::DiscExtent::cover);
     mir::Random random = test_random(942);
     std::uint32_t met = 0;
     for (std::size_t w = 0; w < 4; ++w) {
-        const SurfelTree tree = tree_of(worlds[w], areas[w], options);
+        const SurfelTree tree = tree_of(worlds[w], areas[w], options, extent);
         std::uint32_t wrong = 0;
         for (int i = 0; i < 1500; ++i) {
             SurfelRay ray = random_ray(worlds[w], random);
@@ -72,12 +74,12 @@ TEST_CASE("Exact rays meet what asking every disc finds, in every bit") {
         }
         CHECK(wrong == 0);
     }
-    CHECK(met > 1200);
+    CHECK(met > 900);
 }
 
 TEST_CASE(
     "Exact rays through the very rim of discs, from far away, meet what asking every disc finds") {
-    const SurfelTree tree = tree_of(triangle_soup(12, 949), 10.0f);
+    const SurfelTree tree = tree_of(triangle_soup(12, 949), 10.0f, {}, mir::DiscExtent::cover);
     mir::Random random = test_random(950);
     std::uint32_t met = 0;
     std::uint32_t wrong = 0;
@@ -142,13 +144,14 @@ TEST_CASE("Approximate rays meet the nearest of the nodes where they end") {
 }
 
 TEST_CASE("No ray that leaves a convex body meets it again, at any scale and place") {
+    const auto extent = GENERATE(mir::DiscExtent::piece, mir::DiscExtent::cover);
     const float scale = GENERATE(1e-3f, 1.0f, 1e3f);
     const Vec3 move = scale * GENERATE(Vec3(0, 0, 0), Vec3(30, -10, 5));
     mir::Scene scene;
     const std::uint32_t grey = scene.add(mir::lambertian("grey", {0.5f, 0.5f, 0.5f}));
     scene.place(mir::builtin::sphere("sphere", grey, move, scale, 12, 6));
     const World world(std::move(scene));
-    const SurfelTree tree = tree_of(world, 0.01f * scale * scale);
+    const SurfelTree tree = tree_of(world, 0.01f * scale * scale, {}, extent);
     mir::Random random = test_random(946);
     std::uint32_t met = 0;
     std::uint32_t rims = 0;
@@ -163,10 +166,30 @@ TEST_CASE("No ray that leaves a convex body meets it again, at any scale and pla
         rims += mir::closest_surfel(tree.view(), ray).node != SurfelHit::none ? 1 : 0;
     }
     CHECK(met == 0);
-    CHECK(rims > 50);  // without the tangent plane, discs beyond the next edge stick out
+    // Without the tangent plane, whole discs beyond the next edge stick out.
+    if (extent == mir::DiscExtent::cover) CHECK(rims > 50);
 }
 
-TEST_CASE("No ray leaves a closed room between covering discs, many do between equal areas") {
+TEST_CASE("Exact rays meet pieces where they meet triangles") {
+    const World worlds[] = {triangle_soup(40, 951), needles(10, 1e3f, 952), sphere_in_box()};
+    mir::Random random = test_random(953);
+    std::uint32_t met = 0;
+    std::uint32_t wrong = 0;
+    for (const World& world : worlds) {
+        const SurfelTree tree = tree_of(world, 5e-3f);
+        for (int i = 0; i < 1500; ++i) {
+            const SurfelRay ray = random_ray(world, random);
+            const double exact = nearest_triangle(world.geometry, ray);
+            const double t = double(mir::closest_surfel(tree.view(), ray).t);
+            met += std::isfinite(exact) ? 1 : 0;
+            wrong += t == exact || std::fabs(t - exact) < 1e-4 ? 0 : 1;
+        }
+    }
+    CHECK(met > 900);
+    CHECK(wrong <= 4);  // edges in profile, where rounding decides
+}
+
+TEST_CASE("No ray leaves a closed room between pieces, many do between discs of equal area") {
     mir::Scene scene;
     const std::uint32_t grey = scene.add(mir::lambertian("grey", {0.5f, 0.5f, 0.5f}));
     scene.place(mir::builtin::inside_out(
@@ -178,13 +201,14 @@ TEST_CASE("No ray leaves a closed room between covering discs, many do between e
         const SurfelTree tree(surfels_of(world, 2e-3f, extent), base_colors(world), {}, executor);
         mir::Random random = test_random(947);
         std::uint32_t count = 0;
-        for (int i = 0; i < 2000; ++i) {
+        for (int i = 0; i < 4000; ++i) {
             SurfelRay ray{0.9f * point_in_cube(random), direction(random)};
             ray.solid_angle = omega;
             count += mir::closest_surfel(tree.view(), ray).node == SurfelHit::none ? 1 : 0;
         }
         return count;
     };
+    CHECK(lost(mir::DiscExtent::piece) == 0);
     CHECK(lost(mir::DiscExtent::cover) == 0);
     if (omega == 0.0f) CHECK(lost(mir::DiscExtent::equal_area) > 100);
 }
@@ -223,7 +247,7 @@ TEST_CASE("Rays through an empty scene and past a single disc meet nothing") {
     const World empty{mir::Scene{}};
     CHECK(mir::closest_surfel(tree_of(empty, 1.0f).view(), {}).node == SurfelHit::none);
     const World world = coincident(1);
-    const SurfelTree tree = tree_of(world, 100.0f);
+    const SurfelTree tree = tree_of(world, 100.0f, {}, mir::DiscExtent::cover);
     const Surfel& disc = tree.surfels()[0];
     const Vec3 side = glm::normalize(glm::cross(disc.normal, Vec3(1, 0, 0)));
     const auto from = [&](float off, float solid_angle) {

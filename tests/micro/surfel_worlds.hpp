@@ -9,7 +9,7 @@
 namespace mirtest {
 
 inline std::vector<mir::Surfel> surfels_of(const World& world, float max_area,
-                                           mir::DiscExtent extent = mir::DiscExtent::cover) {
+                                           mir::DiscExtent extent = mir::DiscExtent::piece) {
     mir::InlineExecutor executor;
     return mir::make_surfels(world.geometry, {max_area, extent}, {}, executor);
 }
@@ -21,9 +21,10 @@ inline std::vector<mir::Rgb> base_colors(const World& world) {
 }
 
 inline mir::SurfelTree tree_of(const World& world, float max_area,
-                               const mir::SurfelTreeOptions& options = {}) {
+                               const mir::SurfelTreeOptions& options = {},
+                               mir::DiscExtent extent = mir::DiscExtent::piece) {
     mir::InlineExecutor executor;
-    return {surfels_of(world, max_area), base_colors(world), options, executor};
+    return {surfels_of(world, max_area, extent), base_colors(world), options, executor};
 }
 
 /// A sheet of 1 m x 1 m with a front of two quads, back to back a tenth of a millimetre apart: the

@@ -43,17 +43,34 @@ TEST_CASE("every option of micro-rendering changes its picture, its default does
     };
     const auto usual = picture({});
     for (const Words& same : {Words{"--gather-rays", "128"}, Words{"--gather-directions", "cosine"},
-                              Words{"--gather-threshold", "1"}, Words{"--threads", "1"}}) {
+                              Words{"--gather-threshold", "1"}, Words{"--threads", "1"},
+                              Words{"--gather", "rays"}, Words{"--buffer-size", "8"}}) {
         INFO(same[0] << " " << same[1]);
         CHECK(largest_difference(picture(same), usual) == 0.0f);
     }
     for (const Words& other :
          {Words{"--gather-rays", "64"}, Words{"--gather-directions", "uniform"},
-          Words{"--gather-threshold", "20"}, Words{"--seed", "1"},
+          Words{"--gather-threshold", "20"}, Words{"--seed", "1"}, Words{"--gather", "buffers"},
           Words{"--direct-samples", "4"}}) {
         INFO(other[0] << " " << other[1]);
         CHECK(largest_difference(picture(other), usual) > 0.0f);
     }
+}
+
+TEST_CASE("micro-buffers of a picture have a size and a threshold, and no rays") {
+    const TemporaryFolder folder("tool_micro_buffers");
+    const auto picture = [&](const Words& choice) {
+        const Outcome outcome =
+            run_mir(small_micro(folder / "a.exr") + Words{"--gather", "buffers"} + choice);
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return mir::read_exr(folder / "a.exr").image;
+    };
+    const auto usual = picture({});
+    CHECK(largest_difference(picture({"--buffer-size", "16", "--gather-rays", "7"}), usual) ==
+          0.0f);
+    CHECK(largest_difference(picture({"--buffer-size", "8"}), usual) > 0.0f);
+    CHECK(largest_difference(picture({"--gather-threshold", "20"}), usual) > 0.0f);
 }
 
 TEST_CASE("micro-rendering tells its number of discs and has a layer for each bounce") {
@@ -73,7 +90,8 @@ TEST_CASE("micro-rendering tells its number of discs and has a layer for each bo
 TEST_CASE("options of micro-rendering out of range are usage errors") {
     for (const Words& wrong :
          {Words{"--surfels", "0"}, Words{"--gather-rays", "0"}, Words{"--gather-threshold", "-1"},
-          Words{"--surfel-rays", "65537"}, Words{"--gather-directions", "up"}}) {
+          Words{"--surfel-rays", "65537"}, Words{"--gather-directions", "up"},
+          Words{"--gather", "discs"}, Words{"--buffer-size", "25"}}) {
         INFO(wrong[0] << " " << wrong[1]);
         check_failing_render(Words{"builtin:sphere"} + wrong, 2, wrong[0]);
     }

@@ -118,6 +118,12 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
     mir::MicroSettings& m = s.micro;
     app.add_option("--surfels", m.surfels, "Discs wanted of --integrator micro (default 16384)")
         ->check(between(1, 1.6e7, "1 to 16000000"));
+    add_choice<mir::MicroGather>(
+        app, "--gather", m.luxels,
+        {{"rays", mir::MicroGather::rays}, {"buffers", mir::MicroGather::buffers}},
+        "How a luxel gathers: by rays (default) or by a micro-buffer");
+    add_count(app, "--buffer-size", m.buffer_side, 1, mir::BufferGatherOptions::largest_side,
+              "Texels of a micro-buffer in each direction (default 16)");
     add_count(app, "--gather-rays", m.gather.rays, 1, 65536,
               "Rays with which a luxel gathers (default 128)");
     add_choice<mir::GatherDirections>(

@@ -2,30 +2,11 @@
 #pragma once
 
 #include "mir/concepts/bsdf.hpp"
-#include "mir/core/error.hpp"
+#include "mir/micro/gather_options.hpp"
 #include "mir/micro/micro_buffer.hpp"
 #include "mir/micro/surfel_radiance.hpp"
 
-#include <cmath>
-
 namespace mir {
-
-/// How light is gathered by a MicroBuffer.
-struct BufferGatherOptions {
-    std::uint32_t side = 16;  ///< texels in each direction, 1 to MicroBuffer::largest_side
-    /// Largest solid angle of a node that is drawn as a whole, in units of pi / side^2, a texel's
-    /// at the zenith: 0 is exact.
-    float threshold = 1.0f;
-};
-
-/// @throws Error(invalid_argument) when an option is out of its range.
-inline void check(const BufferGatherOptions& options) {
-    expects(options.side >= 1 && options.side <= MicroBuffer::largest_side,
-            "the side of a micro-buffer must be 1 to 24 texels; 16 are usual");
-    expects(options.threshold >= 0.0f && std::isfinite(options.threshold),
-            "the threshold of a micro-buffer must be a finite number, not below 0; 0 is exact, 1 "
-            "usual");
-}
 
 /// Light that reaches a luxel from discs, by a MicroBuffer: f L pi summed over its texels, divided
 /// by their number. What RayGather finds along the same directions, but for where nodes are met as

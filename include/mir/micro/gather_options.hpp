@@ -24,6 +24,25 @@ struct GatherOptions {
     StopShape shape = StopShape::disc;
 };
 
+/// How light is gathered by a MicroBuffer.
+struct BufferGatherOptions {
+    static constexpr std::uint32_t largest_side = 24;
+
+    std::uint32_t side = 16;  ///< texels in each direction, 1 to largest_side
+    /// Largest solid angle of a node that is drawn as a whole, in units of pi / side^2, a texel's
+    /// at the zenith: 0 is exact.
+    float threshold = 1.0f;
+};
+
+/// @throws Error(invalid_argument) when an option is out of its range.
+inline void check(const BufferGatherOptions& options) {
+    expects(options.side >= 1 && options.side <= BufferGatherOptions::largest_side,
+            "the side of a micro-buffer must be 1 to 24 texels; 16 are usual");
+    expects(options.threshold >= 0.0f && std::isfinite(options.threshold),
+            "the threshold of a micro-buffer must be a finite number, not below 0; 0 is exact, 1 "
+            "usual");
+}
+
 /// @throws Error(invalid_argument) when an option is out of its range.
 inline void check(const GatherOptions& options) {
     expects(options.rays >= 1 && options.rays <= 65536,

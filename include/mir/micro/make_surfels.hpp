@@ -37,8 +37,7 @@ inline std::vector<std::uint64_t> piece_offsets(const WorldGeometry& geometry,
 /// of a triangle are equal: their areas add up, exactly, to its area rounded once to single
 /// precision (unless they are below 2^-126 m^2). Triangles come in the order of the geometry, the
 /// pieces of one in the order in which cutting meets them: what touches its corners, then the
-/// middle. The same for any number of threads. Thin triangles have thin pieces, which their
-/// covering discs stick far out of. Sources: the disc approximation of Ritschel et al.,
+/// middle. The same for any number of threads. Sources: the disc approximation of Ritschel et al.,
 /// "Micro-rendering for scalable, parallel final gathering", ACM Transactions on Graphics 28(5),
 /// 2009, with the cut of a course on it.
 /// @throws Error(invalid_argument) on options out of range; Error(limit_exceeded) before memory is
@@ -56,9 +55,7 @@ std::vector<Surfel> make_surfels(const WorldGeometry& geometry, const SurfelOpti
         for (std::size_t i = first; i < last; ++t) {
             const detail::TrianglePieces pieces = detail::pieces_of(geometry, t, options);
             for (; i < std::min<std::size_t>(last, offsets[t + 1]); ++i)
-                surfels[i] = {
-                    pieces.centre(i - offsets[t]), pieces.radius, pieces.normal, pieces.area, t,
-                    geometry.material_of(t)};
+                surfels[i] = pieces.disc(i - offsets[t], t, geometry.material_of(t));
         }
     });
     return surfels;

@@ -4,6 +4,7 @@
 #include "mir/core/frame.hpp"
 #include "mir/core/random.hpp"
 #include "mir/core/warp.hpp"
+#include "mir/micro/gather_options.hpp"
 #include "mir/micro/surfel_traverse.hpp"
 
 namespace mir {
@@ -14,7 +15,7 @@ namespace mir {
 /// it. A value without memory of its own, 14 kB; for host and device.
 class MicroBuffer {
  public:
-    static constexpr std::uint32_t largest_side = 24;
+    static constexpr std::uint32_t largest_side = BufferGatherOptions::largest_side;
 
     /// `side` texels in each direction, 1 to largest_side, around a unit normal; `jitter` in
     /// [0, 1)^2 is the place of the directions inside their texels.
@@ -54,7 +55,7 @@ class MicroBuffer {
                 ++index;
                 continue;
             }
-            if (!below) draw_node(node, index, point);
+            if (!below) draw_node(tree, index, point);
             index = waiting.pop(0.0f);
         }
     }
@@ -66,7 +67,9 @@ class MicroBuffer {
         std::uint32_t last;
     };
 
-    MIR_HD void draw_node(const SurfelNode& node, std::uint32_t index, SurfelRay ray) {
+    template <Space S>
+    MIR_HD void draw_node(const SurfelTreeView<S>& tree, std::uint32_t index, SurfelRay ray) {
+        const SurfelNode& node = tree.nodes[index];
         const Vec3 to_centre = node.centre - ray.origin;
         const float radius = detail::padded_radius(node, to_centre);
         const float distance = glm::length(to_centre);
@@ -85,7 +88,7 @@ class MicroBuffer {
             for (std::uint32_t i = x.first; i <= x.last; ++i) {
                 const std::uint32_t texel = j * side_ + i;
                 ray.direction = direction_[texel];
-                detail::meet_disc(node, index, ray, hit_[texel]);
+                detail::meet_disc(tree, index, ray, hit_[texel]);
             }
     }
 

@@ -9,6 +9,9 @@ namespace mir {
 
 /// How far a disc reaches. Light is never counted by it: that is what Surfel::area is for.
 enum class DiscExtent {
+    /// To the farthest corner of its piece, but not over its edges: together the discs of a
+    /// triangle are the triangle.
+    piece,
     /// To the farthest corner of its piece: discs leave no gap, and stick out of the borders of
     /// their surface by at most a diameter of a piece, which becomes smaller with the pieces.
     cover,
@@ -20,7 +23,7 @@ enum class DiscExtent {
 /// How a scene is cut into discs.
 struct SurfelOptions {
     float max_area = 0.01f;  ///< m^2; no piece is larger, none is cut that is not
-    DiscExtent extent = DiscExtent::cover;
+    DiscExtent extent = DiscExtent::piece;
 };
 
 /// @throws Error(invalid_argument) when an option is out of its range.

@@ -31,15 +31,31 @@ MIR_HD inline void take_nearer(SurfelHit& hit, float t, std::uint32_t node, bool
     if (t < hit.t || (t == hit.t && node < hit.node)) hit = {t, node, front};
 }
 
-/// Meets a disc of the node's radius across its axis: of a leaf, the disc itself.
-MIR_HD inline void meet_disc(const SurfelNode& node, std::uint32_t index, const SurfelRay& ray,
-                             SurfelHit& hit) {
+/// True when a leaf's disc is met `off` away from its centre, `cosine` being that of the ray and
+/// the normal. The edges of a piece are padded by the rounding of that place, which grows as the
+/// ray grazes: no ray passes between two pieces.
+MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, float cosine,
+                               const SurfelRay& ray) {
+    if (disc.is_whole()) return is_above(ray, to_centre);
+    const float distance = fabsf(to_centre.x) + fabsf(to_centre.y) + fabsf(to_centre.z);
+    return disc.in_piece(off, 0x1p-18f * (distance + disc.radius) / fabsf(cosine));
+}
+
+/// Meets a disc of the node's radius across its axis: of a leaf, the disc itself, as far as it lies
+/// in its piece.
+template <Space S>
+MIR_HD void meet_disc(const SurfelTreeView<S>& tree, std::uint32_t index, const SurfelRay& ray,
+                      SurfelHit& hit) {
+    const SurfelNode& node = tree.nodes[index];
     const Vec3 to_centre = node.centre - ray.origin;
     const float cosine = glm::dot(node.axis, ray.direction);
     const float t = glm::dot(node.axis, to_centre) / cosine;
     const Vec3 off_centre = t * ray.direction - to_centre;
-    const bool inside = length_squared(off_centre) <= node.radius * node.radius;
-    if (t > 0.0f && inside && is_above(ray, to_centre)) take_nearer(hit, t, index, cosine < 0.0f);
+    if (!(t > 0.0f && length_squared(off_centre) <= node.radius * node.radius)) return;
+    const bool met = node.is_leaf()
+                         ? meets_piece(tree.surfels[node.first], to_centre, off_centre, cosine, ray)
+                         : is_above(ray, to_centre);
+    if (met) take_nearer(hit, t, index, cosine < 0.0f);
 }
 
 /// Meets the node's sphere from outside.
@@ -150,7 +166,7 @@ template <Space S>
             continue;
         }
         if (node.is_leaf() || shape == StopShape::disc)
-            detail::meet_disc(node, index, ray, hit);
+            detail::meet_disc(tree, index, ray, hit);
         else
             detail::meet_sphere(node, index, ray, hit);
         index = waiting.pop(hit.t);

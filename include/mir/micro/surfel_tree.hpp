@@ -26,7 +26,8 @@ class SurfelTree {
                const SurfelTreeOptions& options, E& executor);
 
     [[nodiscard]] SurfelTreeView<Space::host> view() const {
-        return {nodes_.data(), albedo_.data(), static_cast<std::uint32_t>(nodes_.size())};
+        return {nodes_.data(), albedo_.data(), surfels_.data(),
+                static_cast<std::uint32_t>(nodes_.size())};
     }
 
     [[nodiscard]] std::span<const SurfelNode> nodes() const { return nodes_; }

@@ -3,6 +3,7 @@
 
 #include "mir/core/rgb.hpp"
 #include "mir/core/space.hpp"
+#include "mir/micro/surfel.hpp"
 #include "mir/micro/surfel_node.hpp"
 #include "mir/micro/surfel_tree_options.hpp"
 
@@ -21,6 +22,7 @@ struct SurfelTreeView {
 
     const SurfelNode* nodes = nullptr;  ///< aligned to 16 bytes
     const Rgb* albedo = nullptr;        ///< of nodes: mean over the area below, 0..1
+    const Surfel* surfels = nullptr;    ///< discs, counted by SurfelNode::first
     std::uint32_t node_count = 0;       ///< 0: there is no disc
 
     [[nodiscard]] MIR_HD bool empty() const { return node_count == 0; }

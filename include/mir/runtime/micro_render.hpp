@@ -34,6 +34,8 @@ class MicroRender {
     [[nodiscard]] std::vector<Radiance> light(const SurfelTree& tree);
     void render_band(Canvas& canvas, const Band& band, const SurfelTree& tree,
                      const std::vector<Radiance>& sources);
+    [[nodiscard]] Image<Rgb> gather(const Band& band, const SurfelTree& tree,
+                                    const Radiance& source);
     void append_indirect(const Band& band, const SurfelTree& tree,
                          const std::vector<Radiance>& sources, std::vector<Image<Rgb>>& layers);
 
@@ -81,7 +83,7 @@ auto MicroRender<B, Engine, E>::light(const SurfelTree& tree) -> std::vector<Rad
     options.gather.directions = GatherDirections::cosine;
     // Fewer rays are wider; they still stop where those of luxels do.
     options.gather.threshold *=
-        static_cast<float>(m.surfel_rays) / static_cast<float>(m.gather.rays);
+        static_cast<float>(m.surfel_rays) / static_cast<float>(m.directions());
     options.seed = job_.settings.seed;
     options.limits = job_.settings.limits;
     const float offset = job_.geometry.ray_offset();
@@ -109,6 +111,17 @@ void MicroRender<B, Engine, E>::render_band(Canvas& canvas, const Band& band,
     canvas.put(band, layers);
 }
 
+template <Bsdf B, class Engine, Executor E>
+Image<Rgb> MicroRender<B, Engine, E>::gather(const Band& band, const SurfelTree& tree,
+                                             const Radiance& source) {
+    const MicroSettings& m = job_.settings.micro;
+    const auto by = [&](const auto& options) {
+        return gather_light<B>(band.gbuffer, tree, source, options,
+                               {band.first_row, job_.rays.grid, job_.settings.seed}, job_.executor);
+    };
+    return m.luxels == MicroGather::rays ? by(m.gather) : by(m.buffer());
+}
+
 /// The sum of all bounces, and behind it each of them, the direct light first, where asked for.
 template <Bsdf B, class Engine, Executor E>
 void MicroRender<B, Engine, E>::append_indirect(const Band& band, const SurfelTree& tree,
@@ -118,9 +131,7 @@ void MicroRender<B, Engine, E>::append_indirect(const Band& band, const SurfelTr
     layers.emplace_back(band.gbuffer.extent());
     if (job_.settings.bounce_layers) layers.push_back(layers[direct_layer]);
     for (const Radiance& source : sources) {
-        const Image<Rgb> light =
-            gather_light<B>(band.gbuffer, tree, source, job_.settings.micro.gather,
-                            {band.first_row, job_.rays.grid, job_.settings.seed}, job_.executor);
+        const Image<Rgb> light = gather(band, tree, source);
         const auto sum = layers[indirect_layer].pixels();
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += light.pixels()[i];
         if (job_.settings.bounce_layers) layers.push_back(light);

@@ -47,13 +47,29 @@ struct PathSettings {
     std::uint32_t directions = 1;  ///< paths that go on from each first hit
 };
 
+/// How luxels gather light from discs.
+enum class MicroGather {
+    rays,    ///< RayGather
+    buffers  ///< BufferGather
+};
+
 /// Of Integrator::micro.
 struct MicroSettings {
     /// Discs wanted: their largest area is that of the scene divided by it. There are one to four
     /// times as many, and at least one for each triangle.
     std::uint32_t surfels = 16384;
     std::uint32_t surfel_rays = 32;  ///< of each side of a disc, for later bounces
-    GatherOptions gather;            ///< at each luxel; but for the rays at discs too
+    MicroGather luxels = MicroGather::rays;
+    GatherOptions gather;  ///< of rays, at each luxel; but for their number at discs too
+    std::uint32_t buffer_side = BufferGatherOptions{}.side;  ///< texels of MicroGather::buffers
+
+    /// Of MicroGather::buffers, whose threshold is that of rays.
+    [[nodiscard]] BufferGatherOptions buffer() const { return {buffer_side, gather.threshold}; }
+
+    /// Directions in which a luxel looks.
+    [[nodiscard]] std::uint32_t directions() const {
+        return luxels == MicroGather::rays ? gather.rays : buffer_side * buffer_side;
+    }
 };
 
 /// Where VPLs come from.
@@ -181,6 +197,7 @@ inline void RenderSettings::validate() const {
     expects(micro.surfel_rays >= 1 && micro.surfel_rays <= 65536,
             "the rays of a disc must be 1 to 65536; 32 are usual");
     check(micro.gather);
+    check(micro.buffer());
 }
 
 }  // namespace mir

@@ -44,16 +44,21 @@ struct TrianglePieces {
     float radius = 0.0f;      ///< metres
     std::uint32_t level = 0;  ///< times that the triangle is cut in four
     std::uint64_t count = 0;  ///< 4^level, at most 2^62
+    Vec3 corner1{0};          ///< from the centroid of a piece that points like the triangle;
+    Vec3 corner2{0};          ///< zero: discs are whole
 
     /// Of all pieces together, exactly; m^2.
     [[nodiscard]] float whole_area() const { return std::ldexp(area, 2 * static_cast<int>(level)); }
 
-    /// Centroid of piece `index`, metres.
-    [[nodiscard]] Vec3 centre(std::uint64_t index) const {
+    /// Disc of piece `index` of triangle `triangle`.
+    [[nodiscard]] Surfel disc(std::uint64_t index, std::uint32_t triangle,
+                              std::uint32_t material) const {
         const PiecePlace p = piece_place(index, level);
         const double scale = 3.0 * static_cast<double>(std::uint64_t{1} << level);
-        return {corner + static_cast<double>(3 * p.i + p.sign) / scale * edge1 +
-                static_cast<double>(3 * p.j + p.sign) / scale * edge2};
+        const Vec3 centre{corner + static_cast<double>(3 * p.i + p.sign) / scale * edge1 +
+                          static_cast<double>(3 * p.j + p.sign) / scale * edge2};
+        const auto sign = static_cast<float>(p.sign);
+        return {centre, radius, normal, area, triangle, material, sign * corner1, sign * corner2};
     }
 };
 
@@ -84,7 +89,12 @@ inline TrianglePieces pieces_of(const WorldGeometry& geometry, std::uint32_t tri
         {glm::length(centroid), glm::length(p.edge1 - centroid), glm::length(p.edge2 - centroid)});
     const double cover = std::ldexp(farthest, -static_cast<int>(p.level));
     const double equal = std::sqrt(static_cast<double>(p.area) / 3.14159265358979323846);
-    p.radius = static_cast<float>(options.extent == DiscExtent::cover ? cover : equal);
+    p.radius = static_cast<float>(options.extent == DiscExtent::equal_area ? equal : cover);
+    if (options.extent == DiscExtent::piece) {
+        const double scale = std::ldexp(1.0, -static_cast<int>(p.level));
+        p.corner1 = Vec3(scale * (p.edge1 - centroid));
+        p.corner2 = Vec3(scale * (p.edge2 - centroid));
+    }
     return p;
 }
 
