@@ -12,16 +12,20 @@ class UploadedSurfelTree {
  public:
     /// Starts the copies on `queue`; `tree` must live until they are done.
     UploadedSurfelTree(const B& backend, typename B::Queue& queue, const SurfelTree& tree)
-        : nodes_(backend, queue, tree.nodes()), albedo_(backend, queue, tree.albedo()) {}
+        : nodes_(backend, queue, tree.nodes()),
+          albedo_(backend, queue, tree.albedo()),
+          thickness_(backend, queue, tree.thickness()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
     [[nodiscard]] SurfelTreeView<B::space> view() const {
-        return {nodes_.data(), albedo_.data(), static_cast<std::uint32_t>(nodes_.size())};
+        return {nodes_.data(), albedo_.data(), thickness_.data(),
+                static_cast<std::uint32_t>(nodes_.size())};
     }
 
  private:
     UploadedArray<B, SurfelNode> nodes_;
     UploadedArray<B, Rgb> albedo_;
+    UploadedArray<B, float> thickness_;
 };
 
 }  // namespace mir
