@@ -11,7 +11,8 @@
 namespace mir {
 
 /// One render whose indirect light is gathered from a hierarchy of discs, with the luxels, direct
-/// light, film and layers of a TiledRender. `Engine` offers ray_caster() and visibility().
+/// light, film and layers of a TiledRender. `Engine` offers ray_caster() and visibility(),
+/// and gather(gbuffer, tree, radiance, options, band) where it gathers by itself.
 template <Bsdf B, class Engine, Executor E>
 class MicroRender {
  public:
@@ -34,6 +35,8 @@ class MicroRender {
     [[nodiscard]] std::vector<Radiance> light(const SurfelTree& tree);
     void render_band(Canvas& canvas, const Band& band, const SurfelTree& tree,
                      const std::vector<Radiance>& sources);
+    [[nodiscard]] Image<Rgb> gather(const Band& band, const SurfelTree& tree,
+                                    const Radiance& source);
     void append_indirect(const Band& band, const SurfelTree& tree,
                          const std::vector<Radiance>& sources, std::vector<Image<Rgb>>& layers);
 
@@ -109,6 +112,18 @@ void MicroRender<B, Engine, E>::render_band(Canvas& canvas, const Band& band,
     canvas.put(band, layers);
 }
 
+/// By the engine where it gathers itself, else on the executor.
+template <Bsdf B, class Engine, Executor E>
+Image<Rgb> MicroRender<B, Engine, E>::gather(const Band& band, const SurfelTree& tree,
+                                             const Radiance& source) {
+    const GatherOptions& options = job_.settings.micro.gather;
+    const LuxelBand rows{band.first_row, job_.rays.grid, job_.settings.seed};
+    if constexpr (requires { job_.engine.gather(band.gbuffer, tree, source, options, rows); })
+        return job_.engine.gather(band.gbuffer, tree, source, options, rows);
+    else
+        return gather_light<B>(band.gbuffer, tree, source, options, rows, job_.executor);
+}
+
 /// The sum of all bounces, and behind it each of them, the direct light first, where asked for.
 template <Bsdf B, class Engine, Executor E>
 void MicroRender<B, Engine, E>::append_indirect(const Band& band, const SurfelTree& tree,
@@ -118,9 +133,7 @@ void MicroRender<B, Engine, E>::append_indirect(const Band& band, const SurfelTr
     layers.emplace_back(band.gbuffer.extent());
     if (job_.settings.bounce_layers) layers.push_back(layers[direct_layer]);
     for (const Radiance& source : sources) {
-        const Image<Rgb> light =
-            gather_light<B>(band.gbuffer, tree, source, job_.settings.micro.gather,
-                            {band.first_row, job_.rays.grid, job_.settings.seed}, job_.executor);
+        const Image<Rgb> light = gather(band, tree, source);
         const auto sum = layers[indirect_layer].pixels();
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += light.pixels()[i];
         if (job_.settings.bounce_layers) layers.push_back(light);
