@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_engine.hpp"
+#include "gpu_gather.hpp"
 #include "mir/accel/kd_tree_scene.hpp"
 #include "mir/cpu/any_scheduler.hpp"
 #include "mir/cuda/register.hpp"
@@ -53,6 +54,29 @@ constexpr Extent default_gpu_tile{1024, 1024};
 
 /// Smallest tile that running out of memory leads to.
 constexpr std::uint32_t least_tile_side = 64;
+
+/// A scene of the host whose luxels gather light on a GPU.
+template <Bsdf F>
+class GatherScene {
+ public:
+    /// What is passed in must outlive it.
+    GatherScene(const KdTreeScene& scene, const Backend& backend)
+        : scene_(scene), gather_(backend) {}
+
+    [[nodiscard]] KdTreeVisibility<Space::host> visibility() const { return scene_.visibility(); }
+    [[nodiscard]] KdRayCaster<Space::host> ray_caster() const { return scene_.ray_caster(); }
+    template <class Options>
+    [[nodiscard]] Image<Rgb> gather(const typename GpuGather<F>::Luxels& luxels,
+                                    const SurfelTree& tree,
+                                    std::span<const SurfelRadiance> radiance,
+                                    const Options& options, const LuxelBand& band) const {
+        return gather_(luxels, tree, radiance, options, band);
+    }
+
+ private:
+    const KdTreeScene& scene_;
+    GpuGather<F> gather_;
+};
 
 class CudaRenderer : public Renderer {
  public:
@@ -137,15 +161,16 @@ class CudaRenderer : public Renderer {
                                      Monitor* monitor, StageClock& clock) const {
         CancellableExecutor cancellable(executor, monitor);
         using E = decltype(cancellable);
-        // These two trace on the host, whatever the backend.
+        // These two trace on the host, whatever the backend; luxels gather on the GPU.
         if (settings.integrator != Integrator::vpl) {
             const KdTreeScene engine = [&] {
                 const auto stage = clock.measure(&StageSeconds::build);
                 return KdTreeScene(geometry, executor);
             }();
             if (settings.integrator == Integrator::micro)
-                return MicroRender<F, KdTreeScene, E>(scene, settings, geometry, engine,
-                                                      cancellable, monitor, clock)
+                return MicroRender<F, GatherScene<F>, E>(scene, settings, geometry,
+                                                         GatherScene<F>(engine, backend_),
+                                                         cancellable, monitor, clock)
                     .run();
             return PathRender<F, KdTreeScene, E>(scene, settings, geometry, engine, cancellable,
                                                  monitor, clock)

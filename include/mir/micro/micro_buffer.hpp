@@ -48,8 +48,8 @@ class MicroBuffer {
         while (index != SurfelHit::none) {
             const SurfelNode& node = tree.nodes[index];
             const Vec3 to_centre = node.centre - origin;
-            const bool below =
-                glm::dot(normal, to_centre) < -detail::padded_radius(node, to_centre);
+            const bool below = detail::lies_below(tree, index, normal, to_centre,
+                                                  detail::padded_radius(node, to_centre));
             if (!below && !node.is_leaf() && !detail::stops_at(node, point, sine2)) {
                 waiting.push(node.right, 0.0f);
                 ++index;

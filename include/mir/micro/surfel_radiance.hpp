@@ -38,19 +38,26 @@ template <Space S>
             {normal, normal, {}, {tree.albedo[index]}}};
 }
 
-/// Fills the inner nodes with the means of their children by area, from the leaves up: relative
-/// error below 2^-22 per level. `radiance` has an element for each node.
-inline void average_radiance(const SurfelTree& tree, std::span<SurfelRadiance> radiance) {
+/// Mean of the light of an inner node's children by area: relative error below 2^-22.
+template <Space S>
+[[nodiscard]] MIR_HD SurfelRadiance mean_of_children(const SurfelTreeView<S>& tree,
+                                                     std::uint32_t index,
+                                                     const SurfelRadiance* radiance) {
     const auto mean = [](Rgb a, Rgb b, float share) { return a * (1.0f - share) + b * share; };
-    for (std::size_t i = radiance.size(); i-- > 0;) {
-        const SurfelNode& node = tree.nodes()[i];
-        if (node.is_leaf()) continue;
-        const float right_area = tree.nodes()[node.right].area;
-        const float share = right_area / (tree.nodes()[i + 1].area + right_area);
-        const SurfelRadiance& left = radiance[i + 1];
-        const SurfelRadiance& right = radiance[node.right];
-        radiance[i] = {mean(left.front, right.front, share), mean(left.back, right.back, share)};
-    }
+    const std::uint32_t right_index = tree.nodes[index].right;
+    const float right_area = tree.nodes[right_index].area;
+    const float share = right_area / (tree.nodes[index + 1].area + right_area);
+    const SurfelRadiance& left = radiance[index + 1];
+    const SurfelRadiance& right = radiance[right_index];
+    return {mean(left.front, right.front, share), mean(left.back, right.back, share)};
+}
+
+/// Fills the inner nodes with the means of their children, from the leaves up. `radiance` has an
+/// element for each node.
+inline void average_radiance(const SurfelTree& tree, std::span<SurfelRadiance> radiance) {
+    const SurfelTreeView<Space::host> view = tree.view();
+    for (std::uint32_t i = view.node_count; i-- > 0;)
+        if (!view.nodes[i].is_leaf()) radiance[i] = mean_of_children(view, i, radiance.data());
 }
 
 /// Calls visit(index) for every leaf whose disc is not black, in any order, from any thread.

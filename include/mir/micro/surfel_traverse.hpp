@@ -26,6 +26,24 @@ MIR_HD inline bool reaches_below(const SurfelRay& ray, Vec3 to_centre, float rad
     return ray.normal != Vec3(0.0f) && glm::dot(ray.normal, to_centre) < radius;
 }
 
+/// True when nothing below a node is above the tangent plane of `normal` through the point that the
+/// node's centre is `to_centre` away from; never true of what a ray above the plane may meet. The
+/// sphere is asked first. Most nodes that it cuts belong to the wall that gathers, whose discs lie
+/// in the plane: they are in a slab across the axis, of which the plane's normal sees
+/// |cos| thickness + sin radius.
+template <Space S>
+MIR_HD bool lies_below(const SurfelTreeView<S>& tree, std::uint32_t index, Vec3 normal,
+                       Vec3 to_centre, float padded) {
+    const SurfelNode& node = tree.nodes[index];
+    const float height = glm::dot(normal, to_centre);
+    if (height < -padded) return true;
+    if (!(height < 0.0f) || normal == Vec3(0.0f)) return false;
+    const float cosine = glm::dot(normal, node.axis);
+    const float sine = glm::length(glm::cross(normal, node.axis));
+    const float pad = padded - node.radius;
+    return height + fabsf(cosine) * tree.thickness[index] + sine * node.radius < -pad;
+}
+
 /// Takes a hit when it is nearer, or as near at a lower index.
 MIR_HD inline void take_nearer(SurfelHit& hit, float t, std::uint32_t node, bool front) {
     if (t < hit.t || (t == hit.t && node < hit.node)) hit = {t, node, front};
@@ -33,10 +51,12 @@ MIR_HD inline void take_nearer(SurfelHit& hit, float t, std::uint32_t node, bool
 
 /// True when a leaf's disc is met `off` away from its centre, `cosine` being that of the ray and
 /// the normal. The edges of a piece are padded by the rounding of that place, which grows as the
-/// ray grazes: no ray passes between two pieces.
+/// ray grazes: no ray passes between two pieces. A ray below the tangent plane, where shading
+/// normals may lead one, meets nothing above it, and no light enters there.
 MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, float cosine,
                                const SurfelRay& ray) {
     if (disc.is_whole()) return is_above(ray, to_centre);
+    if (glm::dot(ray.normal, ray.direction) < 0.0f) return false;
     const float distance = fabsf(to_centre.x) + fabsf(to_centre.y) + fabsf(to_centre.z);
     return disc.in_piece(off, 0x1p-18f * (distance + disc.radius) / fabsf(cosine));
 }
@@ -95,17 +115,20 @@ MIR_HD inline bool stops_at(const SurfelNode& node, const SurfelRay& ray, float 
            shows_one_side(node, to_centre, distance2, radius2 / distance2);
 }
 
+inline constexpr float never = std::numeric_limits<float>::infinity();
+
 /// Distance from which on a ray may meet discs below a node, or infinity. Never too large: what
 /// meet_disc() accepts of a leaf lies, but for rounding, inside the spheres of all nodes above it.
-MIR_HD inline float entry(const SurfelNode& node, const SurfelRay& ray) {
+template <Space S>
+MIR_HD float entry(const SurfelTreeView<S>& tree, std::uint32_t index, const SurfelRay& ray) {
+    const SurfelNode& node = tree.nodes[index];
     const Vec3 to_centre = node.centre - ray.origin;
     const float radius = padded_radius(node, to_centre);
     const float along = glm::dot(to_centre, ray.direction);
     const float inside2 = radius * radius - length_squared(to_centre - along * ray.direction);
-    const bool below = glm::dot(ray.normal, to_centre) < -radius;
-    if (below || !(inside2 >= 0.0f)) return std::numeric_limits<float>::infinity();
+    if (!(inside2 >= 0.0f) || lies_below(tree, index, ray.normal, to_centre, radius)) return never;
     const float half = sqrtf(inside2);
-    return along + half < 0.0f ? std::numeric_limits<float>::infinity() : along - half;
+    return along + half < 0.0f ? never : along - half;
 }
 
 /// Nodes that wait while a walk goes down elsewhere: at most one for each on the way.
@@ -132,8 +155,8 @@ MIR_HD std::uint32_t descend(const SurfelTreeView<S>& tree, std::uint32_t index,
                              const SurfelRay& ray, float t, WaitingSurfels& waiting) {
     const std::uint32_t left = index + 1;
     const std::uint32_t right = tree.nodes[index].right;
-    const float to_left = entry(tree.nodes[left], ray);
-    const float to_right = entry(tree.nodes[right], ray);
+    const float to_left = entry(tree, left, ray);
+    const float to_right = entry(tree, right, ray);
     const bool left_first = to_left <= to_right;
     const std::uint32_t first = left_first ? left : right;
     const float near = smaller(to_left, to_right);

@@ -11,7 +11,8 @@
 namespace mir {
 
 /// One render whose indirect light is gathered from a hierarchy of discs, with the luxels, direct
-/// light, film and layers of a TiledRender. `Engine` offers ray_caster() and visibility().
+/// light, film and layers of a TiledRender. `Engine` offers ray_caster() and visibility(),
+/// and gather(gbuffer, tree, radiance, options, band) where it gathers by itself.
 template <Bsdf B, class Engine, Executor E>
 class MicroRender {
  public:
@@ -111,13 +112,17 @@ void MicroRender<B, Engine, E>::render_band(Canvas& canvas, const Band& band,
     canvas.put(band, layers);
 }
 
+/// By the engine where it gathers itself, else on the executor.
 template <Bsdf B, class Engine, Executor E>
 Image<Rgb> MicroRender<B, Engine, E>::gather(const Band& band, const SurfelTree& tree,
                                              const Radiance& source) {
     const MicroSettings& m = job_.settings.micro;
+    const LuxelBand rows{band.first_row, job_.rays.grid, job_.settings.seed};
     const auto by = [&](const auto& options) {
-        return gather_light<B>(band.gbuffer, tree, source, options,
-                               {band.first_row, job_.rays.grid, job_.settings.seed}, job_.executor);
+        if constexpr (requires { job_.engine.gather(band.gbuffer, tree, source, options, rows); })
+            return job_.engine.gather(band.gbuffer, tree, source, options, rows);
+        else
+            return gather_light<B>(band.gbuffer, tree, source, options, rows, job_.executor);
     };
     return m.luxels == MicroGather::rays ? by(m.gather) : by(m.buffer());
 }

@@ -30,4 +30,17 @@ inline NormalCone normal_cone(std::span<const Surfel> surfels) {
     return {axis, larger(-1.0f, rounded_down(least - 0x1p-48))};
 }
 
+/// How far discs reach from a point along an axis, to either side, metres: rounded upwards. `axis`
+/// need only be a unit vector as far as single precision goes.
+inline float thickness_along(std::span<const Surfel> surfels, Vec3 from, Vec3 axis) {
+    const Double3 unit = glm::normalize(Double3(axis));
+    double most = 0.0;
+    for (const Surfel& s : surfels) {
+        const double tilt = glm::length(glm::cross(unit, glm::normalize(Double3(s.normal))));
+        const double height = std::fabs(glm::dot(unit, Double3(s.position) - Double3(from)));
+        most = std::max(most, height + tilt * static_cast<double>(s.radius));
+    }
+    return rounded_up(most * (1.0 + 0x1p-40));
+}
+
 }  // namespace mir::detail

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "gpu_gathers.hpp"
+#include "mir/cuda/backend.cuh"
+#include "mir/kernels/gather_pass.hpp"
+#include "mir/resident/backend_gbuffer.hpp"
+#include "mir/resident/backend_layer.hpp"
+#include "mir/resident/uploaded_surfel_tree.hpp"
+
+namespace mirbench {
+namespace {
+
+using mir::Lambert;
+using B = mir::cuda::Backend;
+
+class CudaGathers final : public GpuGathers {
+ public:
+    CudaGathers(const mir::cuda::Device& device, const GatherInput& in)
+        : name_(device.name),
+          backend_(device),
+          queue_(backend_.queue()),
+          tree_(backend_, queue_, in.tree),
+          radiance_(backend_, queue_, in.radiance),
+          luxels_(backend_, in.luxels.extent(), in.luxels.extent()),
+          band_(in.band),
+          layer_(backend_, luxels_.grid()) {
+        luxels_.upload(queue_, in.luxels);
+        queue_.record().sync();
+    }
+
+    [[nodiscard]] std::string device() const override { return name_; }
+
+    double by_rays(const mir::GatherOptions& options) override {
+        return seconds_of(
+            mir::RayGather<B::space, Lambert>{tree_.view(), radiance_.data(), options});
+    }
+    double by_buffers(const mir::BufferGatherOptions& options) override {
+        return seconds_of(
+            mir::BufferGather<B::space, Lambert>{tree_.view(), radiance_.data(), options});
+    }
+
+    [[nodiscard]] mir::Image<mir::Rgb> image() override {
+        std::vector<std::uint32_t> words(layer_.words().size());
+        queue_.download(layer_.words(), std::span(words));
+        queue_.record().sync();
+        const mir::LayerView here{words.data(), layer_.grid()};
+        mir::Image<mir::Rgb> image(luxels_.extent());
+        for (std::uint32_t y = 0; y < image.height(); ++y)
+            for (std::uint32_t x = 0; x < image.width(); ++x) image(x, y) = here(x, y);
+        return image;
+    }
+
+ private:
+    template <class Gather>
+    double seconds_of(const Gather& gather) {
+        const auto view = luxels_.view(0);
+        const mir::cuda::Event begin = queue_.record();
+        queue_.for_each(view.size(),
+                        mir::GatherPass{view, luxels_.tiles()[0], gather, band_, layer_.tile(0)});
+        return seconds_between(begin, queue_.record());
+    }
+
+    std::string name_;
+    B backend_;
+    B::Queue queue_;
+    mir::UploadedSurfelTree<B> tree_;
+    mir::UploadedArray<B, mir::SurfelRadiance> radiance_;
+    mir::BackendGBuffer<B, Lambert::Params> luxels_;
+    mir::LuxelBand band_;
+    mir::BackendLayer<B> layer_;
+};
+
+}  // namespace
+
+bool has_cuda() { return true; }
+
+std::unique_ptr<GpuGathers> make_gpu_gathers(const GatherInput& input) {
+    return std::make_unique<CudaGathers>(mir::cuda::select_device(), input);
+}
+
+}  // namespace mirbench

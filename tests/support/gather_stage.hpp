@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/fill_gbuffer.hpp"
+#include "mir/micro/material_albedo.hpp"
+#include "mir/micro/surfel_direct_light.hpp"
+#include "mir/micro/surfel_tree_build.hpp"
+#include "mir/resident/backend_gather.hpp"
+#include "mir/scene/builtin/cornell_box.hpp"
+
+#include <bit>
+
+namespace mirtest {
+
+/// Luxels of the Cornell box in ragged tiles, and its discs with their direct light.
+struct GatherStage {
+    using Lambert = mir::Lambert;
+    using Luxels = mir::BlockedGBuffer<Lambert::Params>;
+
+    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    mir::WorldGeometry geometry{scene};
+    mir::KdTreeScene engine{geometry};
+    mir::LightTable lights{scene, geometry};
+    mir::SurfaceTable<Lambert> surfaces{scene};
+    mir::InlineExecutor executor;
+    mir::LuxelBand band{0, {{45, 37}}, 5};
+    mir::SurfelTree tree{make_surfels(geometry, {1e-3f, mir::DiscExtent::cover}, {}, executor),
+                         material_albedo(surfaces),
+                         {},
+                         executor};
+    std::vector<mir::SurfelRadiance> radiance =
+        light_surfels(tree, mir::SurfelDirectLight(lights, engine.visibility(), 4, 1),
+                      geometry.ray_offset(), executor);
+    Luxels luxels{band.grid.luxels(), {32, 16}};
+
+    GatherStage() {
+        const mir::CameraRays rays{scene.cameras.front(), band.grid, 0};
+        fill_gbuffer<Lambert>(luxels, 0, rays, engine.ray_caster(), surfaces, geometry.ray_offset(),
+                              executor);
+    }
+};
+
+/// Luxels at which two pictures differ in a bit.
+inline std::size_t different_luxels(const mir::Image<mir::Rgb>& a, const mir::Image<mir::Rgb>& b) {
+    using Words = std::array<std::uint32_t, 3>;
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i)
+        different +=
+            std::bit_cast<Words>(a.pixels()[i]) == std::bit_cast<Words>(b.pixels()[i]) ? 0 : 1;
+    return different;
+}
+
+}  // namespace mirtest
