@@ -85,4 +85,11 @@ inline std::uint32_t pop_lowest(std::uint32_t& bits) {
     return k;
 }
 
+/// The same with the highest.
+inline std::uint32_t pop_highest(std::uint32_t& bits) {
+    const auto k = 31u - static_cast<std::uint32_t>(__builtin_clz(bits));
+    bits ^= 1u << k;
+    return k;
+}
+
 }  // namespace mir::detail

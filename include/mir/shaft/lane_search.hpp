@@ -75,9 +75,10 @@ class LaneSearcher {
  private:
     enum class Addition { listed, no_room, covers };
 
+    /// So that the first slot is the next one.
     void push(const WideNode& node, std::uint32_t slots) {
         while (slots != 0) {
-            const std::uint32_t child = node.ref[pop_lowest(slots)];
+            const std::uint32_t child = node.ref[pop_highest(slots)];
             prefetch(bvh_.nodes + child, sizeof(WideNode));
             search_.waiting[search_.waiting_nodes++] = child;
         }

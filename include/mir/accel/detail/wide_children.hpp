@@ -34,8 +34,8 @@ struct ChildChoice {
     std::uint32_t max_depth = 0;  ///< nodes
     float area_scale = 0.0f;
 
-    /// The children of a wide node below `depth` others, the largest last: walks go down by the
-    /// last slot first, and what hides a whole block of luxels is large.
+    /// The children of a wide node below `depth` others, the largest first: what hides a whole
+    /// block of luxels is large, and shafts look at the first slot first.
     MIR_HD void choose(std::uint32_t root, std::uint32_t depth, WideChildren& children) const {
         children.count = 0;
         if (depth + 1 + (tree.nodes[root].height + 1) / 3 <= max_depth)
@@ -100,7 +100,7 @@ struct ChildChoice {
         for (std::uint32_t i = 1; i < children.count; ++i) {
             const std::uint32_t child = children.at[i];
             std::uint32_t k = i;
-            for (; k > 0 && area(child) < area(children.at[k - 1]); --k)
+            for (; k > 0 && area(child) > area(children.at[k - 1]); --k)
                 children.at[k] = children.at[k - 1];
             children.at[k] = child;
         }
