@@ -41,8 +41,8 @@ std::vector<mir::Surfel> surfels_of(const BenchScene& scene, double count) {
 mir::SurfelTree tree_of(const BenchScene& scene, double count,
                         const mir::SurfelTreeOptions& options) {
     mir::cpu::TbbExecutor executor;
-    const mir::SurfaceTable<mir::Lambert> surfaces(scene.scene);
-    return {surfels_of(scene, count), material_albedo(surfaces), options, executor};
+    return {surfels_of(scene, count), mir::material_albedo<mir::Lambert>(scene.scene), options,
+            executor};
 }
 
 std::vector<mir::SurfelRay> gather_rays(const BenchScene& scene, std::uint32_t count) {

@@ -54,8 +54,8 @@ inline mir::ReferenceImage reference(SceneStudy& s, std::uint32_t samples) {
 inline mir::SurfelTree make_tree(SceneStudy& s, std::uint32_t surfels, mir::DiscExtent extent,
                                  const mir::SurfelTreeOptions& options = {}) {
     const auto area = static_cast<float>(surface_area(s.geometry) / surfels);
-    return {make_surfels(s.geometry, {area, extent}, {}, s.executor), material_albedo(s.surfaces),
-            options, s.executor};
+    return {make_surfels(s.geometry, {area, extent}, {}, s.executor),
+            mir::material_albedo<mir::Lambert>(s.scene), options, s.executor};
 }
 
 /// How discs are lit.

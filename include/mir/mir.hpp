@@ -245,6 +245,7 @@
 #include "mir/shading/ggx.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/material_params.hpp"
+#include "mir/shading/mean_factors.hpp"
 #include "mir/shading/scene_light.hpp"
 #include "mir/shading/surface_table.hpp"
 #include "mir/shading/surface_table_view.hpp"

@@ -26,7 +26,7 @@ struct GatherStage {
     mir::InlineExecutor executor;
     mir::LuxelBand band{0, {{45, 37}}, 5};
     mir::SurfelTree tree{make_surfels(geometry, {1e-3f, mir::DiscExtent::cover}, {}, executor),
-                         material_albedo(surfaces),
+                         mir::material_albedo<Lambert>(scene),
                          {},
                          executor};
     std::vector<mir::SurfelRadiance> radiance =

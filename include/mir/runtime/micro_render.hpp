@@ -19,7 +19,7 @@ class MicroRender {
     /// What is passed in must outlive it; `monitor` may be null.
     MicroRender(const Scene& scene, const RenderSettings& settings, const WorldGeometry& geometry,
                 const Engine& engine, E& executor, Monitor* monitor, StageClock& clock)
-        : job_(scene, settings, geometry, engine, executor, monitor, clock) {}
+        : scene_(scene), job_(scene, settings, geometry, engine, executor, monitor, clock) {}
 
     RenderResult run();
 
@@ -40,6 +40,7 @@ class MicroRender {
     void append_indirect(const Band& band, const SurfelTree& tree,
                          const std::vector<Radiance>& sources, std::vector<Image<Rgb>>& layers);
 
+    const Scene& scene_;
     RenderJob<B, Engine, E> job_;
 };
 
@@ -67,7 +68,7 @@ SurfelTree MicroRender<B, Engine, E>::make_tree() {
     const double area = surface_area(job_.geometry) / job_.settings.micro.surfels;
     if (area > 0.0) options.max_area = static_cast<float>(area);
     return {make_surfels(job_.geometry, options, job_.settings.limits, job_.executor),
-            material_albedo(job_.surfaces), SurfelTreeOptions{}, job_.executor};
+            material_albedo<B>(scene_), SurfelTreeOptions{}, job_.executor};
 }
 
 /// What luxels gather from: bounce by bounce where each has a layer, else the sum; nothing when

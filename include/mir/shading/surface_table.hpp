@@ -4,6 +4,7 @@
 #include "mir/scene/scene.hpp"
 #include "mir/scene/texture_table.hpp"
 #include "mir/shading/material_params.hpp"
+#include "mir/shading/mean_factors.hpp"
 #include "mir/shading/surface_table_view.hpp"
 
 #include <span>
@@ -50,12 +51,7 @@ class SurfaceTable {
 
  private:
     static float mean_albedo(const Scene& scene, const Material& m) {
-        MaterialFactors factors = m.factors();
-        const Texture& texture = m.textures.base_color;
-        if (texture.is_set())
-            factors.base_color =
-                factors.base_color * mean_of(scene.images[texture.image], TexelEncoding::srgb);
-        const CookTorrance::Params p = material_params(factors, CookTorrance{});
+        const CookTorrance::Params p = material_params(mean_factors(scene, m), CookTorrance{});
         const Vec3 n(0.0f, 0.0f, 1.0f);
         const Vec3 wo(0.6f, 0.0f, 0.8f);
         return smaller(luminance(CookTorrance::albedo(p, n, wo)), 1.0f);
