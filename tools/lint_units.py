@@ -30,7 +30,9 @@ def is_independent(path: pathlib.Path) -> bool:
 
 def stays_alone(path: pathlib.Path) -> bool:
     """Programs of one file, and variants of which a build takes one."""
-    return path.name == "main.cpp" or path.is_relative_to(root / "examples") or "with" in path.name
+    programs = (root / "examples", root / "bench/micro")
+    return (path.name == "main.cpp" or any(map(path.is_relative_to, programs))
+            or "with" in path.name)
 
 
 def includes_of(source: pathlib.Path) -> list[str]:
