@@ -16,16 +16,17 @@ from plot_convergence import DARK_STYLE, LIGHT_STYLE, Scale, decades, mark, poin
 # Colours of Okabe and Ito on light and on dark ground, and marks known to plot_convergence.mark().
 LINES = [("square", "#d55e00", "#f0a04b"), ("circle", "#0072b2", "#56b4e9"),
          ("triangle", "#009e73", "#35c79a")]
+NEEDED = {"scene", "discs", "extent", "rays", "shape", "threshold", "bounce", "mean", "rms", "worst"}
 LEFT, TOP, WIDTH, HEIGHT, GAP = 62, 58, 290, 220, 34
 
 
 def read(files, bounce):
-    """Rows of whole pieces and discs where rays stop, of one bounce."""
+    """Rows of one bounce."""
     rows = []
     for name in files:
         with open(name, newline="", encoding="utf-8") as file:
             reader = csv.DictReader(file)
-            missing = {"scene", "threshold", "rms", "bounce"} - set(reader.fieldnames or [])
+            missing = NEEDED - set(reader.fieldnames or [])
             if missing:
                 sys.exit(f"{name}: column '{sorted(missing)[0]}' is missing (it is no table of "
                          "the program micro_bias); give one that is")

@@ -101,6 +101,8 @@ int main(int argc, char** argv) try {
     mirstudy::Plan plan;
     plan = {number(2, plan.samples), number(3, plan.fewest), number(4, plan.sizes),
             number(5, plan.bounce), number(6, plan.lamp_samples)};
+    mir::expects(plan.sizes >= 1 && plan.bounce >= 2 && plan.bounce <= 4,
+                 "there must be one size of discs at least, and the last bounce be 2 to 4");
     mirstudy::SceneStudy study(name);
     study.scene.name = mirtool::stem_of(name);
     mirstudy::BiasStudy(study, plan).run_all();

@@ -15,8 +15,7 @@ using B = mir::cuda::Backend;
 class CudaGathers final : public GpuGathers {
  public:
     CudaGathers(const mir::cuda::Device& device, const GatherInput& in)
-        : name_(device.name),
-          backend_(device),
+        : backend_(device),
           queue_(backend_.queue()),
           tree_(backend_, queue_, in.tree),
           radiance_(backend_, queue_, in.radiance),
@@ -26,8 +25,6 @@ class CudaGathers final : public GpuGathers {
         luxels_.upload(queue_, in.luxels);
         queue_.record().sync();
     }
-
-    [[nodiscard]] std::string device() const override { return name_; }
 
     double by_rays(const mir::GatherOptions& options) override {
         return seconds_of(
@@ -59,7 +56,6 @@ class CudaGathers final : public GpuGathers {
         return seconds_between(begin, queue_.record());
     }
 
-    std::string name_;
     B backend_;
     B::Queue queue_;
     mir::UploadedSurfelTree<B> tree_;

@@ -16,7 +16,7 @@ using mir::Space;
 
 constexpr double some_discs = 50000;
 constexpr mir::Extent small_picture{64, 64};
-/// Cutting in four ends at 0.25 to 1 of a count that is asked for: most often near a million.
+/// Cutting in four ends at 1 to 4 times a count that is asked for: a million in the Cornell box.
 constexpr double many_discs = 600000;
 constexpr mir::Extent picture{512, 512};
 
@@ -59,6 +59,7 @@ GpuGathers& gpu_of(const std::string& scene) {
     static std::unique_ptr<GpuGathers> gpu;
     if (made_for != scene) {
         gpu.reset();
+        made_for.clear();
         gpu = make_gpu_gathers(micro_scene(scene, picture, many_discs).input());
         made_for = scene;
     }

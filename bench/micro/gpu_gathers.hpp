@@ -31,7 +31,6 @@ class GpuGathers {
  public:
     virtual ~GpuGathers() = default;
 
-    [[nodiscard]] virtual std::string device() const = 0;
     /// Gathers at every luxel; seconds by the GPU's clock.
     virtual double by_rays(const mir::GatherOptions& options) = 0;
     virtual double by_buffers(const mir::BufferGatherOptions& options) = 0;

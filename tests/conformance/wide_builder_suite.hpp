@@ -11,12 +11,35 @@
 
 namespace mirtest {
 
+/// The order that shafts like: children of a node by surface, the largest first, and the triangles
+/// in its own leaves side by side. Boxes were rounded before their surfaces were compared.
+inline void check_order(std::span<const mir::WideNode> nodes) {
+    std::size_t wrong = 0;
+    for (const mir::WideNode& node : nodes) {
+        double before = std::numeric_limits<double>::infinity();
+        std::uint32_t next = 0;
+        bool first = true;
+        for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
+            if (node.count[slot] == mir::WideNode::empty) continue;
+            const double area = half_area(child_of(node, slot).box);
+            wrong += area <= before * (1.0 + 1e-5) ? 0 : 1;
+            before = area;
+            if (!node.is_leaf(slot)) continue;
+            wrong += first || node.ref[slot] == next ? 0 : 1;
+            next = node.ref[slot] + static_cast<std::uint32_t>(node.count[slot]);
+            first = false;
+        }
+    }
+    CHECK(wrong == 0);
+}
+
 /// Everything that can be seen by walking a tree; gives the tree.
 template <class Build>
 CopiedWideBvh build_and_check(const Build& build, const mir::WorldGeometry& geometry,
                               const mir::WideBvhOptions& options = {}) {
     CopiedWideBvh bvh = build(geometry, options);
     check_whole(geometry, bvh);
+    check_order(bvh.nodes());
     const mir::WideBvhStatistics count = mir::wide_statistics(bvh.nodes());
     CHECK(count.depth == bvh.depth());
     CHECK(count.depth <= mir::WideBvhOptions::depth_limit);

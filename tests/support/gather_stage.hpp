@@ -25,7 +25,7 @@ struct GatherStage {
     mir::SurfaceTable<Lambert> surfaces{scene};
     mir::InlineExecutor executor;
     mir::LuxelBand band{0, {{45, 37}}, 5};
-    mir::SurfelTree tree{make_surfels(geometry, {1e-3f, mir::DiscExtent::cover}, {}, executor),
+    mir::SurfelTree tree{make_surfels(geometry, {1e-3f}, {}, executor),
                          mir::material_albedo<Lambert>(scene),
                          {},
                          executor};

@@ -14,7 +14,7 @@
 
 namespace mir::host {
 
-/// Memory of the CPU backend. The CPU copies from any memory equally well, so this is also its
+/// Memory of the host as a backend. It copies from any memory equally well, so this is also its
 /// host buffer.
 template <class T>
 class Buffer {

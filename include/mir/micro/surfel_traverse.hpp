@@ -51,14 +51,17 @@ MIR_HD inline void take_nearer(SurfelHit& hit, float t, std::uint32_t node, bool
 
 /// True when a leaf's disc is met `off` away from its centre, `cosine` being that of the ray and
 /// the normal. The edges of a piece are padded by the rounding of that place, which grows as the
-/// ray grazes: no ray passes between two pieces. A ray below the tangent plane, where shading
-/// normals may lead one, meets nothing above it, and no light enters there.
+/// ray grazes, and by that of the centre: no ray passes between two pieces. A ray below the tangent
+/// plane, where shading normals may lead one, meets nothing above it, and no light enters there.
 MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, float cosine,
                                const SurfelRay& ray) {
     if (disc.is_whole()) return is_above(ray, to_centre);
     if (glm::dot(ray.normal, ray.direction) < 0.0f) return false;
+    const Vec3 p = disc.position;
     const float distance = fabsf(to_centre.x) + fabsf(to_centre.y) + fabsf(to_centre.z);
-    return disc.in_piece(off, 0x1p-18f * (distance + disc.radius) / fabsf(cosine));
+    const float from_origin = fabsf(p.x) + fabsf(p.y) + fabsf(p.z);
+    const float rounding = 0x1p-18f * (distance + disc.radius) + 0x1p-22f * from_origin;
+    return disc.in_piece(off, rounding / fabsf(cosine));
 }
 
 /// Meets a disc of the node's radius across its axis: of a leaf, the disc itself, as far as it lies

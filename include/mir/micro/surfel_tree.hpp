@@ -11,8 +11,8 @@
 namespace mir {
 
 /// A binary hierarchy of spheres over the discs of a scene, in host memory. Light is kept apart
-/// from it (SurfelLight), so that one tree serves all bounces. Const use from any thread. Equal in
-/// bytes for any number of threads. The constructor is defined in surfel_tree_build.hpp.
+/// from it (SurfelRadiance), so that one tree serves all bounces. Const use from any thread. Equal
+/// in bytes for any number of threads. The constructor is defined in surfel_tree_build.hpp.
 class SurfelTree {
  public:
     /// Builds from the root down, O(n log n). `albedo` is that of each material (Surfel::material),

@@ -9,9 +9,8 @@
 namespace mir {
 
 /// A wide bounding volume hierarchy over all triangles of a scene that a backend builds in its own
-/// memory: what WideBvh promises of boxes, leaves and depth, in another tree. Equal in bytes on
-/// every backend and for any number of threads. Move only if the backend's buffers are; const use
-/// from any thread.
+/// memory: the tree that build_wide_bvh() makes on the host, equal in bytes on every backend and
+/// for any number of threads. Move only if the backend's buffers are; const use from any thread.
 template <Backend B>
 class BackendWideBvh {
  public:
@@ -19,7 +18,7 @@ class BackendWideBvh {
     /// (accept_box.hpp) along Morton's curve. Of these clusters, those that are nearest to each
     /// other among their neighbours on the curve are joined, all at the same time, until one is
     /// left. The binary tree becomes a wide one from the root down; which of its nodes stay is what
-    /// costs least by the surface area heuristic (WideBvhStatistics::sah_cost()). Some dozens of
+    /// costs least by the surface area heuristic (WideBvhOptions::node_cost). Some dozens of
     /// rounds, never more than three for each node of depth; up to half a kilobyte of the backend's
     /// memory per triangle meanwhile.
     /// `uploaded` views `geometry` in the backend's memory, for which kernels on `queue` need not
