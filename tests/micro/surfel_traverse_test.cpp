@@ -124,6 +124,28 @@ TEST_CASE("Approximate rays stop where a node is small and shows one side, and n
     CHECK(stopped > 100);
 }
 
+TEST_CASE("A wall is met in few nodes from everywhere, from its own plane too") {
+    mir::Scene scene;
+    const std::uint32_t grey = scene.add(mir::lambertian("grey", {0.5f, 0.5f, 0.5f}));
+    scene.place(mir::builtin::quad("wall", grey, {-1, -1, 0.37f}, {2, 0.1f, 0}, {0, 2, 0.3f}));
+    const SurfelTree tree = tree_of(World(std::move(scene)), 3e-4f);
+    REQUIRE(tree.surfels().size() > 10000);
+    const Surfel& s = tree.surfels()[0];
+    const Vec3 across = glm::normalize(s.corner1);
+    const float sine2 = mir::cap_sine_squared(0.02f);
+    for (const float height : {0.0f, 1e-6f, 1e-4f, 1e-2f, 1.0f}) {
+        const SurfelRay ray{s.position - 4.0f * across + height * s.normal, across};
+        std::uint32_t ends = 0;
+        for (std::uint32_t i = 0; i < tree.nodes().size();) {
+            const SurfelNode& node = tree.nodes()[i];
+            const bool is_end = node.is_leaf() || mir::detail::stops_at(tree.view(), i, ray, sine2);
+            i += is_end ? 2 * node.count - 1 : 1;
+            ends += is_end ? 1 : 0;
+        }
+        CHECK(ends < 200);
+    }
+}
+
 TEST_CASE("Approximate rays meet the nearest of the nodes where they end") {
     const World world = sphere_in_box();
     const SurfelTree tree = tree_of(world, 1e-3f);

@@ -258,3 +258,15 @@ TEST_CASE("Options of the disc tree out of range are refused, and discs without 
     mir::InlineExecutor executor;
     CHECK_THROWS_AS(SurfelTree(surfels_of(world, 1.0f), {}, options, executor), mir::Error);
 }
+
+TEST_CASE("Two walls that meet are parted by their normals, near the edge too") {
+    mir::Scene scene;
+    const std::uint32_t grey = scene.add(mir::lambertian("grey", {0.5f, 0.5f, 0.5f}));
+    scene.place(mir::builtin::quad("floor", grey, {0, 0, 0}, {0.8f, 0.6f, 0}, {0.3f, 0, -1}));
+    scene.place(mir::builtin::quad("wall", grey, {0, 0, 0}, {0.3f, 0, -1}, {-0.6f, 0.8f, 0}));
+    const SurfelTree tree = tree_of(World(std::move(scene)), 1e-3f);
+    const auto mixed = std::count_if(tree.nodes().begin(), tree.nodes().end(),
+                                     [](const SurfelNode& n) { return n.cos_angle < 0.99f; });
+    CHECK(tree.surfels().size() > 4000);
+    CHECK(mixed < 8);
+}

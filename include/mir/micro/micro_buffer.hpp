@@ -50,7 +50,7 @@ class MicroBuffer {
             const Vec3 to_centre = node.centre - origin;
             const bool below = detail::lies_below(tree, index, normal, to_centre,
                                                   detail::padded_radius(node, to_centre));
-            if (!below && !node.is_leaf() && !detail::stops_at(node, point, sine2)) {
+            if (!below && !node.is_leaf() && !detail::stops_at(tree, index, point, sine2)) {
                 waiting.push(node.right, 0.0f);
                 ++index;
                 continue;

@@ -15,7 +15,7 @@ struct SurfelRay {
     /// Unit normal of the surface that gathers, on its lit side. What lies below the tangent plane
     /// through the origin is not met: the surface's own discs, which lie in that plane (a lifted
     /// origin is above it), and of whole discs (Surfel::is_whole) all that have their centre below,
-    /// whose rims would stick out. Nodes that the plane cuts are never met as a whole. Zero: no
+    /// whose rims would stick out. Nodes whose centre lies below are never met as a whole. Zero: no
     /// surface.
     Vec3 normal{0};
     float solid_angle = 0.0f;  ///< sr; 0: exact

@@ -21,11 +21,6 @@ MIR_HD inline bool is_above(const SurfelRay& ray, Vec3 to_centre) {
     return glm::dot(ray.normal, to_centre) >= 0.0f;
 }
 
-/// True when a sphere is not wholly above the tangent plane, where there is one.
-MIR_HD inline bool reaches_below(const SurfelRay& ray, Vec3 to_centre, float radius) {
-    return ray.normal != Vec3(0.0f) && glm::dot(ray.normal, to_centre) < radius;
-}
-
 /// True when nothing below a node is above the tangent plane of `normal` through the point that the
 /// node's centre is `to_centre` away from; never true of what a ray above the plane may meet. The
 /// sphere is asked first. Most nodes that it cuts belong to the wall that gathers, whose discs lie
@@ -94,28 +89,41 @@ MIR_HD inline void meet_sphere(const SurfelNode& node, std::uint32_t index, cons
 
 /// True when all discs below a node show the same side to a point: the cone around their normals,
 /// widened by the angle under which the sphere is seen, lies on one side of the direction there.
-/// `s` is (radius / distance)^2, below 1.
-MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre, float distance2,
-                                  float s) {
+/// Or, what flat walls seen at a slant need: the point is so far out of the slab of the discs that
+/// even the normal most tilted towards it, at the place farthest across, sees it from the same
+/// side. Or the slab is so flat that what is in doubt is seen under less than a thousandth of the
+/// node's angle: a wall seen edge-on. `s` is (radius / distance)^2, below 1.
+template <Space S>
+MIR_HD bool shows_one_side(const SurfelTreeView<S>& tree, std::uint32_t index, Vec3 to_centre,
+                           float distance2, float s) {
+    const SurfelNode& node = tree.nodes[index];
     const float cos_cone = node.cos_angle;
     const float sin_cone = sqrtf(larger(0.0f, 1.0f - cos_cone * cos_cone));
     const float cos_seen = sqrtf(1.0f - s);
     const float sin_seen = sqrtf(s);
     if (!(cos_cone * cos_seen > sin_cone * sin_seen)) return false;
     const float sine = sin_cone * cos_seen + cos_cone * sin_seen;
-    return fabsf(glm::dot(node.axis, to_centre)) > sine * sqrtf(distance2);
+    const float height = fabsf(glm::dot(node.axis, to_centre));
+    if (height > sine * sqrtf(distance2)) return true;
+    const float across = glm::length(glm::cross(node.axis, to_centre)) + node.radius;
+    const float pad = padded_radius(node, to_centre) - node.radius;
+    const float doubt = tree.thickness[index] * cos_cone + sin_cone * across + pad;
+    return height * cos_cone > doubt || doubt < 0x1p-10f * sqrtf(distance2);
 }
 
 /// True when a ray stops at an inner node: it is not inside, the node's solid angle is not larger
-/// than the ray's (`sine2` is its cap_sine_squared()), the tangent plane does not cut it, and it
-/// shows one side.
-MIR_HD inline bool stops_at(const SurfelNode& node, const SurfelRay& ray, float sine2) {
+/// than the ray's (`sine2` is its cap_sine_squared()), its centre is not below the tangent plane,
+/// and it shows one side.
+template <Space S>
+MIR_HD bool stops_at(const SurfelTreeView<S>& tree, std::uint32_t index, const SurfelRay& ray,
+                     float sine2) {
+    const SurfelNode& node = tree.nodes[index];
     const Vec3 to_centre = node.centre - ray.origin;
     const float distance2 = length_squared(to_centre);
     const float radius2 = node.radius * node.radius;
     if (!(radius2 < distance2) || !(radius2 <= sine2 * distance2)) return false;
-    return !reaches_below(ray, to_centre, node.radius) &&
-           shows_one_side(node, to_centre, distance2, radius2 / distance2);
+    return is_above(ray, to_centre) &&
+           shows_one_side(tree, index, to_centre, distance2, radius2 / distance2);
 }
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
@@ -187,7 +195,7 @@ template <Space S>
     std::uint32_t index = tree.root;
     while (index != SurfelHit::none) {
         const SurfelNode& node = tree.nodes[index];
-        if (!node.is_leaf() && !detail::stops_at(node, ray, sine2)) {
+        if (!node.is_leaf() && !detail::stops_at(tree, index, ray, sine2)) {
             index = detail::descend(tree, index, ray, hit.t, waiting);
             continue;
         }

@@ -59,27 +59,50 @@ struct OrientationBin {
     }
 };
 
-/// A plane between two bins. `border` bins lie below it.
+/// A border between two bins. `border` bins lie below it.
 struct OrientationCut {
-    int axis = 0;
+    int axis = 0;              ///< of OrientationGrid
     std::uint32_t border = 0;  ///< 0: no plane was found
     float cost = std::numeric_limits<float>::infinity();
 };
 
-/// Where on an axis a disc's bin lies, for discs whose centres lie in `box`.
+/// Where a disc's bin lies on an axis: 0 to 2 are those of places, 3 to 5 those of normals. Planes
+/// in space leave some discs of one wall with the other where two walls meet, at every size;
+/// normals part them at once.
 struct OrientationGrid {
-    Bounds box;
+    static constexpr int axes = 6;
+
+    Bounds centres;
+    Bounds normals;
     std::uint32_t bins = 0;
 
+    OrientationGrid(std::span<const Surfel> surfels, std::uint32_t bin_count) : bins(bin_count) {
+        for (const Surfel& s : surfels) {
+            centres.add(s.position);
+            normals.add(s.normal);
+        }
+    }
+
+    /// True when all discs have the same bin.
+    [[nodiscard]] bool is_flat(int axis) const { return !(extent(axis) > 0.0f); }
+
     [[nodiscard]] std::uint32_t bin(const Surfel& s, int axis) const {
-        const float extent = box.high[axis] - box.low[axis];
-        if (!(extent > 0.0f)) return 0;
-        const float place = (s.position[axis] - box.low[axis]) / extent;
+        const float place =
+            (along(axis, s.position, s.normal) - along(axis, centres.low, normals.low)) /
+            extent(axis);
         return std::min(static_cast<std::uint32_t>(place * static_cast<float>(bins)), bins - 1);
+    }
+
+ private:
+    [[nodiscard]] static float along(int axis, Vec3 place, Vec3 normal) {
+        return axis < 3 ? place[axis] : normal[axis - 3];
+    }
+    [[nodiscard]] float extent(int axis) const {
+        return along(axis, centres.high, normals.high) - along(axis, centres.low, normals.low);
     }
 };
 
-/// The plane of an axis with the least cost.
+/// The border on an axis with the least cost.
 inline OrientationCut best_cut(std::span<const Surfel> surfels, const OrientationGrid& grid,
                                int axis) {
     std::array<OrientationBin, 64> bins;

@@ -39,13 +39,13 @@ inline std::size_t halve(std::span<Surfel> surfels, const Bounds& box) {
 /// keep that, and other cuts are made only where it stays true of both sides.
 inline std::size_t split(std::span<Surfel> surfels, const SurfelTreeOptions& options,
                          std::uint32_t room) {
-    const Bounds box = box_of_centres(surfels);
-    if (options.split == SurfelSplit::median || surfels.size() < options.median_below)
-        return halve(surfels, box);
-    const OrientationGrid grid{box, options.bins};
+    if (options.split == SurfelSplit::median) return halve(surfels, box_of_centres(surfels));
+    const OrientationGrid grid(surfels, options.bins);
+    const Bounds& box = grid.centres;
+    if (surfels.size() < options.median_below) return halve(surfels, box);
     OrientationCut best;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!(box.high[axis] > box.low[axis])) continue;
+    for (int axis = 0; axis < OrientationGrid::axes; ++axis) {
+        if (grid.is_flat(axis)) continue;
         const OrientationCut cut = best_cut(surfels, grid, axis);
         if (cut.border != 0 && cut.cost < best.cost) best = cut;
     }
