@@ -27,12 +27,19 @@ class CudaGathers final : public GpuGathers {
     }
 
     double by_rays(const mir::GatherOptions& options) override {
-        return seconds_of(
-            mir::RayGather<B::space, Lambert>{tree_.view(), radiance_.data(), options});
+        const mir::RayGather<B::space, Lambert> gather{tree_.view(), radiance_.data(), options};
+        return seconds_of([&](const auto& tile, std::uint32_t luxels) {
+            queue_.for_each(luxels, mir::GatherPass{tile, gather, 0});
+        });
     }
     double by_buffers(const mir::BufferGatherOptions& options) override {
-        return seconds_of(
-            mir::BufferGather<B::space, Lambert>{tree_.view(), radiance_.data(), options});
+        return mir::with_buffer_side(options.side, [&](auto side) {
+            const mir::BufferGather<B::space, Lambert, side.value> gather{
+                tree_.view(), radiance_.data(), options};
+            return seconds_of([&](const auto& tile, std::uint32_t luxels) {
+                queue_.for_each_group(luxels, mir::BufferGatherPass{tile, gather, 0});
+            });
+        });
     }
 
     [[nodiscard]] mir::Image<mir::Rgb> image() override {
@@ -47,12 +54,11 @@ class CudaGathers final : public GpuGathers {
     }
 
  private:
-    template <class Gather>
-    double seconds_of(const Gather& gather) {
+    template <class Start>
+    double seconds_of(const Start& start) {
         const auto view = luxels_.view(0);
         const mir::cuda::Event begin = queue_.record();
-        queue_.for_each(view.size(),
-                        mir::GatherPass{view, luxels_.tiles()[0], gather, band_, layer_.tile(0)});
+        start(mir::GatherTile{view, luxels_.tiles()[0], band_, layer_.tile(0)}, view.size());
         return seconds_between(begin, queue_.record());
     }
 

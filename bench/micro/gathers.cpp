@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Gathers per second: 128 rays, micro-buffers of 8 x 8 and 24 x 24 texels, on one thread of the
+// Gathers per second: 128 rays, micro-buffers of 8 x 8 to 24 x 24 texels, on one thread of the
 // host, and pictures of 512 x 512 luxels with some million discs on a GPU, by its clock.
 #include "micro_scene.hpp"
 
@@ -111,7 +111,7 @@ void add_gpu(const std::string& scene) {
         on_gpu(
             state, name, [](GpuGathers& gpu) { return gpu.by_rays({}); }, by_rays);
     })->UseManualTime();
-    for (const std::uint32_t side : {8u, 24u})
+    for (const std::uint32_t side : {8u, 16u, 24u})
         add("gpu_buffer_" + std::to_string(side), scene,
             [side](benchmark::State& state, const std::string& name) {
                 const auto gather = [side](GpuGathers& gpu) {

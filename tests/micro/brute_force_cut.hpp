@@ -6,17 +6,27 @@
 
 namespace mirtest {
 
-/// Nearest of all nodes at which an approximate ray has to end, whatever the spheres above them.
-inline mir::SurfelHit brute_force_cut(const mir::SurfelTree& tree, const mir::SurfelRay& ray) {
+/// Nearest of all nodes at which a walk has to end, whatever the spheres above them: inner nodes of
+/// which is_end(index) is true, and discs.
+template <class IsEnd>
+mir::SurfelHit brute_force_cut(const mir::SurfelTree& tree, const mir::SurfelRay& ray,
+                               const IsEnd& is_end) {
     mir::SurfelHit hit;
-    const float sine2 = mir::cap_sine_squared(ray.solid_angle);
     for (std::uint32_t i = 0; i < tree.nodes().size();) {
         const mir::SurfelNode& node = tree.nodes()[i];
-        const bool ends = node.is_leaf() || mir::detail::stops_at(tree.view(), i, ray, sine2);
+        const bool ends = node.is_leaf() || is_end(i);
         if (ends) mir::detail::meet_disc(tree.view(), i, ray, hit);
         i += ends ? 2 * node.count - 1 : 1;
     }
     return hit;
+}
+
+/// For an approximate ray.
+inline mir::SurfelHit brute_force_cut(const mir::SurfelTree& tree, const mir::SurfelRay& ray) {
+    const float sine2 = mir::cap_sine_squared(ray.solid_angle);
+    return brute_force_cut(tree, ray, [&](std::uint32_t node) {
+        return mir::detail::stops_at(tree.view(), node, ray, sine2);
+    });
 }
 
 }  // namespace mirtest

@@ -2,42 +2,133 @@
 #include "micro/brute_force_cut.hpp"
 #include "micro/shining_discs.hpp"
 #include "mir/micro/buffer_gather.hpp"
+#include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;
-using mir::MicroBuffer;
 using mir::SurfelHit;
 using mir::SurfelTree;
 using mir::Vec3;
 
+namespace {
+
+/// Texels of a buffer that do not hold the nearest of all nodes at which the walk for it ends and
+/// which their direction meets.
+template <class Buffer>
+std::uint32_t wrong_texels(const Buffer& buffer, const SurfelTree& tree, mir::SurfelRay point,
+                           float threshold, std::uint32_t& met) {
+    std::uint32_t wrong = 0;
+    const float share = threshold / static_cast<float>(buffer.size());
+    for (std::uint32_t i = 0; i < buffer.size(); ++i) {
+        point.direction = buffer.direction(i);
+        const SurfelHit truth = mirtest::brute_force_cut(tree, point, [&](std::uint32_t node) {
+            return buffer.ends_at(tree.view(), node, point, share);
+        });
+        wrong += buffer.distance(i) == truth.t && buffer.node(i) == truth.node ? 0 : 1;
+        met += truth.node != SurfelHit::none ? 1 : 0;
+    }
+    return wrong;
+}
+
+}  // namespace
+
 TEST_CASE("A texel holds the nearest of all nodes that its direction meets, in every bit") {
     const World worlds[] = {sphere_in_box(), triangle_soup(60, 980)};
     const std::uint32_t side = GENERATE(1u, 8u, 24u);
-    const float omega = GENERATE(0.0f, 0.01f, 0.2f);
+    const float threshold = GENERATE(0.0f, 0.2f, 4.0f);
+    // From all around to so sharp that the rounding of directions spans texels.
+    const float sharpness = GENERATE(0.7f, 30.0f, 16384.0f);
     mir::Random random = test_random(981);
+    const mir::LaneGroup group;
+    mir::MicroBufferSpace<24> space;
     std::uint32_t wrong = 0;
     std::uint32_t met = 0;
     for (const World& world : worlds) {
         const SurfelTree tree = tree_of(world, 5e-3f);
-        for (int k = 0; k < 6; ++k) {
+        for (int k = 0; k < 4; ++k) {
             const mir::SurfacePoint p = random_surface_point(world.geometry, random);
             const Vec3 n = p.geometric_normal;
             const Vec3 origin = mir::lift(p.position, n, world.geometry.ray_offset());
+            const mir::SurfelRay point{origin, {0, 0, 1}, n};
+            const auto check = [&](const auto& texels) {
+                mir::MicroBuffer buffer(group, space, texels, side, random.next_2d());
+                buffer.draw(tree.view(), origin, n, threshold);
+                wrong += wrong_texels(buffer, tree, point, threshold, met);
+            };
             // Shading normals need not be those of the surface.
-            const Vec3 shading = glm::normalize(n + 0.3f * direction(random));
-            MicroBuffer buffer(side, shading, random.next_2d());
-            buffer.draw(tree.view(), origin, n, omega);
-            for (std::uint32_t i = 0; i < buffer.size(); ++i) {
-                const SurfelHit truth =
-                    mirtest::brute_force_cut(tree, {origin, buffer.direction(i), n, omega});
-                const SurfelHit& found = buffer.hit(i);
-                wrong += found.t == truth.t && found.node == truth.node ? 0 : 1;
-                met += found.node != SurfelHit::none ? 1 : 0;
-            }
+            check(mir::CosineTexels(glm::normalize(n + 0.3f * direction(random))));
+            const Vec3 axis = k == 0 ? n : glm::normalize(n + direction(random));
+            check(mir::LobeTexels({axis, sharpness}));
         }
     }
     CHECK(wrong == 0);
     CHECK(met > 0);
+}
+
+TEST_CASE("Texels of a lobe share the sphere by their density") {
+    const float k = GENERATE(0.5f, 3.0f, 12.0f);
+    const Vec3 axis = glm::normalize(Vec3(0.3f, -0.5f, 0.2f));
+    const mir::LobeTexels texels({axis, k});
+    constexpr int side = 512;
+    double area = 0.0;
+    double along = 0.0;
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) {
+            const Vec3 w = texels.direction((mir::Vec2(i, j) + 0.5f) / float(side));
+            const double share = 1.0 / (double(texels.density(w)) * side * side);
+            area += share;
+            along += share * double(glm::dot(w, axis));
+        }
+    // The midpoint rule over a density that varies by (1 + 2 k)^2.
+    CHECK(area / (4.0 * 3.14159265358979) == Approx(1.0).epsilon(1e-3));
+    CHECK(along == Approx(0.0).margin(1e-2));
+}
+
+TEST_CASE("Buffers with a lobe of their own gather the same light as others, with less noise") {
+    const World world = shining_room();
+    const SurfelTree tree = tree_of(world, 0.01f);
+    auto radiance = shining(tree);
+    // Light that varies over the room, so that noise is seen.
+    for (std::uint32_t i = 0; i < radiance.size(); ++i) {
+        const Vec3 c = tree.nodes()[i].centre;
+        radiance[i].front = radiance[i].front * (1.0f + sinf(40.0f * c.x) * sinf(40.0f * c.z));
+    }
+    using B = mir::CookTorrance;
+    const mir::SurfacePoint p = [&] {
+        mir::Random random = test_random(986);
+        return random_surface_point(world.geometry, random);
+    }();
+    const Vec3 n = world.geometry.front_normal(p.triangle);
+    const Vec3 wo = glm::normalize(n + 0.7f * mir::Frame::around(n).tangent);
+    mir::Surface<B::Params> surface;
+    surface.normal = n;
+    surface.wo = wo;
+    surface.bsdf = {{0.2f, 0.2f, 0.2f}, {0.6f, 0.6f, 0.6f}, 1.0f, 0.1f};
+    const mir::Hit hit{mir::lift(p.position, n, world.geometry.ray_offset()), n};
+    struct Spread {
+        double mean = 0.0;
+        double square = 0.0;
+    };
+    constexpr int draws = 400;
+    const auto spread = [&](mir::BufferWarp warp) {
+        const mir::BufferGather<mir::Space::host, B> gather{
+            tree.view(), radiance.data(), {.side = 8, .threshold = 0.0f, .warp = warp}};
+        Spread s;
+        for (std::uint64_t i = 0; i < draws; ++i) {
+            const double light = double(gather(hit, surface, test_random(1000 + i)).g) / draws;
+            s.mean += light;
+            s.square += light * light * draws;
+        }
+        return s;
+    };
+    const Spread even = spread(mir::BufferWarp::hemisphere);
+    const Spread sharp = spread(mir::BufferWarp::importance);
+    const double even_variance = even.square - even.mean * even.mean;
+    const double sharp_variance = sharp.square - sharp.mean * sharp.mean;
+    // H0: both means are of the same light; |z| > 3.29 has a probability of 0.001.
+    const double z = (even.mean - sharp.mean) / std::sqrt((even_variance + sharp_variance) / draws);
+    CHECK(std::fabs(z) < 3.29);
+    CHECK(sharp_variance < 0.25 * even_variance);
 }
 
 TEST_CASE(

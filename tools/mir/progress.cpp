@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -28,15 +29,22 @@ extern "C" void on_interrupt(int signal) {
 
 }  // namespace
 
-std::string progress_text(std::uint64_t done, std::uint64_t planned, double seconds) {
-    if (planned == 0 || done == 0) return "placing VPLs";
-    const double share = static_cast<double>(done) / static_cast<double>(planned);
+std::string progress_text(const Work& work, double seconds) {
+    if (work.planned == 0 || work.done == 0) return "preparing";
+    const std::uint64_t done = std::min(work.done, work.planned);
+    const double share = static_cast<double>(done) / static_cast<double>(work.planned);
     const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
-    const double left = rate > 0.0 ? static_cast<double>(planned - done) / rate : 0.0;
+    const double left = rate > 0.0 ? static_cast<double>(work.planned - done) / rate : 0.0;
     char text[96];
-    std::snprintf(text, sizeof text, "%3.0f %%  %.1f M contributions/s  %.1f s left", 100.0 * share,
-                  1e-6 * rate, left);
+    std::snprintf(text, sizeof text, "%3.0f %%  %.2f M %s/s  %.1f s left", 100.0 * share,
+                  1e-6 * rate, work.unit, left);
     return text;
+}
+
+Work work_of(const mir::Monitor& monitor) {
+    if (const std::uint64_t planned = monitor.planned_gathers.load(); planned != 0)
+        return {monitor.gathers.load(), planned, "gathers"};
+    return {monitor.contributions.load(), monitor.planned_contributions.load(), "contributions"};
 }
 
 Progress::Progress(const mir::Monitor& monitor)
@@ -63,8 +71,7 @@ void Progress::run() {
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
         const std::string text =
             (passes > 0 ? "pass " + std::to_string(passes + 1) + "  " : std::string()) +
-            progress_text(monitor_.contributions.load(), monitor_.planned_contributions.load(),
-                          seconds);
+            progress_text(work_of(monitor_), seconds);
         std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "mir: %s\n", text.c_str());
         std::fflush(stderr);
     }

@@ -32,8 +32,17 @@ class Progress {
     std::thread thread_;
 };
 
-/// "45 %  172 M contributions/s  3.2 s left" for work done in `seconds`.
-std::string progress_text(std::uint64_t done, std::uint64_t planned, double seconds);
+/// How far a render is.
+struct Work {
+    std::uint64_t done = 0;
+    std::uint64_t planned = 0;  ///< 0: not known yet
+    const char* unit = "";
+};
+
+Work work_of(const mir::Monitor& monitor);
+
+/// "45 %  172.00 M contributions/s  3.2 s left" for work done in `seconds`.
+std::string progress_text(const Work& work, double seconds);
 
 /// Makes Ctrl-C cancel `monitor` for the life of the object; a second Ctrl-C ends the program.
 class CancelOnInterrupt {

@@ -8,9 +8,10 @@ template <Bsdf F>
 template <class Options>
 Image<Rgb> GpuGather<F>::operator()(const Luxels& luxels, const SurfelTree& tree,
                                     std::span<const SurfelRadiance> radiance,
-                                    const Options& options, const LuxelBand& band) const {
+                                    const Options& options, const LuxelBand& band,
+                                    const GatherProgress& done) const {
     if (!there_) there_ = std::make_unique<BackendGather<Backend, F>>(backend_, tree);
-    return (*there_)(luxels, radiance, options, band);
+    return (*there_)(luxels, radiance, options, band, done);
 }
 
 template <Bsdf F>
@@ -18,18 +19,19 @@ using LuxelsOf = typename GpuGather<F>::Luxels;
 using Radiance = std::span<const SurfelRadiance>;
 
 template Image<Rgb> GpuGather<Lambert>::operator()(const LuxelsOf<Lambert>&, const SurfelTree&,
-                                                   Radiance, const GatherOptions&,
-                                                   const LuxelBand&) const;
+                                                   Radiance, const GatherOptions&, const LuxelBand&,
+                                                   const GatherProgress&) const;
 template Image<Rgb> GpuGather<Lambert>::operator()(const LuxelsOf<Lambert>&, const SurfelTree&,
                                                    Radiance, const BufferGatherOptions&,
-                                                   const LuxelBand&) const;
+                                                   const LuxelBand&, const GatherProgress&) const;
 template Image<Rgb> GpuGather<CookTorrance>::operator()(const LuxelsOf<CookTorrance>&,
                                                         const SurfelTree&, Radiance,
-                                                        const GatherOptions&,
-                                                        const LuxelBand&) const;
+                                                        const GatherOptions&, const LuxelBand&,
+                                                        const GatherProgress&) const;
 template Image<Rgb> GpuGather<CookTorrance>::operator()(const LuxelsOf<CookTorrance>&,
                                                         const SurfelTree&, Radiance,
                                                         const BufferGatherOptions&,
-                                                        const LuxelBand&) const;
+                                                        const LuxelBand&,
+                                                        const GatherProgress&) const;
 
 }  // namespace mir::cuda

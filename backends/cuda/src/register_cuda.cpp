@@ -69,8 +69,9 @@ class GatherScene {
     [[nodiscard]] Image<Rgb> gather(const typename GpuGather<F>::Luxels& luxels,
                                     const SurfelTree& tree,
                                     std::span<const SurfelRadiance> radiance,
-                                    const Options& options, const LuxelBand& band) const {
-        return gather_(luxels, tree, radiance, options, band);
+                                    const Options& options, const LuxelBand& band,
+                                    const GatherProgress& done) const {
+        return gather_(luxels, tree, radiance, options, band, done);
     }
 
  private:
@@ -126,7 +127,7 @@ class CudaRenderer : public Renderer {
                     tile.width <= least_tile_side && tile.height <= least_tile_side;
                 if (e.code() != ErrorCode::out_of_memory || is_smallest) throw;
             }
-            if (monitor != nullptr) monitor->contributions = 0;
+            if (monitor != nullptr) monitor->contributions = monitor->gathers = 0;
             backend_.memory().trim();
             tile = {std::max(tile.width / 2, std::min(tile.width, least_tile_side)),
                     std::max(tile.height / 2, std::min(tile.height, least_tile_side))};

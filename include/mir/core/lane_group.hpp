@@ -125,6 +125,23 @@ class LaneGroup {
 #endif
     }
 
+    /// Makes `place` the smaller of itself and `value`; for any lane by itself. The place is of the
+    /// group's own workspace. Lanes may read it after each().
+    MIR_HD static void put_least(std::uint64_t& place, std::uint64_t value) {
+#if defined(__CUDA_ARCH__)
+        // Most values are not smaller, and a look costs less than an atomic operation.
+        if (value < *static_cast<volatile std::uint64_t*>(&place))
+            atomicMin(reinterpret_cast<unsigned long long*>(&place), value);
+#else
+        if (value < place) place = value;
+#endif
+    }
+
+    /// Number of bits that are set below a lane's.
+    [[nodiscard]] MIR_HD static std::uint32_t count_before(std::uint32_t bits, std::uint32_t lane) {
+        return count(bits & ((1u << lane) - 1u));
+    }
+
     /// Number of bits that are set.
     [[nodiscard]] MIR_HD static std::uint32_t count(std::uint32_t bits) {
 #if defined(__CUDA_ARCH__)

@@ -13,6 +13,8 @@ namespace mir {
 struct Monitor {
     std::atomic<std::uint64_t> contributions{0};          ///< luxel-VPL pairs done
     std::atomic<std::uint64_t> planned_contributions{0};  ///< 0 until known
+    std::atomic<std::uint64_t> gathers{0};                ///< of a MicroRender: luxels done
+    std::atomic<std::uint64_t> planned_gathers{0};        ///< times bounces; 0 until known
     std::atomic<std::uint32_t> passes{0};                 ///< of a ProgressiveRender: done
     std::atomic<bool> cancelled{false};                   ///< set to stop at the next block
 

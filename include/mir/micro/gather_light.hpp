@@ -7,40 +7,47 @@
 
 namespace mir {
 
+/// Ends nothing: what gather_light() calls after each luxel unless told.
+inline constexpr auto no_progress = [](std::uint64_t) {};
+
 /// Indirect light of an image: what `gather`, a RayGather or a BufferGather, finds at every luxel;
-/// towards the viewer, W m^-2 sr^-1.
-template <TiledGBuffer G, class Gather, Executor E>
-Image<Rgb> gather_light(const G& gbuffer, const Gather& gather, LuxelBand band, E& executor) {
+/// towards the viewer, W m^-2 sr^-1. Calls done(n) after every n luxels, from any thread.
+template <TiledGBuffer G, class Gather, Executor E, class Done = decltype(no_progress)>
+Image<Rgb> gather_light(const G& gbuffer, const Gather& gather, LuxelBand band, E& executor,
+                        const Done& done = no_progress) {
     Image<Rgb> image(gbuffer.extent());
     for_each_luxel(
         gbuffer, executor, [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
             const Hit hit = luxels.hit(i);
-            if (is_empty(hit)) return;
-            image(x, y) = gather(hit, luxels.surface(i), band.luxel_numbers(x, y, Stream::gather));
+            if (!is_empty(hit))
+                image(x, y) =
+                    gather(hit, luxels.surface(i), band.luxel_numbers(x, y, Stream::gather));
+            done(1);
         });
     return image;
 }
 
 /// The same by rays, from the discs of a tree whose nodes send out `radiance`.
 /// @throws Error(invalid_argument) on options out of range.
-template <Bsdf B, TiledGBuffer G, Executor E>
+template <Bsdf B, TiledGBuffer G, Executor E, class Done = decltype(no_progress)>
 Image<Rgb> gather_light(const G& gbuffer, const SurfelTree& tree,
                         std::span<const SurfelRadiance> radiance, const GatherOptions& options,
-                        LuxelBand band, E& executor) {
+                        LuxelBand band, E& executor, const Done& done = no_progress) {
     check(options);
     const RayGather<Space::host, B> gather{tree.view(), radiance.data(), options};
-    return gather_light(gbuffer, gather, band, executor);
+    return gather_light(gbuffer, gather, band, executor, done);
 }
 
 /// The same by micro-buffers.
 /// @throws Error(invalid_argument) on options out of range.
-template <Bsdf B, TiledGBuffer G, Executor E>
+template <Bsdf B, TiledGBuffer G, Executor E, class Done = decltype(no_progress)>
 Image<Rgb> gather_light(const G& gbuffer, const SurfelTree& tree,
                         std::span<const SurfelRadiance> radiance,
-                        const BufferGatherOptions& options, LuxelBand band, E& executor) {
+                        const BufferGatherOptions& options, LuxelBand band, E& executor,
+                        const Done& done = no_progress) {
     check(options);
     const BufferGather<Space::host, B> gather{tree.view(), radiance.data(), options};
-    return gather_light(gbuffer, gather, band, executor);
+    return gather_light(gbuffer, gather, band, executor, done);
 }
 
 }  // namespace mir

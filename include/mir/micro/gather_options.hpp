@@ -24,14 +24,21 @@ struct GatherOptions {
     StopShape shape = StopShape::disc;
 };
 
+/// Which directions the texels of a MicroBuffer stand for.
+enum class BufferWarp {
+    hemisphere,  ///< the hemisphere above the surface, by its cosine
+    importance   ///< and into the lobe of glossy surfaces, by a second buffer
+};
+
 /// How light is gathered by a MicroBuffer.
 struct BufferGatherOptions {
     static constexpr std::uint32_t largest_side = 24;
 
     std::uint32_t side = 16;  ///< texels in each direction, 1 to largest_side
-    /// Largest solid angle of a node that is drawn as a whole, in units of pi / side^2, a texel's
-    /// at the zenith: 0 is exact.
+    /// Largest solid angle of a node that is drawn as a whole, in units of the texels' there, of
+    /// those that follow the cosine pi / side^2: 0 is exact.
     float threshold = 1.0f;
+    BufferWarp warp = BufferWarp::hemisphere;
 };
 
 /// @throws Error(invalid_argument) when an option is out of its range.

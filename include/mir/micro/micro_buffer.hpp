@@ -1,124 +1,233 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/frame.hpp"
-#include "mir/core/random.hpp"
-#include "mir/core/warp.hpp"
+#include "mir/core/lane_group.hpp"
 #include "mir/micro/gather_options.hpp"
 #include "mir/micro/surfel_traverse.hpp"
+#include "mir/micro/texel_reach.hpp"
+
+#include <cstring>
 
 namespace mir {
 
-/// A small picture of the hemisphere above a point: what each of its texels sees first of a tree of
-/// discs. Texels are squares of the unit square under square_to_cosine_hemisphere(), so that each
-/// stands for the same projected solid angle, pi / side^2, and is seen along one direction inside
-/// it. A value without memory of its own, 14 kB; for host and device.
+/// What a group works in that draws a MicroBuffer of up to `Side` texels in each direction.
+template <std::uint32_t Side>
+struct MicroBufferSpace {
+    static constexpr std::uint32_t side = Side;
+    /// Room for 32 lanes on each way of a tree of a million discs; less makes lanes idle, never
+    /// fail.
+    static constexpr std::uint32_t most_waiting = 640;
+
+    std::uint64_t nearest[Side * Side];
+    Vec3 direction[Side * Side];
+    std::uint32_t waiting[most_waiting];
+    std::uint32_t drawn[2 * LaneGroup::width];
+};
+
+/// A small picture of what is around a point: what each of its texels sees first of a tree of
+/// discs. `Texels` says which directions they stand for, each seen along one of them: a
+/// CosineTexels or LobeTexels. Made by 32 lanes together, in the memory of their group; host and
+/// device, the same bits.
+template <std::uint32_t Side, class Texels>
 class MicroBuffer {
  public:
-    static constexpr std::uint32_t largest_side = BufferGatherOptions::largest_side;
+    using Workspace = MicroBufferSpace<Side>;
 
-    /// `side` texels in each direction, 1 to largest_side, around a unit normal; `jitter` in
-    /// [0, 1)^2 is the place of the directions inside their texels.
-    MIR_HD MicroBuffer(std::uint32_t side, Vec3 normal, Vec2 jitter)
-        : side_(side), frame_(Frame::around(normal)) {
+    /// `side` texels in each direction, 1 to `Side`; `jitter` in [0, 1)^2 is the place of the
+    /// directions inside their texels. What is passed in must outlive it.
+    MIR_HD MicroBuffer(const LaneGroup& group, Workspace& space, const Texels& texels,
+                       std::uint32_t side, Vec2 jitter)
+        : group_(group), space_(space), texels_(texels), side_(side), jitter_(jitter) {
         const float step = 1.0f / static_cast<float>(side);
-        for (std::uint32_t i = 0; i < size(); ++i) {
-            const Vec2 u = step * (Vec2(i % side, i / side) + jitter);
-            direction_[i] = frame_.to_world(square_to_cosine_hemisphere(u));
-        }
+        group.each([&](std::uint32_t lane) {
+            for (std::uint32_t i = lane; i < size(); i += LaneGroup::width) {
+                space.direction[i] = texels.direction(step * (Vec2(i % side, i / side) + jitter));
+                space.nearest[i] = nothing;
+            }
+        });
     }
 
     [[nodiscard]] MIR_HD std::uint32_t size() const { return side_ * side_; }
     /// Unit, in the world.
-    [[nodiscard]] MIR_HD Vec3 direction(std::uint32_t texel) const { return direction_[texel]; }
-    [[nodiscard]] MIR_HD const SurfelHit& hit(std::uint32_t texel) const { return hit_[texel]; }
+    [[nodiscard]] MIR_HD Vec3 direction(std::uint32_t texel) const {
+        return space_.direction[texel];
+    }
+    /// Index of the node that a texel sees first, or SurfelHit::none.
+    [[nodiscard]] MIR_HD std::uint32_t node(std::uint32_t texel) const {
+        return static_cast<std::uint32_t>(space_.nearest[texel]);
+    }
+    /// Distance of that node, metres.
+    [[nodiscard]] MIR_HD float distance(std::uint32_t texel) const {
+        const auto word = static_cast<std::uint32_t>(space_.nearest[texel] >> 32);
+        float t;
+        memcpy(&t, &word, sizeof(t));
+        return t;
+    }
 
     /// Draws a tree as seen from `origin`, above the tangent plane of `normal` (SurfelRay::normal),
-    /// in one walk: down to discs, or to nodes whose solid angle is at most `solid_angle` (sr) and
-    /// which closest_surfel() would stop at. A texel holds the nearest of those that its direction
-    /// meets. Source: Ritschel et al. 2009, section 4; nodes are met by all texels that they cover,
-    /// not splatted into one, which leaves holes.
+    /// in one walk: down to discs, or to nodes at most `threshold` times as large as the texels
+    /// there and at which closest_surfel() would stop. A texel holds the nearest of those that its
+    /// direction meets. Nodes wait on a stack of which every lane takes one; those that are to be
+    /// drawn are drawn 32 together. Source: Ritschel et al. 2009, section 4; nodes are met by all
+    /// texels that they cover, not splatted into one, which leaves holes.
     template <Space S>
-    MIR_HD void draw(const SurfelTreeView<S>& tree, Vec3 origin, Vec3 normal, float solid_angle) {
+    MIR_HD void draw(const SurfelTreeView<S>& tree, Vec3 origin, Vec3 normal, float threshold) {
         if (tree.empty()) return;
-        const SurfelRay point{origin, {0, 0, 1}, normal, solid_angle};
-        const float sine2 = cap_sine_squared(solid_angle);
-        detail::WaitingSurfels waiting;
-        std::uint32_t index = tree.root;
-        while (index != SurfelHit::none) {
-            const SurfelNode& node = tree.nodes[index];
-            const Vec3 to_centre = node.centre - origin;
-            const bool below = detail::lies_below(tree, index, normal, to_centre,
-                                                  detail::padded_radius(node, to_centre));
-            if (!below && !node.is_leaf() && !detail::stops_at(tree, index, point, sine2)) {
-                waiting.push(node.right, 0.0f);
-                ++index;
-                continue;
-            }
-            if (!below) draw_node(tree, index, point);
-            index = waiting.pop(0.0f);
+        const SurfelRay point{origin, {0, 0, 1}, normal};
+        const float share = threshold / static_cast<float>(size());
+        group_.each([&](std::uint32_t lane) {
+            if (lane == 0) space_.waiting[0] = tree.root;
+        });
+        std::uint32_t waiting = 1;
+        std::uint32_t drawn = 0;
+        while (waiting > 0) {
+            const std::uint32_t taken = portion(waiting);
+            waiting -= taken;
+            const Taken ends = take(tree, point, share, {waiting, taken}, drawn);
+            waiting += 2 * ends.inner;
+            drawn += ends.drawn;
+            if (drawn < LaneGroup::width) continue;
+            drawn -= LaneGroup::width;
+            draw_nodes(tree, point, {drawn, LaneGroup::width});
         }
+        draw_nodes(tree, point, {0, drawn});
+    }
+
+    /// Whether a walk for a point ends at a node, none of which it passes by.
+    template <Space S>
+    [[nodiscard]] MIR_HD bool ends_at(const SurfelTreeView<S>& tree, std::uint32_t index,
+                                      const SurfelRay& point, float share) const {
+        const SurfelNode& node = tree.nodes[index];
+        if (node.is_leaf()) return true;
+        const SeenSphere sphere(node.centre - point.origin, node.radius);
+        const float solid_angle = share / texels_.largest_density(sphere);
+        return detail::stops_at(tree, index, point, cap_sine_squared(solid_angle));
     }
 
  private:
-    /// Texels from `first` to `last` on an axis.
-    struct Span {
+    /// Infinitely far, SurfelHit::none.
+    static constexpr std::uint64_t nothing = 0x7F800000FFFFFFFFull;
+
+    /// A run of places in an array of the workspace.
+    struct Run {
         std::uint32_t first;
-        std::uint32_t last;
+        std::uint32_t count;
     };
+
+    /// What became of the nodes that were taken.
+    struct Taken {
+        std::uint32_t inner;  ///< their children wait
+        std::uint32_t drawn;  ///< are to be drawn
+    };
+
+    /// Nodes to take of those that wait: as many as there are lanes, fewer when their children may
+    /// not have room, one when only a walk down by itself is sure to.
+    [[nodiscard]] MIR_HD static std::uint32_t portion(std::uint32_t waiting) {
+        constexpr std::uint32_t room = Workspace::most_waiting - SurfelTreeOptions::depth_limit;
+        const std::uint32_t left = waiting < room ? room - waiting : 1;
+        const std::uint32_t most = waiting < LaneGroup::width ? waiting : LaneGroup::width;
+        return left < most ? left : most;
+    }
+
+    /// Looks at a run of nodes that no longer wait. Children of inner nodes take their places,
+    /// nodes where the walk ends those behind `drawn`.
+    template <Space S>
+    MIR_HD Taken take(const SurfelTreeView<S>& tree, const SurfelRay& point, float share, Run run,
+                      std::uint32_t drawn) {
+        LaneGroup::PerLane<std::uint32_t> nodes;
+        LaneGroup::PerLane<bool> is_inner;
+        LaneGroup::PerLane<bool> is_end;
+        group_.each([&](std::uint32_t lane) {
+            is_inner[lane] = is_end[lane] = false;
+            if (lane >= run.count) return;
+            const std::uint32_t index = nodes[lane] = space_.waiting[run.first + lane];
+            const Vec3 to_centre = tree.nodes[index].centre - point.origin;
+            if (detail::lies_below(tree, index, point.normal, to_centre,
+                                   detail::padded_radius(tree.nodes[index], to_centre)))
+                return;
+            is_end[lane] = ends_at(tree, index, point, share);
+            is_inner[lane] = !is_end[lane];
+        });
+        const std::uint32_t inner =
+            group_.ballot([&](std::uint32_t lane) { return is_inner[lane]; });
+        const std::uint32_t ends = group_.ballot([&](std::uint32_t lane) { return is_end[lane]; });
+        group_.each([&](std::uint32_t lane) {
+            if (is_inner[lane]) {
+                std::uint32_t* out =
+                    space_.waiting + run.first + 2 * LaneGroup::count_before(inner, lane);
+                out[0] = tree.nodes[nodes[lane]].right;
+                out[1] = nodes[lane] + 1;
+            }
+            if (is_end[lane])
+                space_.drawn[drawn + LaneGroup::count_before(ends, lane)] = nodes[lane];
+        });
+        return {LaneGroup::count(inner), LaneGroup::count(ends)};
+    }
+
+    /// A node for each lane.
+    template <Space S>
+    MIR_HD void draw_nodes(const SurfelTreeView<S>& tree, const SurfelRay& point, Run run) {
+        group_.each([&](std::uint32_t lane) {
+            if (lane < run.count) draw_node(tree, space_.drawn[run.first + lane], point);
+        });
+    }
 
     template <Space S>
     MIR_HD void draw_node(const SurfelTreeView<S>& tree, std::uint32_t index, SurfelRay ray) {
         const SurfelNode& node = tree.nodes[index];
         const Vec3 to_centre = node.centre - ray.origin;
-        const float radius = detail::padded_radius(node, to_centre);
-        const float distance = glm::length(to_centre);
-        Span x{0, side_ - 1};
-        Span y = x;
-        if (radius < distance) {
-            const Vec3 w = frame_.to_local(to_centre / distance);
-            // Directions that meet the sphere lie at most this chord away: 2 sin(a / 2), sin a = s.
-            const float s = radius / distance;
-            const float chord = s * sqrtf(2.0f / (1.0f + sqrtf(1.0f - s * s)));
-            const Vec2 centre = disc_to_square({w.x, w.y});
-            x = covered(centre.x, chord);
-            y = covered(centre.y, chord);
-        }
-        for (std::uint32_t j = y.first; j <= y.last; ++j)
-            for (std::uint32_t i = x.first; i <= x.last; ++i) {
-                const std::uint32_t texel = j * side_ + i;
-                ray.direction = direction_[texel];
-                detail::meet_disc(tree, index, ray, hit_[texel]);
+        const TexelReach reach =
+            texels_.reach(SeenSphere(to_centre, detail::padded_radius(node, to_centre)));
+        const Span y = inside(span(reach.low.y, reach.high.y, jitter_.y));
+        const Span all_x = span(reach.low.x, reach.high.x, jitter_.x);
+        const Span x = Texels::goes_around ? once_around(all_x) : inside(all_x);
+        for (int j = y.first; j <= y.last; ++j)
+            for (int i = x.first; i <= x.last; ++i) {
+                const std::uint32_t texel =
+                    static_cast<std::uint32_t>(j) * side_ + around(static_cast<std::uint32_t>(i));
+                ray.direction = space_.direction[texel];
+                SurfelHit hit;
+                detail::meet_disc(tree, index, ray, hit);
+                if (hit.node != SurfelHit::none) keep(texel, hit);
             }
     }
 
-    /// Texels whose place in the unit square may lie as far from `centre` as a chord leads. The
-    /// map from the disc to [-1, 1]^2 lengthens no way more than sqrt(1 + (pi/4)^2) 4 / pi < 1.62
-    /// times on an axis, that to the unit square by half; some of a texel is added for rounding.
-    [[nodiscard]] MIR_HD Span covered(float centre, float chord) const {
+    MIR_HD void keep(std::uint32_t texel, const SurfelHit& hit) {
+        std::uint32_t t;
+        memcpy(&t, &hit.t, sizeof(t));
+        LaneGroup::put_least(space_.nearest[texel], std::uint64_t{t} << 32 | hit.node);
+    }
+
+    /// Texels on an axis; none when the last comes before the first.
+    struct Span {
+        int first;
+        int last;
+    };
+
+    /// Those whose directions lie between two places, `jitter` being theirs inside of texels.
+    [[nodiscard]] MIR_HD Span span(float low, float high, float jitter) const {
         const auto texels = static_cast<float>(side_);
-        const float reach = 0.81f * chord + 1e-4f;
-        const float last = texels - 1.0f;
-        const float low = smaller(larger((centre - reach) * texels - 1.0f, 0.0f), last);
-        const float high = smaller(larger((centre + reach) * texels, 0.0f), last);
-        return {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high)};
+        return {static_cast<int>(ceilf(low * texels - jitter)),
+                static_cast<int>(floorf(high * texels - jitter))};
+    }
+    [[nodiscard]] MIR_HD Span inside(Span s) const {
+        const int end = static_cast<int>(side_) - 1;
+        return {s.first > 0 ? s.first : 0, s.last < end ? s.last : end};
+    }
+    [[nodiscard]] MIR_HD Span once_around(Span s) const {
+        const int most = s.first + static_cast<int>(side_) - 1;
+        return {s.first, s.last < most ? s.last : most};
+    }
+    /// Spans start less than two turns below 0.
+    [[nodiscard]] MIR_HD std::uint32_t around(std::uint32_t i) const {
+        return (i + 2 * side_) % side_;
     }
 
-    /// Inverse of square_to_disc(); of points outside of the disc, that of their direction.
-    [[nodiscard]] MIR_HD static Vec2 disc_to_square(Vec2 p) {
-        const float r = smaller(sqrtf(glm::dot(p, p)), 1.0f);
-        if (r == 0.0f) return {0.5f, 0.5f};
-        const bool wide = fabsf(p.x) > fabsf(p.y);
-        const float share = 4.0f * inv_pi * atanf(wide ? p.y / p.x : p.x / p.y);
-        const float a = wide ? copysignf(r, p.x) : copysignf(r, p.y) * share;
-        const float b = wide ? copysignf(r, p.x) * share : copysignf(r, p.y);
-        return {0.5f * (a + 1.0f), 0.5f * (b + 1.0f)};
-    }
-
+    const LaneGroup& group_;
+    Workspace& space_;
+    const Texels& texels_;
     std::uint32_t side_;
-    Frame frame_;
-    Vec3 direction_[largest_side * largest_side];
-    SurfelHit hit_[largest_side * largest_side];
+    Vec2 jitter_;
 };
 
 }  // namespace mir

@@ -3,8 +3,7 @@
 
 #include "mir/data/image.hpp"
 #include "mir/kernels/gather_pass.hpp"
-#include "mir/micro/buffer_gather.hpp"
-#include "mir/micro/ray_gather.hpp"
+#include "mir/micro/gather_light.hpp"
 #include "mir/resident/backend_gbuffer.hpp"
 #include "mir/resident/backend_layer.hpp"
 #include "mir/resident/uploaded_surfel_tree.hpp"
@@ -26,24 +25,51 @@ class BackendGather {
         queue_.record().sync();
     }
 
-    /// `radiance` is that of the tree's nodes.
-    /// @throws Error(invalid_argument) on options out of range.
+    /// `radiance` is that of the tree's nodes. After every portion of n luxels, some milliseconds
+    /// of a GPU, it calls done(n), which may throw.
+    /// @throws Error(invalid_argument) on options out of range, and what done() throws.
+    template <class Done = decltype(no_progress)>
     [[nodiscard]] Image<Rgb> operator()(const Luxels& luxels,
                                         std::span<const SurfelRadiance> radiance,
-                                        const GatherOptions& options, const LuxelBand& band) {
-        return gather<RayGather<B::space, F>>(luxels, radiance, options, band);
+                                        const GatherOptions& options, const LuxelBand& band,
+                                        const Done& done = no_progress) {
+        check(options);
+        return gather(luxels, radiance, band, done, [&](const auto& tile, auto light) {
+            const RayGather<B::space, F> by_rays{tree_.view(), light, options};
+            return [this, pass = GatherPass{tile, by_rays, 0}](LuxelIndex first,
+                                                               std::uint32_t n) mutable {
+                pass.first = first;
+                queue_.for_each(n, pass);
+            };
+        });
     }
+    template <class Done = decltype(no_progress)>
     [[nodiscard]] Image<Rgb> operator()(const Luxels& luxels,
                                         std::span<const SurfelRadiance> radiance,
-                                        const BufferGatherOptions& options, const LuxelBand& band) {
-        return gather<BufferGather<B::space, F>>(luxels, radiance, options, band);
+                                        const BufferGatherOptions& options, const LuxelBand& band,
+                                        const Done& done = no_progress) {
+        check(options);
+        return with_buffer_side(options.side, [&](auto side) {
+            return gather(luxels, radiance, band, done, [&](const auto& tile, auto light) {
+                const BufferGather<B::space, F, side.value> by_buffers{tree_.view(), light,
+                                                                       options};
+                return [this, pass = BufferGatherPass{tile, by_buffers, 0}](
+                           LuxelIndex first, std::uint32_t n) mutable {
+                    pass.first = first;
+                    queue_.for_each_group(n, pass);
+                };
+            });
+        });
     }
 
  private:
-    template <class Gather, class Options>
+    /// Luxels between two looks at whether to go on.
+    static constexpr std::uint32_t portion = 65536;
+
+    /// make(GatherTile, radiance) gives what starts the work of a run of luxels of the tile.
+    template <class Done, class Make>
     Image<Rgb> gather(const Luxels& luxels, std::span<const SurfelRadiance> radiance,
-                      const Options& options, const LuxelBand& band) {
-        check(options);
+                      const LuxelBand& band, const Done& done, const Make& make) {
         const Tile& first = luxels.tiles().front();
         BackendGBuffer<B, typename F::Params> there(backend_, luxels.extent(),
                                                     {first.width, first.height});
@@ -52,11 +78,16 @@ class BackendGather {
         UploadedArray<B, SurfelRadiance> light(backend_, queue_, radiance);
         const WaitAtEnd wait(queue_);
         there.upload(queue_, luxels);
-        const Gather at{tree_.view(), light.data(), options};
         for (TileIndex t = 0; t < there.tiles().size(); ++t) {
             const auto view = there.view(t);
-            queue_.for_each(view.size(),
-                            GatherPass{view, there.tiles()[t], at, band, layer.tile(t)});
+            auto start =
+                make(GatherTile{view, there.tiles()[t], band, layer.tile(t)}, light.data());
+            for (LuxelIndex i = 0; i < view.size(); i += portion) {
+                const std::uint32_t n = std::min(portion, view.size() - i);
+                start(i, n);
+                queue_.record().sync();
+                done(n);
+            }
         }
         queue_.download(layer.words(), std::span(words));
         queue_.record().sync();

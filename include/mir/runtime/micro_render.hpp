@@ -11,8 +11,9 @@
 namespace mir {
 
 /// One render whose indirect light is gathered from a hierarchy of discs, with the luxels, direct
-/// light, film and layers of a TiledRender. `Engine` offers ray_caster() and visibility(),
-/// and gather(gbuffer, tree, radiance, options, band) where it gathers by itself.
+/// light, film and layers of a TiledRender. `Engine` offers ray_caster() and visibility(), and
+/// gather(gbuffer, tree, radiance, options, band, done) where it gathers by itself: done(n) is
+/// called after every portion of n luxels and may throw.
 template <Bsdf B, class Engine, Executor E>
 class MicroRender {
  public:
@@ -52,6 +53,8 @@ RenderResult MicroRender<B, Engine, E>::run() {
     const SurfelTree tree = make_tree();
     const std::vector<Radiance> sources = light(tree);
     s.surfels = tree.surfels().size();
+    if (job_.monitor != nullptr)
+        job_.monitor->planned_gathers = saturating_mul(s.luxels, sources.size());
     const ImageBands<B, Engine, E> bands(job_.context(), 0);
     const std::size_t bounces = job_.settings.bounce_layers ? sources.size() + 1 : 0;
     Canvas canvas(job_, NoScheduler{}, std::size_t{first_bounce_layer} + bounces);
@@ -119,11 +122,18 @@ Image<Rgb> MicroRender<B, Engine, E>::gather(const Band& band, const SurfelTree&
                                              const Radiance& source) {
     const MicroSettings& m = job_.settings.micro;
     const LuxelBand rows{band.first_row, job_.rays.grid, job_.settings.seed};
+    const auto done = [monitor = job_.monitor](std::uint64_t luxels) {
+        if (monitor == nullptr) return;
+        monitor->gathers.fetch_add(luxels, std::memory_order_relaxed);
+        monitor->check();
+    };
     const auto by = [&](const auto& options) {
-        if constexpr (requires { job_.engine.gather(band.gbuffer, tree, source, options, rows); })
-            return job_.engine.gather(band.gbuffer, tree, source, options, rows);
+        if constexpr (requires {
+                          job_.engine.gather(band.gbuffer, tree, source, options, rows, done);
+                      })
+            return job_.engine.gather(band.gbuffer, tree, source, options, rows, done);
         else
-            return gather_light<B>(band.gbuffer, tree, source, options, rows, job_.executor);
+            return gather_light<B>(band.gbuffer, tree, source, options, rows, job_.executor, done);
     };
     return m.luxels == MicroGather::rays ? by(m.gather) : by(m.buffer());
 }

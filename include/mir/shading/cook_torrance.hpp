@@ -6,6 +6,7 @@
 #include "mir/core/warp.hpp"
 #include "mir/shading/bsdf_sample.hpp"
 #include "mir/shading/ggx.hpp"
+#include "mir/shading/reflection_lobe.hpp"
 
 namespace mir {
 
@@ -42,6 +43,17 @@ struct CookTorrance {
     /// Inlined, so that whoever wants the direction alone does not pay for its weight.
     [[gnu::always_inline]] MIR_HD static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u,
                                                            float lobe);
+
+    /// What the interface reflects of light from `wo`: GGX in the angle of reflected directions,
+    /// which turn by twice the angle of half vectors in the plane of incidence and by less across.
+    /// None where the lobe is so wide that the cosine serves as well.
+    MIR_HD static ReflectionLobe lobe(const Params& p, Vec3 n, Vec3 wo) {
+        const float cos_o = glm::dot(n, wo);
+        const bool is_plain = p.f90 <= 0.0f && mir::is_black(p.f0);
+        if (is_plain || p.alpha > 0.5f || !(cos_o > 0.0f)) return {};
+        const float k = 0.5f / (p.alpha * p.alpha * larger(cos_o, 0.05f));
+        return {2.0f * cos_o * n - wo, smaller(k, ReflectionLobe::largest_sharpness)};
+    }
 
     /// True when nothing is reflected in any direction.
     MIR_HD static bool is_black(const Params& p) {

@@ -139,8 +139,7 @@ struct ClusterLists {
             }
             group.each([&](std::uint32_t lane) {
                 if ((partial >> lane & 1u) != 0)
-                    space.forms[kept + LaneGroup::count(partial & ((1u << lane) - 1u))] =
-                        forms[lane];
+                    space.forms[kept + LaneGroup::count_before(partial, lane)] = forms[lane];
             });
             kept += LaneGroup::count(partial);
         }

@@ -26,7 +26,7 @@ struct WorkQueue {
         if (lanes == 0) return 0;
         const std::uint32_t first = group.add(*count, LaneGroup::count(lanes));
         return lanes & group.ballot([&](std::uint32_t lane) {
-            const std::uint32_t at = first + LaneGroup::count(lanes & ((1u << lane) - 1u));
+            const std::uint32_t at = first + LaneGroup::count_before(lanes, lane);
             if ((lanes >> lane & 1u) != 0 && at < capacity) items[at] = item_of(lane);
             return at >= capacity;
         });

@@ -8,6 +8,8 @@
 
 #include <cuda_runtime.h>
 
+#include <algorithm>
+
 namespace mir::cuda {
 
 namespace detail {
@@ -16,10 +18,16 @@ namespace detail {
 /// index of its thread.
 inline constexpr std::uint32_t threads_per_block = BlockedLayout::block_size;
 
+/// Bytes of fast memory that a block may have without asking for more.
+inline constexpr std::size_t workspace_bytes = 48 * 1024;
+
 /// Warps of a block that runs groups of lanes: few, because a block keeps its place until its
-/// slowest warp is done.
-inline constexpr std::uint32_t groups_per_block = 4;
-inline constexpr std::uint32_t threads_of_groups = groups_per_block * LaneGroup::width;
+/// slowest warp is done, and no more than there is room for.
+template <class Kernel>
+inline constexpr std::uint32_t groups_per_block = static_cast<std::uint32_t>(
+    std::min<std::size_t>(4, workspace_bytes / sizeof(typename Kernel::Workspace)));
+template <class Kernel>
+inline constexpr std::uint32_t threads_of_groups = groups_per_block<Kernel>* LaneGroup::width;
 
 /// Blocks of `size` that hold `n`.
 constexpr std::uint32_t blocks_for(std::uint32_t n, std::uint32_t size) {
@@ -79,11 +87,11 @@ __global__ void __launch_bounds__(threads_per_block)
 
 /// A warp per index. Lanes leave together: conditions on `i` are the same for all of them.
 template <class Kernel>
-__global__ void __launch_bounds__(threads_of_groups, resident_blocks<Kernel>)
+__global__ void __launch_bounds__(threads_of_groups<Kernel>, resident_blocks<Kernel>)
     for_each_group_index(std::uint32_t n, const __grid_constant__ Kernel kernel) {
-    __shared__ typename Kernel::Workspace spaces[groups_per_block];
+    __shared__ typename Kernel::Workspace spaces[groups_per_block<Kernel>];
     const std::uint32_t warp = threadIdx.x / LaneGroup::width;
-    const std::uint32_t i = blockIdx.x * groups_per_block + warp;
+    const std::uint32_t i = blockIdx.x * groups_per_block<Kernel> + warp;
     if (i < n) kernel(LaneGroup{}, i, spaces[warp]);
 }
 
@@ -126,8 +134,10 @@ void Queue::for_each_group(std::uint32_t n, const Kernel& kernel) {
     detail::check_kernel<Kernel>();
     if (n == 0) return;
     const ActiveDevice active(device_);
-    detail::launch(detail::blocks_for(n, detail::groups_per_block), detail::threads_of_groups,
-                   stream_, detail::for_each_group_index<Kernel>, n, kernel);
+    constexpr std::uint32_t groups = detail::groups_per_block<Kernel>;
+    static_assert(groups > 0, "mir: a kernel's Workspace must not be larger than 48 kB");
+    detail::launch(detail::blocks_for(n, groups), detail::threads_of_groups<Kernel>, stream_,
+                   detail::for_each_group_index<Kernel>, n, kernel);
 }
 
 }  // namespace mir::cuda

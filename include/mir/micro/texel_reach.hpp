@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/math.hpp"
+
+namespace mir {
+
+/// A sphere as it is seen from a point.
+struct SeenSphere {
+    Vec3 direction{0, 0, 1};  ///< unit, of its centre
+    float sine = 1.0f;        ///< of the angle from there to its rim; 1 or more: around the point
+
+    MIR_HD SeenSphere(Vec3 to_centre, float radius) {
+        const float distance = glm::length(to_centre);
+        if (!(radius < distance)) return;
+        direction = to_centre / distance;
+        sine = radius / distance;
+    }
+
+    [[nodiscard]] MIR_HD bool is_around() const { return !(sine < 1.0f); }
+    [[nodiscard]] MIR_HD float cosine() const { return sqrtf(larger(0.0f, 1.0f - sine * sine)); }
+    /// Length of the way between unit vectors to centre and rim: 2 sin(a / 2) where sin a = sine.
+    [[nodiscard]] MIR_HD float chord() const { return sine * sqrtf(2.0f / (1.0f + cosine())); }
+};
+
+/// A rectangle of the unit square of a MicroBuffer's texels, all of it unless said. On axes that go
+/// around it may reach past 0 or 1.
+struct TexelReach {
+    Vec2 low{0.0f};
+    Vec2 high{1.0f};
+};
+
+}  // namespace mir
