@@ -54,7 +54,8 @@ void brute_force(benchmark::State& state, const std::string& scene) {
     time_rays(state, scene, brute_force_rays, [&](const mir::SurfelRay& ray) {
         mir::SurfelHit hit;
         for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)
-            if (tree.nodes()[i].is_leaf()) mir::detail::meet_disc(tree.view(), i, ray, hit);
+            if (tree.nodes()[i].is_leaf())
+                mir::detail::meet_disc(tree.view(), tree.nodes()[i], i, ray, hit);
         return hit.node != mir::SurfelHit::none;
     });
 }

@@ -65,7 +65,8 @@ void ask_all(const SurfelTree& tree, std::span<const SurfelRay> rays) {
     for (const SurfelRay& ray : rays) {
         mir::SurfelHit hit;
         for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)
-            if (tree.nodes()[i].is_leaf()) mir::detail::meet_disc(tree.view(), i, ray, hit);
+            if (tree.nodes()[i].is_leaf())
+                mir::detail::meet_disc(tree.view(), tree.nodes()[i], i, ray, hit);
         found = hit.t;
     }
 }

@@ -3,20 +3,24 @@
 #include "mir/cuda/backend.cuh"
 
 namespace mirtest {
-namespace {
 
-using Gather = mir::BackendGather<mir::cuda::Backend, mir::Lambert>;
-
-}  // namespace
-
-mir::Image<mir::Rgb> gather_on_gpu(const mir::cuda::Backend& backend, const GatherInput& in,
-                                   const mir::GatherOptions& options) {
-    return Gather(backend, in.tree)(in.luxels, in.radiance, options, in.band);
+template <mir::Bsdf B, class Options>
+mir::Image<mir::Rgb> gather_on_gpu(const mir::cuda::Backend& backend, const GatherInput<B>& in,
+                                   const Options& options) {
+    return mir::BackendGather<mir::cuda::Backend, B>(backend, in.tree)(in.luxels, in.radiance,
+                                                                       options, in.band);
 }
 
-mir::Image<mir::Rgb> gather_on_gpu(const mir::cuda::Backend& backend, const GatherInput& in,
-                                   const mir::BufferGatherOptions& options) {
-    return Gather(backend, in.tree)(in.luxels, in.radiance, options, in.band);
-}
+using Picture = mir::Image<mir::Rgb>;
+using mir::cuda::Backend;
+
+template Picture gather_on_gpu(const Backend&, const GatherInput<mir::Lambert>&,
+                               const mir::GatherOptions&);
+template Picture gather_on_gpu(const Backend&, const GatherInput<mir::Lambert>&,
+                               const mir::BufferGatherOptions&);
+template Picture gather_on_gpu(const Backend&, const GatherInput<mir::CookTorrance>&,
+                               const mir::GatherOptions&);
+template Picture gather_on_gpu(const Backend&, const GatherInput<mir::CookTorrance>&,
+                               const mir::BufferGatherOptions&);
 
 }  // namespace mirtest

@@ -104,6 +104,7 @@ TEST_CASE("a journal belongs to its scene and settings") {
           Change([](mir::RenderSettings& s) { s.micro.gather.threshold = 0.5f; }),
           Change([](mir::RenderSettings& s) { s.micro.luxels = mir::MicroGather::buffers; }),
           Change([](mir::RenderSettings& s) { s.micro.buffer_side = 8; }),
+          Change([](mir::RenderSettings& s) { s.micro.buffer_warp = mir::BufferWarp::importance; }),
           Change([](mir::RenderSettings& s) { s.metropolis.chain.tries = 3; }),
           Change([](mir::RenderSettings& s) { s.metropolis.bootstrap.relative_error = 0.1; })}) {
         mir::RenderSettings other = settings();

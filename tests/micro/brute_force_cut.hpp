@@ -15,7 +15,7 @@ mir::SurfelHit brute_force_cut(const mir::SurfelTree& tree, const mir::SurfelRay
     for (std::uint32_t i = 0; i < tree.nodes().size();) {
         const mir::SurfelNode& node = tree.nodes()[i];
         const bool ends = node.is_leaf() || is_end(i);
-        if (ends) mir::detail::meet_disc(tree.view(), i, ray, hit);
+        if (ends) mir::detail::meet_disc(tree.view(), node, i, ray, hit);
         i += ends ? 2 * node.count - 1 : 1;
     }
     return hit;
@@ -25,7 +25,8 @@ mir::SurfelHit brute_force_cut(const mir::SurfelTree& tree, const mir::SurfelRay
 inline mir::SurfelHit brute_force_cut(const mir::SurfelTree& tree, const mir::SurfelRay& ray) {
     const float sine2 = mir::cap_sine_squared(ray.solid_angle);
     return brute_force_cut(tree, ray, [&](std::uint32_t node) {
-        return mir::detail::stops_at(tree.view(), node, ray, sine2);
+        return mir::detail::stops_at(tree.nodes()[node], tree.nodes()[node].centre - ray.origin,
+                                     sine2);
     });
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 bool is_below(const SurfelTree& tree, std::uint32_t node, Vec3 origin, Vec3 normal) {
     const Vec3 to_centre = tree.nodes()[node].centre - origin;
-    return mir::detail::lies_below(tree.view(), node, normal, to_centre,
+    return mir::detail::lies_below(tree.nodes()[node], normal, to_centre,
                                    mir::detail::padded_radius(tree.nodes()[node], to_centre));
 }
 

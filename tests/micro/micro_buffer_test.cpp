@@ -22,7 +22,7 @@ std::uint32_t wrong_texels(const Buffer& buffer, const SurfelTree& tree, mir::Su
     for (std::uint32_t i = 0; i < buffer.size(); ++i) {
         point.direction = buffer.direction(i);
         const SurfelHit truth = mirtest::brute_force_cut(tree, point, [&](std::uint32_t node) {
-            return buffer.ends_at(tree.view(), node, point, share);
+            return buffer.ends_at(tree.view(), node, point.origin, share);
         });
         wrong += buffer.distance(i) == truth.t && buffer.node(i) == truth.node ? 0 : 1;
         met += truth.node != SurfelHit::none ? 1 : 0;

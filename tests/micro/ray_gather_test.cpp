@@ -120,9 +120,9 @@ TEST_CASE("The light of a node is the mean of the discs below, both sides apart"
     double worst = 0.0;
     for (std::size_t i = sums.size(); i-- > 0;) {
         const SurfelNode& node = tree.nodes()[i];
-        sums[i] = node.is_leaf() ? static_cast<long double>(node.area) * radiance[i].front.r
+        sums[i] = node.is_leaf() ? static_cast<long double>(tree.area()[i]) * radiance[i].front.r
                                  : sums[i + 1] + sums[node.right];
-        const long double power = static_cast<long double>(node.area) * radiance[i].front.r;
+        const long double power = static_cast<long double>(tree.area()[i]) * radiance[i].front.r;
         worst = std::max(worst, std::fabs(double(power / sums[i] - 1)));
         CHECK(radiance[i].front.b == 0.0f);
         CHECK(double(radiance[i].back.b) == Approx(1.0).epsilon(1e-5));

@@ -25,7 +25,8 @@ bool same(const SurfelHit& a, const SurfelHit& b) {
 SurfelHit brute_force(const SurfelTree& tree, const SurfelRay& ray) {
     SurfelHit hit;
     for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)
-        if (tree.nodes()[i].is_leaf()) mir::detail::meet_disc(tree.view(), i, ray, hit);
+        if (tree.nodes()[i].is_leaf())
+            mir::detail::meet_disc(tree.view(), tree.nodes()[i], i, ray, hit);
     return hit;
 }
 
@@ -138,7 +139,8 @@ TEST_CASE("A wall is met in few nodes from everywhere, from its own plane too") 
         std::uint32_t ends = 0;
         for (std::uint32_t i = 0; i < tree.nodes().size();) {
             const SurfelNode& node = tree.nodes()[i];
-            const bool is_end = node.is_leaf() || mir::detail::stops_at(tree.view(), i, ray, sine2);
+            const bool is_end =
+                node.is_leaf() || mir::detail::stops_at(node, node.centre - ray.origin, sine2);
             i += is_end ? 2 * node.count - 1 : 1;
             ends += is_end ? 1 : 0;
         }

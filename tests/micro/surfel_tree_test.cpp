@@ -51,7 +51,7 @@ void check_node(const SurfelTree& tree, std::span<const mir::Rgb> colors, std::u
         area += s.area;
         red += s.area * static_cast<long double>(colors[s.material].r);
     }
-    count.sums_off = std::max(count.sums_off, double(std::fabs(node.area - area) / area));
+    count.sums_off = std::max(count.sums_off, double(std::fabs(tree.area()[index] - area) / area));
     count.albedo_off =
         std::max(count.albedo_off, std::fabs(double(tree.albedo()[index].r - red / area)));
     count.depth = std::max(count.depth, depth);
@@ -197,7 +197,7 @@ TEST_CASE("Where normals cancel a node's cone is the whole sphere, and colours m
     CHECK(tree.nodes()[0].cos_angle == Approx(-1.0));
     CHECK(double(tree.albedo()[0].r) == Approx(0.5));
     CHECK(double(tree.albedo()[0].b) == Approx(0.45));
-    CHECK(double(tree.nodes()[0].area) == Approx(2.0));
+    CHECK(double(tree.area()[0]) == Approx(2.0));
 }
 
 TEST_CASE("The orientation heuristic parts the sides of a wall that halves mix") {

@@ -8,25 +8,33 @@
 #include "mir/micro/surfel_tree_build.hpp"
 #include "mir/resident/backend_gather.hpp"
 #include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/shading/cook_torrance.hpp"
 
 #include <bit>
+#include <type_traits>
 
 namespace mirtest {
 
-/// Luxels of the Cornell box in ragged tiles, and its discs with their direct light.
+/// Luxels of the Cornell box in ragged tiles, and its discs with their direct light. Its walls are
+/// glossy where the BSDF can be.
+template <mir::Bsdf B>
 struct GatherStage {
-    using Lambert = mir::Lambert;
-    using Luxels = mir::BlockedGBuffer<Lambert::Params>;
+    using Luxels = mir::BlockedGBuffer<typename B::Params>;
 
-    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    mir::Scene scene = [] {
+        mir::Scene box = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+        if (std::is_same_v<B, mir::CookTorrance>)
+            for (mir::Material& m : box.materials) m.specular = 1.0f, m.roughness = 0.4f;
+        return box;
+    }();
     mir::WorldGeometry geometry{scene};
     mir::KdTreeScene engine{geometry};
     mir::LightTable lights{scene, geometry};
-    mir::SurfaceTable<Lambert> surfaces{scene};
+    mir::SurfaceTable<B> surfaces{scene};
     mir::InlineExecutor executor;
     mir::LuxelBand band{0, {{45, 37}}, 5};
     mir::SurfelTree tree{make_surfels(geometry, {1e-3f}, {}, executor),
-                         mir::material_albedo<Lambert>(scene),
+                         mir::material_albedo<B>(scene),
                          {},
                          executor};
     std::vector<mir::SurfelRadiance> radiance =
@@ -36,8 +44,8 @@ struct GatherStage {
 
     GatherStage() {
         const mir::CameraRays rays{scene.cameras.front(), band.grid, 0};
-        fill_gbuffer<Lambert>(luxels, 0, rays, engine.ray_caster(), surfaces, geometry.ray_offset(),
-                              executor);
+        fill_gbuffer<B>(luxels, 0, rays, engine.ray_caster(), surfaces, geometry.ray_offset(),
+                        executor);
     }
 };
 

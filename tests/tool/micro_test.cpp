@@ -73,6 +73,40 @@ TEST_CASE("micro-buffers of a picture have a size and a threshold, and no rays")
     CHECK(largest_difference(picture({"--gather-threshold", "20"}), usual) > 0.0f);
 }
 
+TEST_CASE("glossy surfaces have a micro-buffer for their lobe where it is asked for") {
+    const TemporaryFolder folder("tool_micro_warp");
+    const auto picture = [&](const std::string& scene, const char* warp) {
+        const Outcome outcome = run_mir(Words{"render",
+                                              scene,
+                                              "--integrator",
+                                              "micro",
+                                              "--surfels",
+                                              "300",
+                                              "--width",
+                                              "12",
+                                              "--height",
+                                              "12",
+                                              "--direct-samples",
+                                              "1",
+                                              "--gather",
+                                              "buffers",
+                                              "--buffer-size",
+                                              "6",
+                                              "--buffer-warp",
+                                              warp,
+                                              "-o",
+                                              folder / "a.exr"});
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return mir::read_exr(folder / "a.exr").image;
+    };
+    const std::string diffuse = "builtin:cornell-box";
+    CHECK(largest_difference(picture(diffuse, "importance"), picture(diffuse, "hemisphere")) ==
+          0.0f);
+    const std::string glossy = "builtin:sphere";
+    CHECK(largest_difference(picture(glossy, "importance"), picture(glossy, "hemisphere")) > 0.0f);
+}
+
 TEST_CASE("micro-rendering tells its number of discs and has a layer for each bounce") {
     const TemporaryFolder folder("tool_micro_json");
     const Outcome outcome =
@@ -88,10 +122,10 @@ TEST_CASE("micro-rendering tells its number of discs and has a layer for each bo
 }
 
 TEST_CASE("options of micro-rendering out of range are usage errors") {
-    for (const Words& wrong :
-         {Words{"--surfels", "0"}, Words{"--gather-rays", "0"}, Words{"--gather-threshold", "-1"},
-          Words{"--surfel-rays", "65537"}, Words{"--gather-directions", "up"},
-          Words{"--gather", "discs"}, Words{"--buffer-size", "25"}}) {
+    for (const Words& wrong : {Words{"--surfels", "0"}, Words{"--gather-rays", "0"},
+                               Words{"--gather-threshold", "-1"}, Words{"--surfel-rays", "65537"},
+                               Words{"--gather-directions", "up"}, Words{"--gather", "discs"},
+                               Words{"--buffer-size", "25"}, Words{"--buffer-warp", "lobe"}}) {
         INFO(wrong[0] << " " << wrong[1]);
         check_failing_render(Words{"builtin:sphere"} + wrong, 2, wrong[0]);
     }

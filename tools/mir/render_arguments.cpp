@@ -124,6 +124,12 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
         "How a luxel gathers: by rays (default) or by a micro-buffer");
     add_count(app, "--buffer-size", m.buffer_side, 1, mir::BufferGatherOptions::largest_side,
               "Texels of a micro-buffer in each direction (default 16)");
+    add_choice<mir::BufferWarp>(
+        app, "--buffer-warp", m.buffer_warp,
+        {{"hemisphere", mir::BufferWarp::hemisphere}, {"importance", mir::BufferWarp::importance}},
+        "Where its texels look: the hemisphere by its cosine (default), or glossy surfaces also "
+        "into "
+        "their lobe, with a second buffer");
     add_count(app, "--gather-rays", m.gather.rays, 1, 65536,
               "Rays with which a luxel gathers (default 128)");
     add_choice<mir::GatherDirections>(
@@ -131,8 +137,8 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
         {{"cosine", mir::GatherDirections::cosine}, {"uniform", mir::GatherDirections::uniform}},
         "Their density over the hemisphere (default cosine)");
     app.add_option("--gather-threshold", m.gather.threshold,
-                   "Solid angle of a node at which a ray stops, in units of the ray's own; 0 is "
-                   "exact (default 1)")
+                   "Solid angle of a node at which a ray stops or a texel is filled, in units of "
+                   "their own; 0 is exact (default 1)")
         ->check(between(0, 1e6, "0 to 1000000"));
     add_count(app, "--surfel-rays", m.surfel_rays, 1, 65536,
               "Rays with which each side of a disc gathers later bounces (default 32)");

@@ -14,14 +14,17 @@ namespace mir {
 template <std::uint32_t Side>
 struct MicroBufferSpace {
     static constexpr std::uint32_t side = Side;
-    /// Room for 32 lanes on each way of a tree of a million discs; less makes lanes idle, never
-    /// fail.
-    static constexpr std::uint32_t most_waiting = 640;
+    /// Nodes that may wait: fewer make lanes idle, never fail; more leave room for fewer groups.
+    static constexpr std::uint32_t most_waiting = 384;
 
     std::uint64_t nearest[Side * Side];
     Vec3 direction[Side * Side];
     std::uint32_t waiting[most_waiting];
     std::uint32_t drawn[2 * LaneGroup::width];
+    // Of up to 32 nodes that are drawn together:
+    SurfelNode node[LaneGroup::width];
+    std::uint32_t area[LaneGroup::width];    ///< texels that it may cover
+    std::uint32_t before[LaneGroup::width];  ///< texels of the nodes before
 };
 
 /// A small picture of what is around a point: what each of its texels sees first of a tree of
@@ -93,15 +96,12 @@ class MicroBuffer {
         draw_nodes(tree, point, {0, drawn});
     }
 
-    /// Whether a walk for a point ends at a node, none of which it passes by.
+    /// Whether a walk for a point ends at a node that it does not pass by.
     template <Space S>
     [[nodiscard]] MIR_HD bool ends_at(const SurfelTreeView<S>& tree, std::uint32_t index,
-                                      const SurfelRay& point, float share) const {
+                                      Vec3 origin, float share) const {
         const SurfelNode& node = tree.nodes[index];
-        if (node.is_leaf()) return true;
-        const SeenSphere sphere(node.centre - point.origin, node.radius);
-        const float solid_angle = share / texels_.largest_density(sphere);
-        return detail::stops_at(tree, index, point, cap_sine_squared(solid_angle));
+        return ends_at(node, node.centre - origin, share);
     }
 
  private:
@@ -135,18 +135,23 @@ class MicroBuffer {
     MIR_HD Taken take(const SurfelTreeView<S>& tree, const SurfelRay& point, float share, Run run,
                       std::uint32_t drawn) {
         LaneGroup::PerLane<std::uint32_t> nodes;
+        LaneGroup::PerLane<std::uint32_t> right;
         LaneGroup::PerLane<bool> is_inner;
         LaneGroup::PerLane<bool> is_end;
         group_.each([&](std::uint32_t lane) {
             is_inner[lane] = is_end[lane] = false;
             if (lane >= run.count) return;
             const std::uint32_t index = nodes[lane] = space_.waiting[run.first + lane];
-            const Vec3 to_centre = tree.nodes[index].centre - point.origin;
-            if (detail::lies_below(tree, index, point.normal, to_centre,
-                                   detail::padded_radius(tree.nodes[index], to_centre)))
+            // A copy: a GPU reads it in three pieces, not member by member.
+            const SurfelNode node = tree.nodes[index];
+            const Vec3 to_centre = node.centre - point.origin;
+            if (detail::lies_below(node, point.normal, to_centre,
+                                   detail::padded_radius(node, to_centre)))
                 return;
-            is_end[lane] = ends_at(tree, index, point, share);
-            is_inner[lane] = !is_end[lane];
+            right[lane] = node.right;
+            const bool ends = ends_at(node, to_centre, share);
+            is_inner[lane] = !ends;
+            is_end[lane] = ends && (node.is_leaf() || detail::is_above(point, to_centre));
         });
         const std::uint32_t inner =
             group_.ballot([&](std::uint32_t lane) { return is_inner[lane]; });
@@ -155,7 +160,7 @@ class MicroBuffer {
             if (is_inner[lane]) {
                 std::uint32_t* out =
                     space_.waiting + run.first + 2 * LaneGroup::count_before(inner, lane);
-                out[0] = tree.nodes[nodes[lane]].right;
+                out[0] = right[lane];
                 out[1] = nodes[lane] + 1;
             }
             if (is_end[lane])
@@ -164,32 +169,80 @@ class MicroBuffer {
         return {LaneGroup::count(inner), LaneGroup::count(ends)};
     }
 
-    /// A node for each lane.
-    template <Space S>
-    MIR_HD void draw_nodes(const SurfelTreeView<S>& tree, const SurfelRay& point, Run run) {
-        group_.each([&](std::uint32_t lane) {
-            if (lane < run.count) draw_node(tree, space_.drawn[run.first + lane], point);
-        });
+    [[nodiscard]] MIR_HD bool ends_at(const SurfelNode& node, Vec3 to_centre, float share) const {
+        if (node.is_leaf()) return true;
+        const float solid_angle =
+            share / texels_.largest_density(SeenSphere(to_centre, node.radius));
+        return detail::stops_at(node, to_centre, cap_sine_squared(solid_angle));
     }
 
+    /// Texels that up to 32 nodes may cover are found by a lane for each node, and met by a lane
+    /// for each texel of a node, for nodes cover one texel or many.
     template <Space S>
-    MIR_HD void draw_node(const SurfelTreeView<S>& tree, std::uint32_t index, SurfelRay ray) {
-        const SurfelNode& node = tree.nodes[index];
-        const Vec3 to_centre = node.centre - ray.origin;
+    MIR_HD void draw_nodes(const SurfelTreeView<S>& tree, const SurfelRay& point, Run run) {
+        LaneGroup::PerLane<std::uint32_t> before;
+        group_.each([&](std::uint32_t lane) {
+            Area area{};
+            if (lane < run.count) {
+                space_.node[lane] = tree.nodes[space_.drawn[run.first + lane]];
+                area = area_of(space_.node[lane], point.origin);
+            }
+            space_.area[lane] = area.word;
+            before[lane] = area.texels;
+        });
+        const std::uint32_t texels = group_.sums_before(before);
+        group_.each([&](std::uint32_t lane) { space_.before[lane] = before[lane]; });
+        for (std::uint32_t first = 0; first < texels; first += LaneGroup::width)
+            group_.each([&](std::uint32_t lane) {
+                if (first + lane >= texels) return;
+                const std::uint32_t drawn = owner(first + lane);
+                const std::uint32_t texel =
+                    texel_of(space_.area[drawn], first + lane - space_.before[drawn]);
+                SurfelRay ray = point;
+                ray.direction = space_.direction[texel];
+                SurfelHit hit;
+                detail::meet_disc(tree, space_.node[drawn], space_.drawn[run.first + drawn], ray,
+                                  hit);
+                if (hit.node != SurfelHit::none) keep(texel, hit);
+            });
+    }
+
+    /// The node to which one of the texels belongs that are counted over all of them: the last with
+    /// no more before it.
+    [[nodiscard]] MIR_HD std::uint32_t owner(std::uint32_t texel) const {
+        std::uint32_t found = 0;
+        for (std::uint32_t step = LaneGroup::width / 2; step > 0; step /= 2)
+            if (space_.before[found + step] <= texel) found += step;
+        return found;
+    }
+
+    /// A rectangle of texels in a word: its first column, row and width, eight bits each.
+    struct Area {
+        std::uint32_t word;
+        std::uint32_t texels;
+    };
+
+    /// Texels that a node may cover.
+    [[nodiscard]] MIR_HD Area area_of(const SurfelNode& node, Vec3 origin) const {
+        const Vec3 to_centre = node.centre - origin;
         const TexelReach reach =
             texels_.reach(SeenSphere(to_centre, detail::padded_radius(node, to_centre)));
         const Span y = inside(span(reach.low.y, reach.high.y, jitter_.y));
         const Span all_x = span(reach.low.x, reach.high.x, jitter_.x);
         const Span x = Texels::goes_around ? once_around(all_x) : inside(all_x);
-        for (int j = y.first; j <= y.last; ++j)
-            for (int i = x.first; i <= x.last; ++i) {
-                const std::uint32_t texel =
-                    static_cast<std::uint32_t>(j) * side_ + around(static_cast<std::uint32_t>(i));
-                ray.direction = space_.direction[texel];
-                SurfelHit hit;
-                detail::meet_disc(tree, index, ray, hit);
-                if (hit.node != SurfelHit::none) keep(texel, hit);
-            }
+        if (x.last < x.first || y.last < y.first) return {};
+        const auto width = static_cast<std::uint32_t>(x.last - x.first + 1);
+        const auto height = static_cast<std::uint32_t>(y.last - y.first + 1);
+        const std::uint32_t column = around(static_cast<std::uint32_t>(x.first));
+        return {column | static_cast<std::uint32_t>(y.first) << 8 | width << 16, width * height};
+    }
+
+    /// Number k of a rectangle, row by row.
+    [[nodiscard]] MIR_HD std::uint32_t texel_of(std::uint32_t area, std::uint32_t k) const {
+        const std::uint32_t width = area >> 16;
+        const std::uint32_t row = k / width;
+        const std::uint32_t column = (area & 0xFFu) + (k - row * width);
+        return ((area >> 8 & 0xFFu) + row) * side_ + (column < side_ ? column : column - side_);
     }
 
     MIR_HD void keep(std::uint32_t texel, const SurfelHit& hit) {

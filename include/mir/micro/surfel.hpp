@@ -8,8 +8,9 @@
 namespace mir {
 
 /// A disc that stands for a piece of a triangle: around the centroid of the piece, in the plane of
-/// the triangle, and no larger than the piece where that is known. A trivially copyable value.
-struct Surfel {
+/// the triangle, and no larger than the piece where that is known. A trivially copyable value of 64
+/// bytes.
+struct alignas(16) Surfel {
     Vec3 position{0};            ///< centre, metres
     float radius = 0.0f;         ///< metres; SurfelOptions::extent says which
     Vec3 normal{0, 0, 1};        ///< unit, of the triangle's front
@@ -41,5 +42,7 @@ struct Surfel {
         return across >= 0.0f || across * across <= margin * margin * length_squared(edge);
     }
 };
+
+static_assert(sizeof(Surfel) == 64);
 
 }  // namespace mir

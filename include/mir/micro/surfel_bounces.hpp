@@ -21,7 +21,7 @@ namespace detail {
 inline double sent_power(const SurfelTree& tree, std::span<const SurfelRadiance> radiance) {
     if (radiance.empty()) return 0.0;
     const float both = luminance(radiance[0].front) + luminance(radiance[0].back);
-    return static_cast<double>(pi) * static_cast<double>(tree.nodes()[0].area) *
+    return static_cast<double>(pi) * static_cast<double>(tree.area()[0]) *
            static_cast<double>(both);
 }
 

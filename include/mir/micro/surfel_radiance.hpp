@@ -45,8 +45,8 @@ template <Space S>
                                                      const SurfelRadiance* radiance) {
     const auto mean = [](Rgb a, Rgb b, float share) { return a * (1.0f - share) + b * share; };
     const std::uint32_t right_index = tree.nodes[index].right;
-    const float right_area = tree.nodes[right_index].area;
-    const float share = right_area / (tree.nodes[index + 1].area + right_area);
+    const float right_area = tree.area[right_index];
+    const float share = right_area / (tree.area[index + 1] + right_area);
     const SurfelRadiance& left = radiance[index + 1];
     const SurfelRadiance& right = radiance[right_index];
     return {mean(left.front, right.front, share), mean(left.back, right.back, share)};

@@ -26,17 +26,14 @@ MIR_HD inline bool is_above(const SurfelRay& ray, Vec3 to_centre) {
 /// sphere is asked first. Most nodes that it cuts belong to the wall that gathers, whose discs lie
 /// in the plane: they are in a slab across the axis, of which the plane's normal sees
 /// |cos| thickness + sin radius.
-template <Space S>
-MIR_HD bool lies_below(const SurfelTreeView<S>& tree, std::uint32_t index, Vec3 normal,
-                       Vec3 to_centre, float padded) {
-    const SurfelNode& node = tree.nodes[index];
+MIR_HD inline bool lies_below(const SurfelNode& node, Vec3 normal, Vec3 to_centre, float padded) {
     const float height = glm::dot(normal, to_centre);
     if (height < -padded) return true;
     if (!(height < 0.0f) || normal == Vec3(0.0f)) return false;
     const float cosine = glm::dot(normal, node.axis);
     const float sine = glm::length(glm::cross(normal, node.axis));
     const float pad = padded - node.radius;
-    return height + fabsf(cosine) * tree.thickness[index] + sine * node.radius < -pad;
+    return height + fabsf(cosine) * node.thickness + sine * node.radius < -pad;
 }
 
 /// Takes a hit when it is nearer, or as near at a lower index.
@@ -60,11 +57,10 @@ MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, flo
 }
 
 /// Meets a disc of the node's radius across its axis: of a leaf, the disc itself, as far as it lies
-/// in its piece.
+/// in its piece. `node` is what lies at `index`, or a copy of it.
 template <Space S>
-MIR_HD void meet_disc(const SurfelTreeView<S>& tree, std::uint32_t index, const SurfelRay& ray,
-                      SurfelHit& hit) {
-    const SurfelNode& node = tree.nodes[index];
+MIR_HD void meet_disc(const SurfelTreeView<S>& tree, const SurfelNode& node, std::uint32_t index,
+                      const SurfelRay& ray, SurfelHit& hit) {
     const Vec3 to_centre = node.centre - ray.origin;
     const float cosine = glm::dot(node.axis, ray.direction);
     const float t = glm::dot(node.axis, to_centre) / cosine;
@@ -83,47 +79,39 @@ MIR_HD inline void meet_sphere(const SurfelNode& node, std::uint32_t index, cons
     const float along = glm::dot(to_centre, ray.direction);
     const float inside2 =
         node.radius * node.radius - length_squared(to_centre - along * ray.direction);
-    if (along > 0.0f && inside2 >= 0.0f)
+    if (along > 0.0f && inside2 >= 0.0f && is_above(ray, to_centre))
         take_nearer(hit, along - sqrtf(inside2), index, glm::dot(node.axis, to_centre) < 0.0f);
 }
 
-/// True when all discs below a node show the same side to a point: the cone around their normals,
-/// widened by the angle under which the sphere is seen, lies on one side of the direction there.
-/// Or, what flat walls seen at a slant need: the point is so far out of the slab of the discs that
-/// even the normal most tilted towards it, at the place farthest across, sees it from the same
-/// side. Or the slab is so flat that what is in doubt is seen under less than a thousandth of the
-/// node's angle: a wall seen edge-on. `s` is (radius / distance)^2, below 1.
-template <Space S>
-MIR_HD bool shows_one_side(const SurfelTreeView<S>& tree, std::uint32_t index, Vec3 to_centre,
-                           float distance2, float s) {
-    const SurfelNode& node = tree.nodes[index];
-    const float cos_cone = node.cos_angle;
-    const float sin_cone = sqrtf(larger(0.0f, 1.0f - cos_cone * cos_cone));
-    const float cos_seen = sqrtf(1.0f - s);
-    const float sin_seen = sqrtf(s);
-    if (!(cos_cone * cos_seen > sin_cone * sin_seen)) return false;
-    const float sine = sin_cone * cos_seen + cos_cone * sin_seen;
-    const float height = fabsf(glm::dot(node.axis, to_centre));
-    if (height > sine * sqrtf(distance2)) return true;
-    const float across = glm::length(glm::cross(node.axis, to_centre)) + node.radius;
-    const float pad = padded_radius(node, to_centre) - node.radius;
-    const float doubt = tree.thickness[index] * cos_cone + sin_cone * across + pad;
-    return height * cos_cone > doubt || doubt < 0x1p-10f * sqrtf(distance2);
+/// True when all discs below a node show the same side to a point: however a normal of its cone is
+/// tilted, all of the sphere lies on one side of the plane through the point across that normal.
+/// Or, what flat walls seen at a slant need, all of the slab of the discs does. Or the slab is so
+/// flat that what is in doubt is seen under less than a thousandth of the node's angle: a wall seen
+/// edge-on.
+MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre) {
+    const float cosine = node.cos_angle;
+    if (!(cosine > 0.0f)) return false;
+    const float sine2 = larger(0.0f, 1.0f - cosine * cosine);
+    // How much nearer to the centre the plane may come because normals are tilted, squared.
+    const float tilt2 = sine2 * length_squared(glm::cross(node.axis, to_centre));
+    const auto is_beyond_tilt = [tilt2](float x) { return x > 0.0f && x * x > tilt2; };
+    const float height = fabsf(glm::dot(node.axis, to_centre)) * cosine;
+    const float padded = padded_radius(node, to_centre);
+    if (is_beyond_tilt(height - padded)) return true;
+    const float doubt =
+        node.thickness * cosine + sqrtf(sine2) * node.radius + (padded - node.radius);
+    return is_beyond_tilt(height - doubt) ||
+           is_beyond_tilt(0x1p-10f * glm::length(to_centre) - doubt);
 }
 
-/// True when a ray stops at an inner node: it is not inside, the node's solid angle is not larger
-/// than the ray's (`sine2` is its cap_sine_squared()), its centre is not below the tangent plane,
-/// and it shows one side.
-template <Space S>
-MIR_HD bool stops_at(const SurfelTreeView<S>& tree, std::uint32_t index, const SurfelRay& ray,
-                     float sine2) {
-    const SurfelNode& node = tree.nodes[index];
-    const Vec3 to_centre = node.centre - ray.origin;
+/// True when a ray ends at an inner node: it is not inside, the node's solid angle is not larger
+/// than the ray's (`sine2` is its cap_sine_squared()), and it shows one side. As a disc, it is
+/// passed by when its centre lies below the tangent plane.
+MIR_HD inline bool stops_at(const SurfelNode& node, Vec3 to_centre, float sine2) {
     const float distance2 = length_squared(to_centre);
     const float radius2 = node.radius * node.radius;
     if (!(radius2 < distance2) || !(radius2 <= sine2 * distance2)) return false;
-    return is_above(ray, to_centre) &&
-           shows_one_side(tree, index, to_centre, distance2, radius2 / distance2);
+    return shows_one_side(node, to_centre);
 }
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
@@ -137,7 +125,7 @@ MIR_HD float entry(const SurfelTreeView<S>& tree, std::uint32_t index, const Sur
     const float radius = padded_radius(node, to_centre);
     const float along = glm::dot(to_centre, ray.direction);
     const float inside2 = radius * radius - length_squared(to_centre - along * ray.direction);
-    if (!(inside2 >= 0.0f) || lies_below(tree, index, ray.normal, to_centre, radius)) return never;
+    if (!(inside2 >= 0.0f) || lies_below(node, ray.normal, to_centre, radius)) return never;
     const float half = sqrtf(inside2);
     return along + half < 0.0f ? never : along - half;
 }
@@ -195,12 +183,12 @@ template <Space S>
     std::uint32_t index = tree.root;
     while (index != SurfelHit::none) {
         const SurfelNode& node = tree.nodes[index];
-        if (!node.is_leaf() && !detail::stops_at(tree, index, ray, sine2)) {
+        if (!node.is_leaf() && !detail::stops_at(node, node.centre - ray.origin, sine2)) {
             index = detail::descend(tree, index, ray, hit.t, waiting);
             continue;
         }
         if (node.is_leaf() || shape == StopShape::disc)
-            detail::meet_disc(tree, index, ray, hit);
+            detail::meet_disc(tree, node, index, ray, hit);
         else
             detail::meet_sphere(node, index, ray, hit);
         index = waiting.pop(hit.t);

@@ -26,21 +26,21 @@ class SurfelTree {
                const SurfelTreeOptions& options, E& executor);
 
     [[nodiscard]] SurfelTreeView<Space::host> view() const {
-        return {nodes_.data(), albedo_.data(), surfels_.data(), thickness_.data(),
+        return {nodes_.data(), albedo_.data(), surfels_.data(), area_.data(),
                 static_cast<std::uint32_t>(nodes_.size())};
     }
 
     [[nodiscard]] std::span<const SurfelNode> nodes() const { return nodes_; }
     /// Of nodes: mean over the area below, 0..1.
     [[nodiscard]] std::span<const Rgb> albedo() const { return albedo_; }
-    /// SurfelTreeView::thickness.
-    [[nodiscard]] std::span<const float> thickness() const { return thickness_; }
+    /// Of nodes: of the pieces that the discs below stand for, m^2.
+    [[nodiscard]] std::span<const float> area() const { return area_; }
     /// In the order of the tree: SurfelNode::first counts them.
     [[nodiscard]] std::span<const Surfel> surfels() const { return surfels_; }
 
     /// Memory held, bytes.
     [[nodiscard]] std::size_t bytes() const {
-        return nodes().size_bytes() + albedo().size_bytes() + thickness().size_bytes() +
+        return nodes().size_bytes() + albedo().size_bytes() + area().size_bytes() +
                surfels().size_bytes();
     }
 
@@ -48,7 +48,7 @@ class SurfelTree {
     std::vector<Surfel> surfels_;
     std::vector<SurfelNode> nodes_;
     std::vector<Rgb> albedo_;
-    std::vector<float> thickness_;
+    std::vector<float> area_;
 };
 
 }  // namespace mir

@@ -25,13 +25,13 @@ class SurfelGrower {
  public:
     SurfelGrower(std::span<Surfel> surfels, std::span<const Rgb> material_albedo,
                  const SurfelTreeOptions& options, std::span<SurfelNode> nodes,
-                 std::span<Rgb> albedo, std::span<float> thickness)
+                 std::span<Rgb> albedo, std::span<float> area)
         : surfels_(surfels),
           material_albedo_(material_albedo),
           options_(options),
           nodes_(nodes),
           albedo_(albedo),
-          thickness_(thickness) {}
+          area_(area) {}
 
     /// Makes one node and returns its children, which have a count of 0 below leaves.
     [[nodiscard]] std::array<SurfelJob, 2> grow_one(const SurfelJob& job) const {
@@ -64,10 +64,15 @@ class SurfelGrower {
             area += static_cast<double>(s.area);
             reflected += static_cast<double>(s.area) * Double3(albedo.r, albedo.g, albedo.b);
         }
-        nodes_[job.node] = {
-            sphere.centre, sphere.radius, cone.axis, cone.cos_angle, static_cast<float>(area),
-            right,         job.first,     job.count};
-        thickness_[job.node] = thickness_along(range, sphere.centre, cone.axis);
+        nodes_[job.node] = {sphere.centre,
+                            sphere.radius,
+                            cone.axis,
+                            cone.cos_angle,
+                            thickness_along(range, sphere.centre, cone.axis),
+                            right,
+                            job.first,
+                            job.count};
+        area_[job.node] = static_cast<float>(area);
         const Vec3 mean(reflected / area);
         albedo_[job.node] = {mean.x, mean.y, mean.z};
     }
@@ -77,7 +82,7 @@ class SurfelGrower {
     SurfelTreeOptions options_;
     std::span<SurfelNode> nodes_;
     std::span<Rgb> albedo_;
-    std::span<float> thickness_;
+    std::span<float> area_;
 };
 
 /// Grows level by level until what is left below a node is work for one thread.
@@ -117,10 +122,10 @@ SurfelTree::SurfelTree(std::vector<Surfel> surfels, std::span<const Rgb> albedo,
     if (surfels_.empty()) return;
     nodes_.resize(2 * surfels_.size() - 1);
     albedo_.resize(nodes_.size());
-    thickness_.resize(nodes_.size());
+    area_.resize(nodes_.size());
     const std::uint32_t depth =
         std::max(options.max_depth, detail::balanced_depth_of(surfels_.size()));
-    const detail::SurfelGrower grower(surfels_, albedo, options, nodes_, albedo_, thickness_);
+    const detail::SurfelGrower grower(surfels_, albedo, options, nodes_, albedo_, area_);
     detail::grow_tree(grower, {0, static_cast<std::uint32_t>(surfels_.size()), 0, depth - 1},
                       executor);
 }

@@ -23,10 +23,7 @@ struct SurfelTreeView {
     const SurfelNode* nodes = nullptr;  ///< aligned to 16 bytes
     const Rgb* albedo = nullptr;        ///< of nodes: mean over the area below, 0..1
     const Surfel* surfels = nullptr;    ///< discs, counted by SurfelNode::first
-    /// Of nodes: how far their discs reach from the centre of the sphere along the axis of the
-    /// cone, to either side, metres. A flat piece of a wall has its sphere's radius across and next
-    /// to nothing along.
-    const float* thickness = nullptr;
+    const float* area = nullptr;   ///< of nodes: of the pieces that the discs below stand for, m^2
     std::uint32_t node_count = 0;  ///< 0: there is no disc
 
     [[nodiscard]] MIR_HD bool empty() const { return node_count == 0; }

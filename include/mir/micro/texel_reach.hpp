@@ -13,14 +13,16 @@ struct SeenSphere {
     MIR_HD SeenSphere(Vec3 to_centre, float radius) {
         const float distance = glm::length(to_centre);
         if (!(radius < distance)) return;
-        direction = to_centre / distance;
-        sine = radius / distance;
+        const float share = 1.0f / distance;
+        direction = share * to_centre;
+        sine = share * radius;
     }
 
     [[nodiscard]] MIR_HD bool is_around() const { return !(sine < 1.0f); }
     [[nodiscard]] MIR_HD float cosine() const { return sqrtf(larger(0.0f, 1.0f - sine * sine)); }
-    /// Length of the way between unit vectors to centre and rim: 2 sin(a / 2) where sin a = sine.
-    [[nodiscard]] MIR_HD float chord() const { return sine * sqrtf(2.0f / (1.0f + cosine())); }
+    /// Length of the way between unit vectors to centre and rim, or more: 2 sin(a / 2) is at most
+    /// s (1 + (sqrt(2) - 1) s^2) where sin a = s.
+    [[nodiscard]] MIR_HD float chord() const { return sine * (1.0f + 0.4143f * sine * sine); }
 };
 
 /// A rectangle of the unit square of a MicroBuffer's texels, all of it unless said. On axes that go

@@ -15,11 +15,11 @@ class UploadedSurfelTree {
         : nodes_(backend, queue, tree.nodes()),
           albedo_(backend, queue, tree.albedo()),
           surfels_(backend, queue, tree.surfels()),
-          thickness_(backend, queue, tree.thickness()) {}
+          area_(backend, queue, tree.area()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
     [[nodiscard]] SurfelTreeView<B::space> view() const {
-        return {nodes_.data(), albedo_.data(), surfels_.data(), thickness_.data(),
+        return {nodes_.data(), albedo_.data(), surfels_.data(), area_.data(),
                 static_cast<std::uint32_t>(nodes_.size())};
     }
 
@@ -27,7 +27,7 @@ class UploadedSurfelTree {
     UploadedArray<B, SurfelNode> nodes_;
     UploadedArray<B, Rgb> albedo_;
     UploadedArray<B, Surfel> surfels_;
-    UploadedArray<B, float> thickness_;
+    UploadedArray<B, float> area_;
 };
 
 }  // namespace mir

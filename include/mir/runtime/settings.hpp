@@ -62,9 +62,12 @@ struct MicroSettings {
     MicroGather luxels = MicroGather::rays;
     GatherOptions gather;  ///< of rays, at each luxel; but for their number at discs too
     std::uint32_t buffer_side = BufferGatherOptions{}.side;  ///< texels of MicroGather::buffers
+    BufferWarp buffer_warp = BufferWarp::hemisphere;         ///< of MicroGather::buffers
 
     /// Of MicroGather::buffers, whose threshold is that of rays.
-    [[nodiscard]] BufferGatherOptions buffer() const { return {buffer_side, gather.threshold}; }
+    [[nodiscard]] BufferGatherOptions buffer() const {
+        return {buffer_side, gather.threshold, buffer_warp};
+    }
 
     /// Directions in which a luxel looks.
     [[nodiscard]] std::uint32_t directions() const {
