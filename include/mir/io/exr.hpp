@@ -33,6 +33,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -233,7 +234,7 @@ inline Image<Rgb> read_channels(std::ifstream& stream, const std::filesystem::pa
 /// against hostile files in every version that distributions ship: read files that you trust.
 /// @throws Error(invalid_input) when the file or the layer is missing or broken,
 ///         Error(unsupported) for several parts or deep pixels, Error(limit_exceeded) when the
-///         file passes `limits`.
+///         file passes `limits`; std::bad_alloc.
 inline ExrImage read_exr(const std::filesystem::path& path, const std::string& layer = "",
                          const Limits& limits = {}) {
     std::error_code failure;
@@ -251,6 +252,8 @@ inline ExrImage read_exr(const std::filesystem::path& path, const std::string& l
                 result.attributes.emplace_back(a.name(), text->value());
         return result;
     } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& broken) {
         detail::cannot_read(path, broken.what(), "write it again");
