@@ -4,6 +4,11 @@
 #include "support/catch.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -50,6 +55,42 @@ TEST_CASE("two writers of one file do not share a temporary name") {
     mir::AtomicFile first(folder / "a");
     mir::AtomicFile second(folder / "a");
     CHECK(first.temporary() != second.temporary());
+}
+
+TEST_CASE("what a killed process left over is removed by the next writer of that name") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    for (const char* left : {".a.0.tmp", ".a.1.tmp", ".a.2.tmp", ".b.0.tmp"})
+        write(folder / left, "half of it");
+    {
+        mir::AtomicFile file(folder / "a");
+        write(file.temporary(), "new");
+        file.commit();
+    }
+    CHECK(read(folder / "a") == "new");
+    CHECK(read(folder / ".b.0.tmp") == "half of it");
+    CHECK(folder.files() == 2);
+}
+
+TEST_CASE("what another process is writing is left to it, what it wrote before it was killed not") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    std::array<int, 2> ready{};
+    REQUIRE(pipe(ready.data()) == 0);
+    const pid_t writer = fork();
+    if (writer == 0) {
+        mir::AtomicFile file(folder / "a");
+        write(file.temporary(), "half of it");
+        static_cast<void>(::write(ready[1], "x", 1));
+        while (true) pause();
+    }
+    char x = 0;
+    REQUIRE(::read(ready[0], &x, 1) == 1);
+    CHECK(mir::AtomicFile(folder / "a").temporary().filename() == ".a.1.tmp");
+    CHECK(read(folder / ".a.0.tmp") == "half of it");
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    CHECK(folder.files() == 1);
+    CHECK(mir::AtomicFile(folder / "a").temporary().filename() == ".a.0.tmp");
+    CHECK(folder.files() == 0);
 }
 
 TEST_CASE("a link is followed, so that it still is a link afterwards") {

@@ -4,6 +4,7 @@
 #include "mir/core/random.hpp"
 #include "support/catch.hpp"
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -228,4 +229,31 @@ TEST_CASE("a header that declares more pixels than allowed is refused before mem
     std::ofstream(file, std::ios::binary) << bytes;
     check_refused(mir::ErrorCode::limit_exceeded, "pixels",
                   [&] { static_cast<void>(mir::read_exr(file)); });
+}
+
+TEST_CASE("a header that announces more than the file has is refused before memory is taken") {
+    const auto [name, says] = GENERATE(table<std::string, std::string>(
+        {{"long_attribute.exr", "bytes, but the file has "},
+         {"long_channels.exr",
+          "attribute 'channels' has 55 bytes, but one of type 'chlist' has "}}));
+    const fs::path file = fs::path(MIR_FOUND_INPUTS_DIR) / "exr" / name;
+    check_refused(mir::ErrorCode::invalid_input, says,
+                  [&] { static_cast<void>(mir::read_exr(file)); });
+}
+
+TEST_CASE("pixels that the file's bytes cannot hold are refused before memory is taken") {
+    const Folder folder("bomb");
+    const fs::path file = folder.path / "a.exr";
+    const Image<Rgb> image({2, 2});
+    mir::write_exr(file, image.extent(), {{"", &image}});
+    const std::string bytes = bytes_of(file);
+    const std::size_t box = bytes.find("dataWindow") + 11 + 6 + 4;
+    // One row of many pixels, and one column: many parts.
+    for (const auto& size : {std::array{99'999'999, 0}, std::array{0, 999'999}}) {
+        std::string wrong = bytes;
+        std::memcpy(&wrong[box + 8], size.data(), sizeof size);
+        std::ofstream(file, std::ios::binary) << wrong;
+        check_refused(mir::ErrorCode::invalid_input, "bytes cannot hold",
+                      [&] { static_cast<void>(mir::read_exr(file)); });
+    }
 }

@@ -136,6 +136,13 @@ TEST_CASE("what an OBJ file asks for and does not get is counted") {
     CHECK(loaded.report.triangles == 2);
 }
 
+TEST_CASE("an OBJ file may begin with blank lines") {
+    // A sanitizer noticed that the search for a backslash left the text.
+    const auto loaded = read("   \n \n" + corners + "f 1 2 \\\n 3\n");
+    CHECK(loaded.report.triangles == 1);
+    CHECK(loaded.report.ignored.empty());
+}
+
 TEST_CASE("damage in an OBJ file is refused with its line and a remedy") {
     struct Damage {
         std::string obj;
@@ -161,6 +168,8 @@ TEST_CASE("damage in an OBJ file is refused with its line and a remedy") {
         {corners + "f 1 2 4294967297\n", "line 5: a corner of a face is none", ""},
         {std::string("v 0 0 0\n\0", 9), "byte 8: it is zero", ""},
         {lib, "my scene.mtl, line 2: Kd is no number ('red')", "newmtl a\nKd red\n"},
+        {lib, "my scene.mtl, line 2: Kd has an exponent of many digits ('1e-2147483648')",
+         "newmtl a\nKd 1 1 1e-2147483648\n"},
         {lib, "line 2: Ns is not a finite number", "newmtl a\nNs inf\n"},
         {lib, "my scene.mtl, line 2: Ke has no number", "newmtl a\nKe\n"},
         {lib, "my scene.mtl, material 'a': Ke is negative", "newmtl a\nKe 1 1 -1\n"},

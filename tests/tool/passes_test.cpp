@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "mir/core/random.hpp"
 #include "mir/runtime/pass_seed.hpp"
 #include "tool/exr_file.hpp"
 #include "tool/mir_program.hpp"
@@ -115,19 +116,46 @@ TEST_CASE("a summary tells passes and error, and so does a report") {
 }
 
 TEST_CASE("killed at any moment, a render resumes to the bytes of one that never stopped") {
-    const TemporaryFolder folder("passes_resume");
-    const Words passes{"--passes", "12"};
-    rendered(folder / "whole.exr", passes);
-    const Words resumed = passes + Words{"--resume", "--save-every", "0"};
-    for (int moment = 0; moment < 20; ++moment) {
+    const TemporaryFolder whole("passes_whole");
+    const Words resumed{"--passes", "4", "--resume", "--save-every", "0"};
+    const auto begin = std::chrono::steady_clock::now();
+    rendered(whole / "a.exr", resumed);
+    const std::chrono::duration<double> all = std::chrono::steady_clock::now() - begin;
+    const std::string picture = file_bytes(whole / "a.exr");
+    const std::string preview = file_bytes(whole / "a.png");
+    mir::Random random(11, mir::Stream::test, 0);
+    int equal = 0;
+    int killed_later = 0;  // when some passes had been kept
+    for (int kill = 0; kill < 20; ++kill) {
+        const TemporaryFolder folder("passes_killed");
         RunningProgram render(mir_command(small_render(folder / "a.exr") + resumed));
-        if (moment == 10) wait_for(folder / "a.exr.journal");
-        // 10 to 67 ms: before, in and between the first passes of a process, and while it writes.
-        std::this_thread::sleep_for(std::chrono::milliseconds(10 + 3 * moment));
+        std::this_thread::sleep_for(all * static_cast<double>(random.next()));
         render.send(SIGKILL);
         CHECK(render.wait().exit_code != 1);
         if (std::filesystem::exists(folder / "a.exr"))
             CHECK_NOTHROW(mir::read_exr(folder / "a.exr"));
+        if (std::filesystem::exists(folder / "a.exr.journal")) ++killed_later;
+        REQUIRE(run_mir(small_render(folder / "a.exr") + resumed).exit_code == 0);
+        if (file_bytes(folder / "a.exr") == picture && file_bytes(folder / "a.png") == preview)
+            ++equal;
+        // Picture, preview and journal: nothing that the killed process left over.
+        CHECK(folder.files() == 3);
+    }
+    CHECK(equal == 20);
+    CHECK(killed_later > 0);
+}
+
+TEST_CASE("a render that was killed again and again resumes to the same bytes, and on") {
+    const TemporaryFolder folder("passes_resume");
+    const Words passes{"--passes", "12"};
+    rendered(folder / "whole.exr", passes);
+    const Words resumed = passes + Words{"--resume", "--save-every", "0"};
+    for (int moment = 0; moment < 5; ++moment) {
+        RunningProgram render(mir_command(small_render(folder / "a.exr") + resumed));
+        if (moment == 2) wait_for(folder / "a.exr.journal");
+        std::this_thread::sleep_for(std::chrono::milliseconds(20 + 10 * moment));
+        render.send(SIGKILL);
+        CHECK(render.wait().exit_code != 1);
     }
     CHECK(std::filesystem::exists(folder / "a.exr.journal"));
     const json all = rendered(folder / "a.exr", resumed);

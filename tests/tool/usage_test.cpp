@@ -48,6 +48,8 @@ TEST_CASE("an unknown option names the nearest one") {
     check_failing_render({"builtin:sphere", "--vlps", "3"}, 2, "did you mean --vpls?");
     check_failing_render({"builtin:sphere", "--sede=3"}, 2, "did you mean --seed?");
     check_failing_render({"builtin:sphere", "--widht", "3"}, 2, "did you mean --width?");
+    check_failure(run_mir({"stranger", "info", "builtin:sphere"}), 2,
+                  "unknown argument 'stranger'");
     check_failure(run_mir({"info", "builtin:sphere", "--jsno"}), 2, "did you mean --json?");
 }
 

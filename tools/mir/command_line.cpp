@@ -24,7 +24,8 @@ std::string worst_of(const std::vector<std::string>& strangers) {
 int complain(const CLI::App& app, const CLI::ParseError& e) {
     const CLI::App* used = &app;
     for (const CLI::App* sub : app.get_subcommands()) used = sub;
-    const std::vector<std::string> strangers = used->remaining(false);
+    // What no command knows may stand before the command that is used.
+    const std::vector<std::string> strangers = app.remaining(true);
     const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr;
     std::cerr << "mir: " << (unknown ? "unknown argument '" + worst_of(strangers) + "'" : e.what());
     std::vector<std::string> known;

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/io/detail/temporary_file.hpp"
 
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -14,38 +13,31 @@ namespace mir {
 
 /// A file that appears under its name complete or not at all: it is written under a temporary name
 /// in the same folder and renamed by `commit`. Until then an older file of that name stays as it
-/// was. Not thread-safe; several objects, processes included, may aim at one path, the last commit
-/// wins.
+/// was. A process that is killed leaves its temporary file, `.NAME.N.tmp`, to the next object for
+/// that name, which removes it. Not thread-safe; several objects, processes included, may aim at
+/// one path, the last commit wins.
 class AtomicFile {
  public:
     /// Creates the empty temporary file, so that an unwritable folder is known before any work. A
     /// symbolic link is followed: the file it names is replaced, not the link.
     /// @throws Error(io) when the folder is missing or cannot be written, or when `path` exists and
     ///         is not a regular file (renaming would destroy a folder or a device).
-    explicit AtomicFile(const std::filesystem::path& path) : target_(resolved(path)) {
-        check_target();
-        create_temporary();
-    }
-    AtomicFile(const AtomicFile&) = delete;
-    AtomicFile& operator=(const AtomicFile&) = delete;
-
-    /// Removes the temporary file unless it was committed.
-    ~AtomicFile() {
-        std::error_code ignored;
-        if (!committed_) std::filesystem::remove(temporary_, ignored);
+    explicit AtomicFile(const std::filesystem::path& path)
+        : target_(checked(resolved(path))), temporary_(target_) {
+        if (temporary_.error() != 0)
+            fail(target_, "it cannot be written", std::strerror(temporary_.error()));
     }
 
     /// Where to write. Open it, write, close it, then `commit`.
-    [[nodiscard]] const std::filesystem::path& temporary() const noexcept { return temporary_; }
+    [[nodiscard]] const std::filesystem::path& temporary() const noexcept {
+        return temporary_.path();
+    }
 
     /// Gives the finished file its name, replacing an older one. A second call does nothing.
     /// @throws Error(io) when renaming fails; the temporary file is then removed with the object.
     void commit() {
-        if (committed_) return;
-        std::error_code failure;
-        std::filesystem::rename(temporary_, target_, failure);
-        if (failure) fail("the finished file cannot be renamed to it", failure.message());
-        committed_ = true;
+        if (const std::error_code failure = temporary_.rename(target_))
+            fail(target_, "the finished file cannot be renamed to it", failure.message());
     }
 
  private:
@@ -56,43 +48,27 @@ class AtomicFile {
         return failure ? path : followed;
     }
 
-    void check_target() const {
-        if (!target_.has_filename())
-            throw Error(ErrorCode::io, "'" + target_.string() +
+    static std::filesystem::path checked(std::filesystem::path target) {
+        if (!target.has_filename())
+            throw Error(ErrorCode::io, "'" + target.string() +
                                            "': it names no file (the path ends in a folder); add "
                                            "a file name");
         std::error_code failure;
-        const auto status = std::filesystem::status(target_, failure);
+        const auto status = std::filesystem::status(target, failure);
         if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-            fail("it exists and is no regular file", "a finished file is renamed over it");
+            fail(target, "it exists and is no regular file", "a finished file is renamed over it");
+        return target;
     }
 
-    void create_temporary() {
-        // Exclusive creation makes the name ours; numbers left over from a killed process and
-        // those of other writers are passed by.
-        constexpr int tries = 1000;
-        for (int i = 0; i < tries; ++i) {
-            temporary_ = target_.parent_path() /
-                         ("." + target_.filename().string() + "." + std::to_string(i) + ".tmp");
-            errno = 0;
-            if (std::FILE* file = std::fopen(temporary_.string().c_str(), "wbx")) {
-                std::fclose(file);
-                return;
-            }
-            if (errno != EEXIST) break;
-        }
-        fail("it cannot be written", std::strerror(errno));
-    }
-
-    [[noreturn]] void fail(const std::string& what, const std::string& reason) const {
-        throw Error(ErrorCode::io, target_.string() + ": " + what + " (" + reason +
+    [[noreturn]] static void fail(const std::filesystem::path& target, const std::string& what,
+                                  const std::string& reason) {
+        throw Error(ErrorCode::io, target.string() + ": " + what + " (" + reason +
                                        "); choose a folder that exists, may be written and has "
                                        "room, or another name");
     }
 
     std::filesystem::path target_;
-    std::filesystem::path temporary_;
-    bool committed_ = false;
+    detail::TemporaryFile temporary_;
 };
 
 }  // namespace mir

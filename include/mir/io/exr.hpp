@@ -6,6 +6,8 @@
 #include "mir/core/rgb.hpp"
 #include "mir/data/image.hpp"
 #include "mir/io/atomic_file.hpp"
+#include "mir/io/detail/exr_attributes.hpp"
+#include "mir/io/detail/exr_check.hpp"
 #include "mir/io/exr_layer.hpp"
 
 #include <OpenEXR/Iex.h>
@@ -31,6 +33,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -154,15 +157,9 @@ struct ExrImage {
 
 namespace detail {
 
-[[noreturn]] inline void cannot_read(const std::filesystem::path& path, const std::string& reason,
-                                     const std::string& remedy) {
-    throw Error(ErrorCode::invalid_input,
-                path.string() + ": the image cannot be read (" + reason + "); " + remedy);
-}
-
 /// Reads the header alone, because Imf::InputFile takes memory for whatever size a file declares.
 inline Imf::Header checked_header(std::ifstream& stream, const std::filesystem::path& path,
-                                  const Limits& limits) {
+                                  std::uint64_t file_bytes, const Limits& limits) {
     std::array<unsigned char, 8> start{};
     stream.read(reinterpret_cast<char*>(start.data()), start.size());
     const std::array<unsigned char, 4> magic{0x76, 0x2f, 0x31, 0x01};
@@ -174,6 +171,7 @@ inline Imf::Header checked_header(std::ifstream& stream, const std::filesystem::
                     path.string() +
                         ": the image cannot be read (it has several parts or deep "
                         "pixels); store it as one flat part");
+    ExrAttributeWalk(stream, path, file_bytes).check();
     Imf::StdIFStream exr_stream(stream, path.string().c_str());
     Imf::Header header;
     header.readFrom(exr_stream, version);
@@ -182,6 +180,7 @@ inline Imf::Header checked_header(std::ifstream& stream, const std::filesystem::
     const auto width = static_cast<std::uint64_t>(std::int64_t{window.max.x} - window.min.x + 1);
     const auto height = static_cast<std::uint64_t>(std::int64_t{window.max.y} - window.min.y + 1);
     check_limit(saturating_mul(width, height), limits.pixels, "pixels");
+    check_exr_sizes(header, width, height, path, file_bytes);
     return header;
 }
 
@@ -235,7 +234,7 @@ inline Image<Rgb> read_channels(std::ifstream& stream, const std::filesystem::pa
 /// against hostile files in every version that distributions ship: read files that you trust.
 /// @throws Error(invalid_input) when the file or the layer is missing or broken,
 ///         Error(unsupported) for several parts or deep pixels, Error(limit_exceeded) when the
-///         file passes `limits`.
+///         file passes `limits`; std::bad_alloc.
 inline ExrImage read_exr(const std::filesystem::path& path, const std::string& layer = "",
                          const Limits& limits = {}) {
     std::error_code failure;
@@ -245,7 +244,7 @@ inline ExrImage read_exr(const std::filesystem::path& path, const std::string& l
     std::ifstream stream(path, std::ios::binary);
     if (!stream) detail::cannot_read(path, "it cannot be opened", "check its permissions");
     try {
-        const Imf::Header header = detail::checked_header(stream, path, limits);
+        const Imf::Header header = detail::checked_header(stream, path, bytes, limits);
         ExrImage result;
         result.image = detail::read_channels(stream, path, header, layer);
         for (auto a = header.begin(); a != header.end(); ++a)
@@ -253,6 +252,8 @@ inline ExrImage read_exr(const std::filesystem::path& path, const std::string& l
                 result.attributes.emplace_back(a.name(), text->value());
         return result;
     } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& broken) {
         detail::cannot_read(path, broken.what(), "write it again");

@@ -12,6 +12,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <string>
 
 namespace mir {
@@ -34,6 +35,8 @@ inline void write_glb(const Scene& scene, const std::filesystem::path& path) {
     errno = 0;
     try {
         tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw Error(ErrorCode::invalid_argument, path.string() +
                                                      ": the scene cannot be put into glTF (" +

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -120,6 +121,8 @@ inline tinygltf::Model load_gltf_model(const std::filesystem::path& path, FileBu
             ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, folder)
             : loader.LoadASCIIFromString(&model, &error, &warning,
                                          reinterpret_cast<const char*>(bytes.data()), size, folder);
+    // tinygltf makes text of every exception.
+    if (error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     // An extension that is asked for and unknown is the better reason than what breaks without it.
     check_version_and_extensions(model);
     // Some errors are reported together with success.

@@ -63,8 +63,8 @@ class ObjMaterials : public tinyobj::MaterialReader {
         return !library.empty() && std::filesystem::is_regular_file(folder_ / library, failure);
     }
     void read(const std::string& library);
-    void check(const std::string& text, const std::string& library);
-    void check_numbers(std::string_view keyword, std::string_view line, const std::string& place);
+    [[nodiscard]] std::string checked(const std::string& text, const std::string& library);
+    bool check_numbers(std::string_view keyword, std::string_view line, const std::string& place);
     [[nodiscard]] Material convert(const tinyobj::material_t& from, const std::string& library);
     void interface_of(const tinyobj::material_t& from, const Keys& given, Material& to);
     void note_unused(const tinyobj::material_t& from, const Keys& given);
@@ -103,8 +103,7 @@ inline bool ObjMaterials::operator()(const std::string&, std::vector<tinyobj::ma
 inline void ObjMaterials::read(const std::string& library) {
     const std::string text = plain_lines(text_of(read_whole_file(folder_ / library, budget_)));
     given_.clear();
-    check(text, library);
-    std::istringstream stream(text);
+    std::istringstream stream(checked(text, library));
     std::map<std::string, int> by_name;
     std::vector<tinyobj::material_t> materials;
     std::string ignored;
@@ -118,9 +117,11 @@ inline void ObjMaterials::read(const std::string& library) {
     }
 }
 
-/// tinyobjloader takes what is no number for zero.
-inline void ObjMaterials::check(const std::string& text, const std::string& library) {
+/// What tinyobjloader is to read of a library: lines that are used, with checked numbers. It takes
+/// what is no number for zero and overflows at long exponents.
+inline std::string ObjMaterials::checked(const std::string& text, const std::string& library) {
     std::istringstream stream(text);
+    std::string kept;
     std::string line;
     Keys* keys = nullptr;
     for (std::size_t number = 1; std::getline(stream, line); ++number) {
@@ -130,26 +131,40 @@ inline void ObjMaterials::check(const std::string& text, const std::string& libr
             static_cast<std::size_t>(word.data() - line.data()) + word.size());
         if (word == "newmtl") {
             keys = &given_[trimmed(rest)];
+            kept += line + '\n';
             continue;
         }
         if (keys != nullptr) keys->emplace(word);
-        check_numbers(word, rest, library + ", line " + std::to_string(number));
+        if (check_numbers(word, rest, library + ", line " + std::to_string(number)) ||
+            word == "illum")
+            kept += line + '\n';
+        // A colour texture changes what Kd is when it is not given; its options are not used.
+        if (word == "map_Kd") kept += "map_Kd x\n";
     }
+    return kept;
 }
 
-inline void ObjMaterials::check_numbers(std::string_view keyword, std::string_view line,
+/// False when the keyword is not one that numbers follow.
+inline bool ObjMaterials::check_numbers(std::string_view keyword, std::string_view line,
                                         const std::string& place) {
     constexpr std::array<std::string_view, 9> numeric = {"Kd", "Ks", "Ke", "Ns", "Ni",
                                                          "d",  "Tr", "Pr", "Pm"};
-    if (std::find(numeric.begin(), numeric.end(), keyword) == numeric.end()) return;
+    if (std::find(numeric.begin(), numeric.end(), keyword) == numeric.end()) return false;
     const std::string what(keyword);
     // Behind the numbers there may be a comment.
     const std::size_t wanted = keyword[0] == 'K' ? 3 : 1;
     std::size_t count = 0;
     for_each_word(line, [&](std::string_view word) {
-        if (count++ < wanted) (void)whole_number_token(word, what.c_str(), place);
+        if (count++ >= wanted) return;
+        (void)whole_number_token(word, what.c_str(), place);
+        constexpr std::size_t longest_exponent = 8;
+        const std::size_t e = std::min(word.find_first_of("eE"), word.size());
+        if (word.size() - e > longest_exponent)
+            fail_at(place, what + " has an exponent of many digits (" + in_quotes(word) +
+                               "); repair the material");
     });
     if (count == 0) fail_at(place, what + " has no number; repair the material");
+    return true;
 }
 
 inline Material ObjMaterials::convert(const tinyobj::material_t& from, const std::string& library) {

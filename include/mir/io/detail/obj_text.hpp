@@ -70,9 +70,10 @@ inline ObjText::int_type ObjText::underflow() {
     std::size_t end = std::min(text_.find('\n', begin), text_.size());
     ++line_;
     // A backslash before the end carries the statement on in the next line.
-    while (end < text_.size() && end > begin &&
-           text_[text_.find_last_not_of(' ', end - 1)] == '\\') {
-        text_[text_.find_last_not_of(' ', end - 1)] = ' ';
+    while (end < text_.size() && end > begin) {
+        const std::size_t last = text_.find_last_not_of(' ', end - 1);
+        if (last == std::string::npos || text_[last] != '\\') break;
+        text_[last] = ' ';
         text_[end] = ' ';
         end = std::min(text_.find('\n', end), text_.size());
         ++line_;
@@ -83,7 +84,9 @@ inline ObjText::int_type ObjText::underflow() {
     return traits_type::to_int_type(text_[begin]);
 }
 
-/// Checks the statement between two places of the text and blanks a comment behind its numbers.
+/// Checks the statement between two places of the text and blanks what tinyobjloader is not to
+/// read: a comment behind a face, and numbers that are read here, for it overflows at long
+/// exponents.
 inline void ObjText::check(std::size_t begin, std::size_t end) {
     const std::string_view whole(text_.data() + begin, end - begin);
     const std::string_view word = keyword_of(whole);
@@ -94,13 +97,16 @@ inline void ObjText::check(std::size_t begin, std::size_t end) {
     const std::string_view rest =
         whole.substr(static_cast<std::size_t>(word.data() - whole.data()) + word.size());
     if (is({"v", "vn", "vt", "f"})) {
-        const std::size_t comment = std::min(whole.find('#'), whole.size());
-        std::fill(text_.begin() + static_cast<std::ptrdiff_t>(begin + comment),
-                  text_.begin() + static_cast<std::ptrdiff_t>(end), ' ');
-        if (word == "v") return vertex(rest);
-        if (word == "vn") return normal(rest);
+        const auto blank_from = [&](std::size_t at) {
+            std::fill(text_.begin() + static_cast<std::ptrdiff_t>(begin + at),
+                      text_.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        };
+        blank_from(std::min(whole.find('#'), whole.size()));
         if (word == "f") return corners(rest);
-        ++texture_coordinates_;
+        if (word == "v") vertex(rest);
+        if (word == "vn") normal(rest);
+        if (word == "vt") ++texture_coordinates_;
+        blank_from(0);
     } else if (is({"l", "p"})) {
         ignore(word == "l" ? "lines" : "points");
     } else if (word == "mtllib") {

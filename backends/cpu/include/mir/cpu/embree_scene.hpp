@@ -12,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -100,10 +101,13 @@ inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray) const {
 
 inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
     : geometry_(&geometry), device_(rtcNewDevice(nullptr)) {
-    if (device_ == nullptr)
+    if (device_ == nullptr) {
+        const RTCError reason = rtcGetDeviceError(nullptr);
+        if (reason == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
         throw Error(ErrorCode::device, "Embree cannot make a device on this processor (error " +
-                                           std::to_string(rtcGetDeviceError(nullptr)) +
+                                           std::to_string(reason) +
                                            "); check that its library matches the machine");
+    }
     rtcSetDeviceErrorFunction(device_.get(), &EmbreeScene::remember, errors_.get());
     budget_->most.store(max_bytes, std::memory_order_release);
     rtcSetDeviceMemoryMonitorFunction(device_.get(), &EmbreeScene::account, budget_.get());
