@@ -13,6 +13,7 @@
 #include <mir/sampling/instant_radiosity_sampler.hpp>
 #include <mir/sched/cpu.hpp>
 #include <mir/shading/vpl_shading.hpp>
+#include <mir/validation/gbuffer.hpp>
 
 #include <exception>
 #include <iostream>
@@ -116,6 +117,23 @@ mir::Image<mir::Rgb> indirect_light(const Light& light, const mir::VplList& vpls
 }
 // endregion: frame
 
+/// mir's checks of the view: luxels are where the engine has them, row by row.
+void check_view(const engine::World& world) {
+    const auto camera = engine::Camera::look_at({0, 1, 3.4f}, {0, 0.9f, 0}, 0.45f);
+    const engine::GBuffer image = draw(world, camera, width, height);
+    const auto expected = [&](std::uint32_t x, std::uint32_t y) {
+        engine::GeometryPixel g;
+        std::memcpy(&g, image.geometry.pixel(x, y), sizeof g);
+        if (g.normal == 0) return mir::Hit{};
+        return mir::Hit{{g.position[0], g.position[1], g.position[2]},
+                        engine::unpack_normal(g.normal)};
+    };
+    const mir::validation::Report report =
+        mir::validation::check_gbuffer(engine::ImageView(image, camera.eye, 0.0f), expected);
+    if (!report.passed()) throw std::runtime_error(report.text());
+    std::cout << report.checks() << " checks of the G-buffer passed\n";
+}
+
 /// The engine's direct light; its shadows are segments through the tree that mir has anyway.
 mir::Image<mir::Rgb> direct_light(const Light& light, const engine::GBuffer& image,
                                   const engine::Camera& camera) {
@@ -189,6 +207,7 @@ mir::Image<mir::Rgb> frame(const engine::World& world, const Light& light, const
 int main(int argc, char** argv) {
     try {
         const engine::World world = make_world();
+        check_view(world);
         const Light light(world);
         const mir::VplList vpls = sample_once(light);
         for (const mir::PathVpl& p : vpls.path_vpls())

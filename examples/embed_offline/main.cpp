@@ -5,6 +5,7 @@
 // A spectral renderer on Embree lets mir gather the light of its own virtual point lights: first in
 // a furnace, whose radiance is known, then in a room, of which it writes a picture.
 #include "mir_adapter.hpp"
+#include "self_check.hpp"
 
 #include <mir/cpu/embree_visibility.hpp>
 #include <mir/cpu/tbb_executor.hpp>
@@ -145,6 +146,12 @@ void check_furnace() {
     }
 }
 
+/// Ends the program when mir's checks find something.
+void pass(const mir::validation::Report& report, const char* what) {
+    if (!report.passed()) throw std::runtime_error(report.text());
+    std::cout << report.checks() << " checks of " << what << " passed\n";
+}
+
 /// A preview: two wavelengths for each primary, not colorimetry.
 mir::Image<mir::Rgb> preview(const Picture& picture) {
     mir::Image<mir::Rgb> out(picture.extent());
@@ -159,6 +166,8 @@ mir::Image<mir::Rgb> preview(const Picture& picture) {
 
 int main(int argc, char** argv) {
     try {
+        pass(check_embree(offline::World(furnace())), "visibility");
+        pass(offline::check_reflection(), "reflection");
         check_furnace();
         const auto picture = preview(render(offline::World(lit_room()), 512));
         if (argc > 1) mir::write_png(argv[1], picture, mir::auto_exposure(picture));

@@ -31,7 +31,7 @@ inline constexpr std::array<float, 6> wavelengths{420, 470, 520, 570, 620, 670};
 
 /// Reflection with a lobe that changes sign: f = reflectance / pi (1 + lobe (cos_i - 2/3)(cos_o -
 /// 2/3)). The lobe adds nothing to the albedo, for the mean cosine of diffuse light is 2/3: every
-/// direction reflects `reflectance`, so that furnaces have a closed form. `lobe` in -4.5 .. 4.5.
+/// direction reflects `reflectance`, so that furnaces have a closed form. `lobe` in -2.25 .. 4.5.
 struct Material {
     Spectrum reflectance{};  ///< 0..1
     float lobe = 0.0f;
