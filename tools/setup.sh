@@ -14,7 +14,7 @@ mir_packages() {
     test | check) echo "catch2 libbenchmark-dev" ;;
     esac
     case ${MIR_WANT:-render} in
-    check) echo "git clang libclang-rt-dev libstb-dev clang-format clang-tidy python3" ;;
+    check) echo "git clang libclang-rt-dev libstb-dev clang-format clang-tidy python3 doxygen" ;;
     esac
 }
 
@@ -26,7 +26,7 @@ mir_libraries() {
     test | check) printf ', Catch2, Google Benchmark' ;;
     esac
     case ${MIR_WANT:-render} in
-    check) printf ', git, clang, stb, clang-format, clang-tidy, Python 3' ;;
+    check) printf ', git, clang, stb, clang-format, clang-tidy, Python 3, Doxygen' ;;
     esac
 }
 

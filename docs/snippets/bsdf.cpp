@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Quoted by docs/extending.md: a reflection model of a user's own.
+#include "mir/validation/bsdf.hpp"
+
 #include "conformance/brute_force.hpp"
-#include "conformance/bsdf_suite.hpp"
 #include "conformance/stage.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/vpl_shading.hpp"
+#include "mir/validation/bsdf_samples.hpp"
 #include "support/catch.hpp"
 
 // region: model
@@ -55,12 +57,17 @@ inline LommelSeeliger::Params material_params(const mir::Material& m, LommelSeel
 TEST_CASE("Lommel-Seeliger keeps the axioms of Bsdf") {
     const std::vector<dusty::LommelSeeliger::Params> list = {
         {{1, 1, 1}}, {{0, 0, 0}}, {{0.2f, 0.5f, 1.0f}}};
-    mirtest::bsdf_suite<dusty::LommelSeeliger>(list);
+    const auto report = mir::validation::check_bsdf<dusty::LommelSeeliger>(list);
+    INFO(report.text());
+    CHECK(report.passed());
 }
 
-// H0, level and seed: see bsdf_samples_follow_pdf().
+// H0, level and seed: see check_bsdf_samples().
 TEST_CASE("Lommel-Seeliger samples follow their density", "[statistical]") {
-    mirtest::bsdf_samples_follow_pdf<dusty::LommelSeeliger>({{0.2f, 0.5f, 1.0f}}, 0.5f);
+    const auto report =
+        mir::validation::check_bsdf_samples<dusty::LommelSeeliger>({{0.2f, 0.5f, 1.0f}}, 0.5f);
+    INFO(report.text());
+    CHECK(report.passed());
 }
 // endregion: axioms
 

@@ -8,9 +8,8 @@
 #include "mir/fill_gbuffer.hpp"
 #include "mir/scene/builtin/cornell_box.hpp"
 #include "mir/shading/surface_table.hpp"
+#include "mir/validation/detail/same_pixels.hpp"
 
-#include <array>
-#include <bit>
 #include <cstdint>
 
 namespace mirtest {
@@ -67,16 +66,7 @@ class Stage {
     mir::VplList vpls_;
 };
 
-inline auto bits_of(const mir::Rgb& c) { return std::bit_cast<std::array<std::uint32_t, 3>>(c); }
-
-/// Pixels that differ in at least one bit.
-inline std::size_t pixels_that_differ(const mir::Image<mir::Rgb>& a,
-                                      const mir::Image<mir::Rgb>& b) {
-    if (!(a.extent() == b.extent())) return static_cast<std::size_t>(-1);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.pixels().size(); ++i)
-        count += bits_of(a.pixels()[i]) == bits_of(b.pixels()[i]) ? 0 : 1;
-    return count;
-}
+using mir::validation::detail::bits_of;
+using mir::validation::detail::pixels_that_differ;
 
 }  // namespace mirtest

@@ -17,7 +17,7 @@ bad=$work/bad
 
 complain() { printf '%s\n' "$*" | tee -a "$bad" >&2; }
 
-pages() { ls README.md docs/*.md; }
+pages() { ls README.md docs/*.md examples/*/README.md; }
 
 # Lines of a region between "// region: NAME" and "// endregion: NAME" without their common indent;
 # without NAME the whole file after its licence line.
@@ -101,6 +101,9 @@ check_links() {
     for page in docs/*.md; do
         [ "$page" = docs/index.md ] || grep -q "(${page#docs/})" docs/index.md ||
             complain "docs/index.md does not list $page"
+    done
+    for page in examples/*/README.md; do
+        grep -q "(../$page)" docs/embedding.md || complain "docs/embedding.md does not list $page"
     done
 }
 

@@ -19,7 +19,7 @@ namespace mir::archetype {
 
 /// The only way to make an archetype: `Visibility{make}`.
 struct Make {};
-inline constexpr Make make{};
+inline constexpr Make make{};  ///< the one value of Make
 
 /// Base of archetypes that may be passed to kernels: copy construction, no assignment, no default.
 class Value {
@@ -45,6 +45,7 @@ class Pinned {
 struct Bsdf {
     Bsdf() = delete;
 
+    /// One word, which nobody reads.
     struct Params {
         std::uint32_t unused = 0;
     };

@@ -12,7 +12,7 @@ namespace mir {
 /// A reflection model: `Params` per surface point and pure functions of directions. `n` is the unit
 /// shading normal, `wi` and `wo` unit directions away from the surface.
 ///
-/// Axioms (tests/conformance/bsdf_suite.hpp):
+/// Axioms (validation/bsdf.hpp):
 ///  1. eval(wi, wo) = eval(wo, wi), finite and not negative;
 ///  2. the directional albedo is at most 1 (1.0025 where a model says so);
 ///  3. albedo() lies in [0, 1]; is_black() only where eval() is zero for all directions;

@@ -8,7 +8,7 @@ namespace mir {
 
 /// Runs independent loop bodies: the caller's threads. `for_each(n, body)` calls body(i) once for
 /// every i in [0, n), in any order, possibly at the same time, and returns when all are done. An
-/// exception thrown by a body reaches the caller.
+/// exception thrown by a body reaches the caller (validation/executor.hpp).
 template <class E>
 concept Executor = requires(E& e, std::size_t n, void (*body)(std::size_t)) {
     e.for_each(n, body);

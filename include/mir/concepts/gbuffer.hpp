@@ -13,7 +13,7 @@ namespace mir {
 
 /// A view of the luxels of one tile, in blocked order.
 ///
-/// Axioms (tests/conformance/gbuffer_suite.hpp):
+/// Axioms (validation/gbuffer.hpp):
 ///  1. hit(i) never touches surface memory, so that visibility can run before surfaces arrive;
 ///  2. luxels of the padding are empty.
 template <class G>

@@ -18,7 +18,7 @@ concept Pipeline = requires(P p, TileIndex t) {
 /// One of the arrangements in time of the paper's section 5: a value that opens pipelines.
 /// `Inputs` is mir::Inputs<...> of reconstruct.hpp.
 ///
-/// Axioms (tests/conformance/scheduler_suite.hpp): each luxel of each submitted tile is written
+/// Axioms (validation/scheduler.hpp): each luxel of each submitted tile is written
 /// exactly once; the order of tiles does not change the image; no VPLs give black; the image is
 /// that of sched::Cpu.
 template <class S, class Inputs>

@@ -15,7 +15,7 @@ namespace mir {
 /// Answers whether two points see each other. The points are already lifted off their surfaces
 /// (core/ray.hpp), so the whole closed segment is tested and no further offset is applied.
 ///
-/// Axioms (tests/conformance/visibility_suite.hpp):
+/// Axioms (validation/visibility.hpp):
 ///  1. symmetric up to rounding at grazing edges; a pair is always asked VPL first;
 ///  2. points lifted off a surface are not hidden by it;
 ///  3. callable from many threads at once;

@@ -27,22 +27,23 @@
 
 namespace mir {
 
-using Vec2 = glm::vec2;
-using Vec3 = glm::vec3;
-using Vec4 = glm::vec4;
-using Mat3 = glm::mat3;
-using Mat4 = glm::mat4;
+using Vec2 = glm::vec2;  ///< two floats
+using Vec3 = glm::vec3;  ///< three floats; metres where it is a place
+using Vec4 = glm::vec4;  ///< four floats
+using Mat3 = glm::mat3;  ///< 3 x 3 floats, column by column
+using Mat4 = glm::mat4;  ///< 4 x 4 floats, column by column
 
 // Host and device code exchange these types as bytes.
 static_assert(sizeof(Vec3) == 12 && alignof(Vec3) == 4);
 static_assert(std::is_trivially_copyable_v<Vec3> && std::is_trivially_copyable_v<Mat4>);
 
-inline constexpr float pi = 3.14159265358979323846f;
-inline constexpr float inv_pi = 0.31830988618379067154f;
+inline constexpr float pi = 3.14159265358979323846f;      ///< of a circle
+inline constexpr float inv_pi = 0.31830988618379067154f;  ///< 1 / pi
 
 /// Larger and smaller of two numbers, `b` when they cannot be compared. Plain selects: unlike fmaxf
 /// they are one instruction in vectorised loops and equal in bits on every backend.
 MIR_HD constexpr float larger(float a, float b) { return a > b ? a : b; }
+/// See larger().
 MIR_HD constexpr float smaller(float a, float b) { return a < b ? a : b; }
 
 /// True when `x` is neither NaN nor infinite.

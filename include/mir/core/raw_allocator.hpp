@@ -14,6 +14,7 @@ template <class T>
 struct RawAllocator : std::allocator<T> {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
+    /// The allocator of another type, as the standard asks for it.
     template <class U>
     struct rebind {  // NOLINT(readability-identifier-naming): the standard's name
         using other = RawAllocator<U>;

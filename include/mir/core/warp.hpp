@@ -24,6 +24,7 @@ MIR_HD inline Vec3 square_to_cosine_hemisphere(Vec2 u) {
     const Vec2 d = square_to_disc(u);
     return {d.x, d.y, sqrtf(larger(0.0f, 1.0f - d.x * d.x - d.y * d.y))};
 }
+/// Its density, per steradian.
 MIR_HD inline float cosine_hemisphere_pdf(float cos_theta) {
     return cos_theta > 0.0f ? cos_theta * inv_pi : 0.0f;
 }
@@ -34,6 +35,7 @@ MIR_HD inline Vec3 square_to_sphere(Vec2 u) {
     const float r = sqrtf(larger(0.0f, 1.0f - z * z));
     return {r * unit_circle(u.y), z};
 }
+/// Its density, per steradian.
 MIR_HD inline float sphere_pdf() { return 0.25f * inv_pi; }
 
 /// Cone around +z of half angle acos(cos_max), uniform in solid angle.
@@ -42,6 +44,7 @@ MIR_HD inline Vec3 square_to_cone(Vec2 u, float cos_max) {
     const float r = sqrtf(larger(0.0f, 1.0f - z * z));
     return {r * unit_circle(u.y), z};
 }
+/// Its density, per steradian.
 MIR_HD inline float cone_pdf(float cos_max) { return 1.0f / (2.0f * pi * (1.0f - cos_max)); }
 
 /// Barycentric coordinates (of the second and third vertex) uniform over a triangle; the density is

@@ -11,8 +11,8 @@
 namespace mir {
 
 using LuxelIndex = std::uint32_t;  ///< blocked index inside one tile
-using VplIndex = std::uint32_t;
-using TileIndex = std::uint32_t;
+using VplIndex = std::uint32_t;    ///< place in a set of VPLs
+using TileIndex = std::uint32_t;   ///< place in what cut_into_tiles() returned
 
 /// Width and height in luxels or pixels.
 struct Extent {

@@ -39,7 +39,7 @@ struct ExrAttribute {
     std::string name;
     std::variant<std::string, float, int> value;
 };
-using ExrAttributes = std::vector<ExrAttribute>;
+using ExrAttributes = std::vector<ExrAttribute>;  ///< of one file
 
 namespace detail {
 

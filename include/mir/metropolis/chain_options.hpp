@@ -12,6 +12,7 @@ enum class Mutation {
     bidirectional  ///< bidirectional mutations of the path itself (Veach 1997)
 };
 
+/// How a Markov chain moves from path to path.
 struct ChainOptions {
     Mutation mutation = Mutation::primary;
     double large_step_probability = 0.5;  ///< in (0, 1]

@@ -33,6 +33,7 @@ struct MetropolisTuning {
     void validate() const;
 };
 
+/// How many states a MetropolisSampler records, how far paths go, and how chains run.
 struct MetropolisOptions : MetropolisTuning {
     std::uint32_t states = 256;    ///< n: states recorded by all chains together
     bool emitter_vpls = false;     ///< also direct light by VPLs: paths of two edges

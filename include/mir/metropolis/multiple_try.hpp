@@ -65,6 +65,7 @@ MIR_HD inline MultipleTry multiple_try(double current, const double* candidates,
     result.accepted = decision < result.acceptance;
     return result;
 }
+/// The same for candidates in a span.
 inline MultipleTry multiple_try(double current, std::span<const double> candidates, double choice,
                                 double decision) {
     return multiple_try(current, candidates.data(), static_cast<std::uint32_t>(candidates.size()),

@@ -20,7 +20,7 @@ inline constexpr std::uint32_t max_coordinates = 400;
 
 /// Largest numbers that name a step of a chain; steps themselves use all 32 bits.
 inline constexpr std::uint32_t max_chains = 1u << 16;
-inline constexpr std::uint32_t max_tries = 255;
+inline constexpr std::uint32_t max_tries = 255;  ///< of one step
 
 /// The first numbers of a step are free for its decisions (kind, choice, acceptance); number
 /// `step_decisions + d` moves coordinate d.

@@ -8,14 +8,14 @@ namespace mir {
 /// Meaning of each coordinate of primary sample space. Each role keeps its coordinates whatever the
 /// technique, so that a small step changes a path a little.
 namespace path_dimension {
-inline constexpr std::uint32_t technique = 0;
-inline constexpr std::uint32_t film = 1;
-inline constexpr std::uint32_t lens = 3;
-inline constexpr std::uint32_t spread = 5;
-inline constexpr std::uint32_t light = 8;
-inline constexpr std::uint32_t on_light = 9;
-inline constexpr std::uint32_t light_direction = 11;
-inline constexpr std::uint32_t light_side = 13;
+inline constexpr std::uint32_t technique = 0;         ///< which technique draws the path
+inline constexpr std::uint32_t film = 1;              ///< place on the film, two numbers
+inline constexpr std::uint32_t lens = 3;              ///< place on the lens, two
+inline constexpr std::uint32_t spread = 5;            ///< what a VPL's spread is drawn from, three
+inline constexpr std::uint32_t light = 8;             ///< which light
+inline constexpr std::uint32_t on_light = 9;          ///< place on it, two
+inline constexpr std::uint32_t light_direction = 11;  ///< direction from it, two
+inline constexpr std::uint32_t light_side = 13;       ///< which of its sides
 /// Three numbers for the direction drawn at the `i`-th vertex of the camera's part, i >= 1.
 MIR_HD constexpr std::uint32_t eye_vertex(std::uint32_t i) { return 14 + 6 * (i - 1); }
 /// And at the `i`-th surface of the light's part, i >= 1.
@@ -26,6 +26,7 @@ inline constexpr std::uint32_t count = eye_vertex(max_path_edges + 1);
 
 // Below, `u.at(d)` yields coordinate d in [0, 1) of whoever asks.
 
+/// Coordinates d and d + 1.
 template <class Numbers>
 MIR_HD Vec2 pair_at(Numbers& u, std::uint32_t d) {
     const float x = u.at(d);

@@ -14,6 +14,7 @@
 
 namespace mir {
 
+/// How many VPLs a BidirectionalSampler draws, from what, and how far paths go.
 struct BidirectionalOptions {
     std::uint32_t vpls = 256;       ///< N': drawn from the candidates; some may coincide
     std::uint32_t candidates = 32;  ///< per VPL, at least 1

@@ -17,6 +17,7 @@ enum class Termination {
     levels     ///< Keller's: floor(rho^n N) particles survive n bounces; consistent
 };
 
+/// How many VPLs an InstantRadiositySampler wants, from what numbers, and where paths end.
 struct InstantRadiosityOptions {
     std::uint32_t vpls = 256;  ///< wanted; the set comes close, see sample()
     Termination termination = Termination::roulette;

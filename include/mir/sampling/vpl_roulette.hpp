@@ -9,6 +9,7 @@
 
 namespace mir {
 
+/// Odds by which VplRoulette keeps a candidate.
 struct VplRouletteOptions {
     /// Smallest odds of survival, above 0 to 1. It keeps the estimate unbiased where a probe sees
     /// nothing of a VPL that lights the image. Small: such VPLs come seldom and bright; large: more

@@ -22,6 +22,7 @@ struct CpuBlocks {
     Monitor* monitor = nullptr;  ///< may be null
     InstructionSet instructions = best_instruction_set();
 
+    /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
     class Pipeline {
      public:

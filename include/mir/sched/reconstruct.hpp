@@ -17,6 +17,7 @@ struct Reconstruct {
     B backend;
     Monitor* monitor = nullptr;  ///< may be null
 
+    /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
     class Pipeline {
      public:

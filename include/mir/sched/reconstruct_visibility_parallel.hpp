@@ -19,6 +19,7 @@ struct ReconstructVisibilityParallel {
     B backend;
     Monitor* monitor = nullptr;  ///< may be null
 
+    /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
     class Pipeline {
      public:

@@ -22,6 +22,7 @@ struct ShadingOnly {
     E& executor;                 ///< traces and adds
     Monitor* monitor = nullptr;  ///< may be null
 
+    /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
     class Pipeline {
      public:

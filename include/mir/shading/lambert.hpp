@@ -10,6 +10,7 @@ namespace mir {
 
 /// Ideal diffuse reflection: f = reflectance / pi, sr^-1. Model of Bsdf.
 struct Lambert {
+    /// Three words per surface point.
     struct Params {
         Rgb reflectance;  ///< hemispherical albedo, 0..1
     };

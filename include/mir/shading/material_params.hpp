@@ -33,6 +33,7 @@ MIR_HD inline CookTorrance::Params material_params(const MaterialFactors& m, Coo
                  base(m.base_color.b, p.f0.b)};
     return p;
 }
+/// Of a material without its textures.
 inline CookTorrance::Params material_params(const Material& m, CookTorrance model) {
     return material_params(m.factors(), model);
 }

@@ -10,7 +10,7 @@ namespace mir {
 
 /// Luxels of a cluster, a word of visibility, and of a block, which is eight of them.
 inline constexpr std::uint32_t cluster_luxels = 32;
-inline constexpr std::uint32_t block_luxels = 256;
+inline constexpr std::uint32_t block_luxels = 256;  ///< of a block
 
 /// What shafts know about a cluster, a run of luxels that lie close together: a box and a
 /// half-space that hold all of its luxels but the empty ones. Aligned so that the device fetches it

@@ -113,8 +113,8 @@ struct Core {
     }
 };
 
-inline constexpr Core lower_core{0.66f, -1.98f, 1.9f, 0.66f};
-inline constexpr Core cabin_core{0.42f, -0.1f, 0.85f, 1.22f};
+inline constexpr Core lower_core{0.66f, -1.98f, 1.9f, 0.66f};  ///< of the body
+inline constexpr Core cabin_core{0.42f, -0.1f, 0.85f, 1.22f};  ///< of the cabin
 
 /// Where the ray from `origin`, inside the hull, along the unit vector `direction` leaves it; at
 /// most 2 m away. Regula falsi (Illinois): a fixed number of steps, so that bits do not depend on

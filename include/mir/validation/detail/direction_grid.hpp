@@ -5,14 +5,14 @@
 
 #include <cmath>
 
-namespace mirtest {
+namespace mir::validation::detail {
 
 /// Calls visit(wi, solid_angle) for the cells of a grid over the sphere whose poles are `axis` and
 /// -axis. Rings widen geometrically from 1e-5 rad on, so that a lobe of any width around `axis` is
 /// resolved; `rings` x `sectors` cells whose solid angles add up to 4 pi less the innermost cap.
 template <class Visit>
-void for_each_direction_around(mir::Vec3 axis, int rings, int sectors, const Visit& visit) {
-    const mir::Frame frame = mir::Frame::around(axis);
+void for_each_direction_around(Vec3 axis, int rings, int sectors, const Visit& visit) {
+    const Frame frame = mir::Frame::around(axis);
     const double half_turn = 3.14159265358979323846;
     const double innermost = 1e-5;
     const double growth = std::log(half_turn / innermost) / rings;
@@ -23,13 +23,13 @@ void for_each_direction_around(mir::Vec3 axis, int rings, int sectors, const Vis
         const double middle = std::acos(0.5 * (std::cos(theta) + std::cos(next)));
         for (int s = 0; s < sectors; ++s) {
             const double phi = 2.0 * half_turn * (s + 0.5) / sectors;
-            const mir::Vec3 local(static_cast<float>(std::sin(middle) * std::cos(phi)),
-                                  static_cast<float>(std::sin(middle) * std::sin(phi)),
-                                  static_cast<float>(std::cos(middle)));
+            const Vec3 local(static_cast<float>(std::sin(middle) * std::cos(phi)),
+                             static_cast<float>(std::sin(middle) * std::sin(phi)),
+                             static_cast<float>(std::cos(middle)));
             visit(frame.to_world(local), solid_angle);
         }
         theta = next;
     }
 }
 
-}  // namespace mirtest
+}  // namespace mir::validation::detail

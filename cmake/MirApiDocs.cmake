@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+include_guard()
+
+# The target api_docs: the API reference, and every complaint of Doxygen about it.
+find_package(Doxygen QUIET)
+if(DOXYGEN_FOUND)
+    set(MIR_API_DOCS_FOLDER ${PROJECT_BINARY_DIR}/api_docs)
+    configure_file(${PROJECT_SOURCE_DIR}/docs/Doxyfile.in ${PROJECT_BINARY_DIR}/Doxyfile @ONLY)
+    add_custom_target(api_docs
+        COMMAND ${CMAKE_COMMAND} -D DOXYGEN=$<TARGET_FILE:Doxygen::doxygen>
+                -D DOXYFILE=${PROJECT_BINARY_DIR}/Doxyfile -D FOLDER=${MIR_API_DOCS_FOLDER}
+                -P ${PROJECT_SOURCE_DIR}/cmake/make_api_docs.cmake
+        COMMENT "API reference in ${MIR_API_DOCS_FOLDER}/html" VERBATIM)
+endif()

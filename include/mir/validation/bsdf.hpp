@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/bsdf.hpp"
+#include "mir/validation/detail/bsdf_directions.hpp"
+#include "mir/validation/detail/direction_grid.hpp"
+#include "mir/validation/detail/random.hpp"
+#include "mir/validation/report.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace mir::validation {
+
+namespace detail {
+
+/// Axiom 1: finite and not negative, up to grazing angles and for directions that oppose each
+/// other.
+template <Bsdf B>
+void expect_finite(const typename B::Params& p, Report& report) {
+    std::size_t bad = 0;
+    for (float cos_i : grazing_cosines)
+        for (float cos_o : grazing_cosines)
+            for (float phi : {0.0f, 1e-4f, 1.0f, 3.0f, pi}) {
+                const Vec3 wi = at_angle(cos_i, phi);
+                const Vec3 wo = at_angle(cos_o, 0.0f);
+                bad += is_radiance(B::eval(p, slanted_normal, wi, wo)) ? 0 : 1;
+                const float pdf = B::pdf(p, slanted_normal, wi, wo);
+                bad += std::isfinite(pdf) && pdf >= 0.0f ? 0 : 1;
+            }
+    report.expect(bad == 0, "eval and pdf are finite and not negative",
+                  std::to_string(bad) + " of 640 values are not");
+}
+
+/// Axiom 1: reciprocal to a relative 1e-5.
+template <Bsdf B>
+void expect_reciprocal(const typename B::Params& p, Report& report) {
+    Random random = numbers(31);
+    float worst = 0.0f;
+    for (int i = 0; i < 2000; ++i) {
+        const float cos_i = random.next();
+        const Vec3 wi = at_angle(cos_i, 0.0f);
+        const float cos_o = random.next();
+        const Vec3 wo = at_angle(cos_o, 2.0f * pi * random.next());
+        const Rgb there = B::eval(p, slanted_normal, wi, wo);
+        const Rgb back = B::eval(p, slanted_normal, wo, wi);
+        for (const auto& [a, b] :
+             {std::pair{there.r, back.r}, {there.g, back.g}, {there.b, back.b}})
+            if (a != b) worst = std::max(worst, std::fabs(a - b) / std::max(a, b));
+    }
+    report.expect(worst < 1e-5f, "eval is reciprocal",
+                  "eval(wi, wo) and eval(wo, wi) differ by up to " + std::to_string(worst) +
+                      " of the larger");
+}
+
+/// Directional albedo towards `wo`, and what pdf() integrates to, by quadrature around the mirrored
+/// direction.
+struct BsdfIntegrals {
+    double albedo = 0.0;  ///< largest channel
+    double pdf = 0.0;
+};
+
+template <Bsdf B>
+BsdfIntegrals integrate(const typename B::Params& p, Vec3 wo) {
+    double red = 0.0;
+    double green = 0.0;
+    double blue = 0.0;
+    BsdfIntegrals sum;
+    const Vec3 mirrored = 2.0f * glm::dot(wo, slanted_normal) * slanted_normal - wo;
+    for_each_direction_around(mirrored, 300, 96, [&](Vec3 wi, double solid_angle) {
+        const float cosine = glm::dot(wi, slanted_normal);
+        if (cosine <= 0.0f) return;
+        const Rgb f = B::eval(p, slanted_normal, wi, wo);
+        const double weight = solid_angle * static_cast<double>(cosine);
+        red += f.r * weight;
+        green += f.g * weight;
+        blue += f.b * weight;
+        sum.pdf += solid_angle * B::pdf(p, slanted_normal, wi, wo);
+    });
+    sum.albedo = std::max(red, std::max(green, blue));
+    return sum;
+}
+
+/// Axioms 2 and 4: reflects at most what arrives; pdf() integrates to at most 1. The tolerance is
+/// the solid angle that quadrature leaves out, and its error in lobes as narrow as 1e-3.
+template <Bsdf B>
+void expect_energy(const typename B::Params& p, Report& report) {
+    constexpr double most = 1.0 + 4e-3;
+    for (float cosine : usual_cosines) {
+        const BsdfIntegrals sum = integrate<B>(p, at_angle(cosine, 0.4f));
+        const std::string at = " at a cosine of " + std::to_string(cosine);
+        report.expect(sum.albedo <= most, "no more light is reflected than arrives",
+                      std::to_string(sum.albedo) + " of it" + at);
+        report.expect(sum.pdf <= most, "pdf integrates to at most 1",
+                      "it gives " + std::to_string(sum.pdf) + at);
+    }
+}
+
+/// Axiom 3, a millionth for rounding: albedo is a share, and what calls itself black reflects
+/// nothing in any direction.
+template <Bsdf B>
+void expect_albedo(const typename B::Params& p, Report& report) {
+    std::size_t bad = 0;
+    for (float cosine : grazing_cosines) {
+        const Rgb albedo = B::albedo(p, slanted_normal, at_angle(cosine, 0.4f));
+        bad += is_radiance(albedo) && max_channel(albedo) <= 1.0f + 1e-6f ? 0 : 1;
+    }
+    report.expect(bad == 0, "albedo lies in [0, 1]",
+                  "not at " + std::to_string(bad) + " of 8 angles");
+    if (!B::is_black(p)) return;
+    std::size_t lit = 0;
+    for (float cos_i : usual_cosines)
+        for (float cos_o : usual_cosines)
+            lit +=
+                is_black(B::eval(p, slanted_normal, at_angle(cos_i, 1.0f), at_angle(cos_o, 0.4f)))
+                    ? 0
+                    : 1;
+    report.expect(lit == 0, "what is black reflects nothing",
+                  "it does in " + std::to_string(lit) + " of 49 pairs of directions");
+}
+
+/// Axiom 4: weights are eval cos / pdf, to 1e-4 because narrow lobes magnify the rounding of wi.
+template <Bsdf B>
+void expect_weights(const typename B::Params& p, Report& report) {
+    Random random = numbers(32);
+    std::size_t kept = 0;
+    std::size_t bad = 0;
+    double worst = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+        const Vec3 wo = at_angle(usual_cosines[i % 7], 0.4f);
+        const Vec2 u = random.next_2d();
+        const BsdfSample s = B::sample(p, slanted_normal, wo, u, random.next());
+        if (is_radiance(s.weight) && is_black(s.weight)) continue;
+        const float cosine = glm::dot(s.wi, slanted_normal);
+        if (!is_radiance(s.weight) || !(std::fabs(glm::length(s.wi) - 1.0f) <= 1e-4f) ||
+            !(cosine > 0.0f) || !(s.pdf > 0.0f)) {
+            ++bad;
+            continue;
+        }
+        ++kept;
+        const double pdf = B::pdf(p, slanted_normal, s.wi, wo);
+        const Rgb f = B::eval(p, slanted_normal, s.wi, wo);
+        const double wanted = static_cast<double>(luminance(f)) * cosine / pdf;
+        const double off =
+            std::max(std::fabs(luminance(s.weight) / wanted - 1.0), std::fabs(s.pdf / pdf - 1.0));
+        worst = off > worst || off != off ? off : worst;
+    }
+    report.expect(bad == 0, "samples are unit directions above the surface with finite weights",
+                  std::to_string(bad) + " of 4000 are not");
+    report.expect(worst < 1e-4, "weights of samples are eval cos / pdf",
+                  "they differ by up to " + std::to_string(worst) + " of it");
+    if (max_channel(B::albedo(p, slanted_normal, slanted_normal)) > 0.0f)
+        report.expect(kept > 2000, "samples of what reflects are mostly kept",
+                      std::to_string(4000 - kept) + " of 4000 are thrown away");
+}
+
+}  // namespace detail
+
+/// The axioms of Bsdf for a list of parameters that should cover the corners of the model: white,
+/// black, smooth, rough. All but one: that samples follow their density is for
+/// check_bsdf_samples().
+template <Bsdf B>
+Report check_bsdf(std::span<const typename B::Params> list) {
+    Report report;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        Report one;
+        detail::expect_finite<B>(list[i], one);
+        detail::expect_reciprocal<B>(list[i], one);
+        detail::expect_energy<B>(list[i], one);
+        detail::expect_albedo<B>(list[i], one);
+        detail::expect_weights<B>(list[i], one);
+        report.add("parameters " + std::to_string(i), one);
+    }
+    return report;
+}
+
+}  // namespace mir::validation

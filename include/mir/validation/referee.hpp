@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/scene/world_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace mir::validation {
+
+/// Three numbers in double precision.
+struct Double3 {
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+
+    Double3() = default;
+    Double3(double a, double b, double c) : x(a), y(b), z(c) {}
+    explicit Double3(Vec3 v) : x(v.x), y(v.y), z(v.z) {}
+
+    friend Double3 operator-(Double3 a, Double3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+};
+
+/// Inner product.
+inline double dot(Double3 a, Double3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// Outer product.
+inline Double3 cross(Double3 a, Double3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Where the line origin + t direction meets the plane of a triangle.
+struct LineHit {
+    double t = 0.0;
+    double u = 0.0;
+    double v = 0.0;
+
+    /// How far inside the triangle the point lies, in barycentric units; negative outside.
+    [[nodiscard]] double inside() const { return std::min(std::min(u, v), 1.0 - u - v); }
+};
+
+/// Brute force in double precision: what fast visibility and ray casters are judged by. Source:
+/// Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 2(1), 1997.
+class Referee {
+ public:
+    explicit Referee(const WorldGeometry& geometry) : geometry_(&geometry) {}
+
+    /// Answer to "is a hidden from b", with the margin by which it holds.
+    struct Verdict {
+        /// Positive: hidden, and the deepest cut lies that far from the edges of its triangle and
+        /// from the ends of the segment (both in units of their length). Negative: visible, and
+        /// every triangle is missed by at least that much.
+        double margin = -std::numeric_limits<double>::infinity();
+
+        [[nodiscard]] bool visible() const { return margin < 0.0; }
+        /// Single precision cannot be expected to know.
+        [[nodiscard]] bool doubtful(double below) const { return std::fabs(margin) < below; }
+    };
+
+    /// Judges the closed segment from a to b, leaving out the triangles `skip` and `skip_too`.
+    [[nodiscard]] Verdict segment(Vec3 a, Vec3 b, std::uint32_t skip = none,
+                                  std::uint32_t skip_too = none) const {
+        Verdict verdict;
+        const Double3 origin(a);
+        const Double3 direction = Double3(b) - origin;
+        for (std::uint32_t i = 0; i < geometry_->triangles().size(); ++i) {
+            if (i == skip || i == skip_too) continue;
+            const auto hit = line(i, origin, direction);
+            if (!hit) continue;
+            const double along = std::min(hit->t, 1.0 - hit->t);
+            verdict.margin = std::max(verdict.margin, std::min(hit->inside(), along));
+        }
+        return verdict;
+    }
+
+    /// The first triangle along a ray.
+    struct Closest {
+        std::uint32_t triangle = none;
+        LineHit hit;
+        /// Distance in barycentric units from the closest decision that could have gone otherwise:
+        /// an edge of this triangle or of one before it.
+        double margin = std::numeric_limits<double>::infinity();
+        double runner_up = std::numeric_limits<double>::infinity();  ///< t of the second triangle
+    };
+
+    [[nodiscard]] Closest closest(const Ray& ray) const {
+        Closest best;
+        best.hit.t = std::numeric_limits<double>::infinity();
+        const Double3 origin(ray.origin);
+        const Double3 direction(ray.direction);
+        for (std::uint32_t i = 0; i < geometry_->triangles().size(); ++i) {
+            const auto hit = line(i, origin, direction);
+            if (!hit || hit->t <= 0.0) continue;
+            best.margin = std::min(best.margin, std::fabs(hit->inside()));
+            if (hit->inside() < 0.0) continue;
+            if (hit->t < best.hit.t) {
+                best.runner_up = best.hit.t;
+                best.hit = *hit;
+                best.triangle = i;
+            } else {
+                best.runner_up = std::min(best.runner_up, hit->t);
+            }
+        }
+        return best;
+    }
+
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+
+ private:
+    /// Nothing when line and triangle are parallel.
+    [[nodiscard]] std::optional<LineHit> line(std::uint32_t i, Double3 origin,
+                                              Double3 direction) const {
+        const Double3 a(geometry_->corner(i, 0));
+        const Double3 e1 = Double3(geometry_->corner(i, 1)) - a;
+        const Double3 e2 = Double3(geometry_->corner(i, 2)) - a;
+        const Double3 p = cross(direction, e2);
+        const double det = dot(e1, p);
+        if (det == 0.0) return std::nullopt;
+        const Double3 from_corner = origin - a;
+        const Double3 q = cross(from_corner, e1);
+        return LineHit{dot(e2, q) / det, dot(from_corner, p) / det, dot(direction, q) / det};
+    }
+
+    const WorldGeometry* geometry_;
+};
+
+}  // namespace mir::validation

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/visibility.hpp"
+#include "mir/validation/referee.hpp"
+#include "mir/validation/report.hpp"
+#include "mir/validation/worlds.hpp"
+
+#include <thread>
+#include <vector>
+
+namespace mir::validation {
+
+/// Two points that are asked about.
+struct Segment {
+    Vec3 a{0};
+    Vec3 b{0};
+};
+
+/// Barycentric margin below which single precision may see a segment either way.
+inline constexpr double doubtful_margin = 1e-4;
+
+/// Segments whose ends are uniform in the bounds of the triangles.
+inline std::vector<Segment> random_segments(const WorldGeometry& geometry, std::size_t count,
+                                            std::uint64_t index) {
+    Random random = detail::numbers(index);
+    const Vec3 centre = geometry.bounds().centre();
+    const Vec3 half = geometry.bounds().high - centre;
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 a = centre + half * detail::point_in_cube(random);
+        segments.push_back({a, centre + half * detail::point_in_cube(random)});
+    }
+    return segments;
+}
+
+/// Axiom 4 of Visibility: agrees with brute force over the triangles of `geometry`. Wherever the
+/// referee is sure the answers are equal; where it is not, at most one segment in a thousand
+/// differs.
+template <Visibility V>
+Report check_visibility_by_brute_force(const V& visibility, const WorldGeometry& geometry,
+                                       std::size_t count = 20000) {
+    const Referee referee(geometry);
+    std::size_t open = 0;
+    std::size_t sure_and_wrong = 0;
+    std::size_t different = 0;
+    for (const Segment& s : random_segments(geometry, count, 2)) {
+        const Referee::Verdict verdict = referee.segment(s.a, s.b);
+        open += verdict.visible() ? 1 : 0;
+        if (visibility.visible(s.a, s.b) == verdict.visible()) continue;
+        ++different;
+        if (!verdict.doubtful(doubtful_margin)) ++sure_and_wrong;
+    }
+    const std::string of = " of " + std::to_string(count) + " segments";
+    Report report;
+    report.expect(open > 0 && open < count, "the triangles hide something, but not everything",
+                  std::to_string(open) + of + " are open");
+    report.expect(sure_and_wrong == 0, "agrees with brute force",
+                  std::to_string(sure_and_wrong) + of + " are judged wrongly");
+    report.expect(different <= count / 1000, "agrees with brute force at edges",
+                  std::to_string(different) + of + " are judged in another way");
+    return report;
+}
+
+/// Axiom 1 of Visibility: symmetric. Only segments that graze an edge may differ, at most one in a
+/// thousand.
+template <Visibility V>
+Report check_visibility_symmetry(const V& visibility, const WorldGeometry& geometry,
+                                 std::size_t count = 20000) {
+    const Referee referee(geometry);
+    std::size_t different = 0;
+    std::size_t sure_and_different = 0;
+    for (const Segment& s : random_segments(geometry, count, 4)) {
+        if (visibility.visible(s.a, s.b) == visibility.visible(s.b, s.a)) continue;
+        ++different;
+        if (!referee.segment(s.a, s.b).doubtful(doubtful_margin)) ++sure_and_different;
+    }
+    const std::string of = " of " + std::to_string(count) + " segments";
+    Report report;
+    report.expect(sure_and_different == 0, "is symmetric",
+                  std::to_string(sure_and_different) + of + " are judged otherwise backwards");
+    report.expect(different <= count / 1000, "is symmetric at edges",
+                  std::to_string(different) + of + " are judged otherwise backwards");
+    return report;
+}
+
+/// Axiom 2 of Visibility: points that are lifted by WorldGeometry::ray_offset() are not hidden by
+/// their own surface.
+template <Visibility V>
+Report check_lifted_points(const V& visibility, const WorldGeometry& geometry,
+                           std::size_t count = 40000) {
+    const Referee referee(geometry);
+    const float offset = geometry.ray_offset();
+    Random random = detail::numbers(6);
+    std::size_t asked = 0;
+    std::size_t hidden = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const SurfacePoint p = random_surface_point(geometry, random);
+        const SurfacePoint q = random_surface_point(geometry, random);
+        const Vec3 a = lift(p.position, p.geometric_normal, offset);
+        const Vec3 b = lift(q.position, q.geometric_normal, offset);
+        const bool facing = glm::dot(b - a, p.geometric_normal) > 0.0f &&
+                            glm::dot(a - b, q.geometric_normal) > 0.0f;
+        if (!facing) continue;
+        // Neighbours that come within the lift of a segment may rightly hide it.
+        const auto others = referee.segment(a, b, p.triangle, q.triangle);
+        if (!others.visible() || others.doubtful(doubtful_margin)) continue;
+        ++asked;
+        hidden += visibility.visible(a, b) ? 0 : 1;
+    }
+    Report report;
+    report.expect(asked > count / 40, "points of surfaces see one another",
+                  "only " + std::to_string(asked) + " of " + std::to_string(count) + " pairs do");
+    report.expect(hidden == 0, "lifted points are not hidden by their own surface",
+                  std::to_string(hidden) + " of " + std::to_string(asked) + " are");
+    return report;
+}
+
+/// Axiom 3 of Visibility: four threads that ask at once get the answers that one gets.
+template <Visibility V>
+Report check_concurrent_visibility(const V& visibility, const WorldGeometry& geometry) {
+    const auto segments = random_segments(geometry, 4000, 8);
+    const auto ask = [&] {
+        std::vector<char> answers;
+        for (const Segment& s : segments)
+            answers.push_back(visibility.visible(s.a, s.b) ? 'y' : 'n');
+        return answers;
+    };
+    const std::vector<char> alone = ask();
+    std::vector<std::vector<char>> together(4);
+    std::vector<std::thread> threads;
+    for (auto& answers : together) threads.emplace_back([&] { answers = ask(); });
+    for (std::thread& t : threads) t.join();
+    Report report;
+    for (const auto& answers : together)
+        report.expect(answers == alone, "may be asked from many threads at once",
+                      "a thread got other answers");
+    return report;
+}
+
+/// All axioms of Visibility, for a model and the triangles that it knows: those of the program's
+/// own scene, or triangle_soup() of several scales and places. Brute force takes time in proportion
+/// to the triangles; a few hundred are enough.
+template <Visibility V>
+Report check_visibility(const V& visibility, const WorldGeometry& geometry) {
+    Report report;
+    report.add("segments", check_visibility_by_brute_force(visibility, geometry));
+    report.add("segments", check_visibility_symmetry(visibility, geometry));
+    report.add("surfaces", check_lifted_points(visibility, geometry));
+    report.add("threads", check_concurrent_visibility(visibility, geometry));
+    return report;
+}
+
+}  // namespace mir::validation

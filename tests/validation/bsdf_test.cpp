@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "mir/validation/bsdf.hpp"
+
+#include "mir/shading/lambert.hpp"
+#include "mir/validation/bsdf_samples.hpp"
+#include "support/catch.hpp"
+#include "validation/finds.hpp"
+
+#include <limits>
+
+namespace {
+
+using mir::BsdfSample;
+using mir::Lambert;
+using mir::Rgb;
+using mir::Vec2;
+using mir::Vec3;
+using mirtest::finds;
+using mirtest::finds_only;
+
+// Each differs from Lambert in what its name says.
+
+struct BrighterFromOneSide : Lambert {
+    static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3) {
+        return p.reflectance * (mir::inv_pi * mir::larger(glm::dot(n, wi), 0.0f));
+    }
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        BsdfSample s = Lambert::sample(p, n, wo, u, lobe);
+        s.weight = s.weight * glm::dot(n, s.wi);
+        return s;
+    }
+};
+struct TwiceAsBright : Lambert {
+    static Rgb eval(const Params& p, Vec3, Vec3, Vec3) { return p.reflectance * (2 * mir::inv_pi); }
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        BsdfSample s = Lambert::sample(p, n, wo, u, lobe);
+        s.weight = s.weight * 2.0f;
+        return s;
+    }
+};
+struct NotANumberWhenGrazing : Lambert {
+    static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
+        const bool grazing = glm::dot(n, wi) < 1e-8f || glm::dot(n, wo) < 1e-8f;
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        return p.reflectance * (grazing ? nan : mir::inv_pi);
+    }
+};
+struct PdfTooLarge : Lambert {
+    static float pdf(const Params&, Vec3 n, Vec3 wi, Vec3) {
+        return mir::larger(glm::dot(n, wi), 0.0f);
+    }
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        BsdfSample s = Lambert::sample(p, n, wo, u, lobe);
+        return {s.wi, s.weight * mir::inv_pi, s.pdf * mir::pi};
+    }
+};
+struct AlbedoIsPercent : Lambert {
+    static Rgb albedo(const Params& p, Vec3, Vec3) { return p.reflectance * 100.0f; }
+};
+struct CallsItselfBlack : Lambert {
+    static bool is_black(const Params&) { return true; }
+};
+struct WeightWithoutCosine : Lambert {
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        BsdfSample s = Lambert::sample(p, n, wo, u, lobe);
+        s.weight = s.weight * (1.0f / glm::dot(n, s.wi));
+        return s;
+    }
+};
+struct SamplesBelow : Lambert {
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        return Lambert::sample(p, -n, wo, u, lobe);
+    }
+};
+struct ThrowsMostAway : Lambert {
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        return lobe < 0.9f ? BsdfSample{} : Lambert::sample(p, n, wo, u, lobe);
+    }
+};
+/// sample() squeezes directions towards the normal, pdf() does not know.
+struct SamplesAnotherDensity : Lambert {
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        return Lambert::sample(p, n, wo, {u.x, 0.95f * u.y}, lobe);
+    }
+};
+
+const std::vector<Lambert::Params> grey{{{0.9f, 0.6f, 0.3f}}};
+
+template <class B>
+mir::validation::Report check() {
+    return mir::validation::check_bsdf<B>(grey);
+}
+
+}  // namespace
+
+TEST_CASE("check_bsdf finds nothing wrong with a right model") {
+    CHECK(check<Lambert>().passed());
+    CHECK_FALSE(mir::validation::check_bsdf<Lambert>({}).passed());
+}
+
+TEST_CASE("check_bsdf finds each axiom that a model breaks, and no other") {
+    CHECK(finds_only(check<BrighterFromOneSide>(), "eval is reciprocal"));
+    CHECK(finds_only(check<TwiceAsBright>(), "no more light is reflected than arrives"));
+    CHECK(finds(check<NotANumberWhenGrazing>(), "eval and pdf are finite and not negative"));
+    CHECK(finds_only(check<PdfTooLarge>(), "pdf integrates to at most 1"));
+    CHECK(finds_only(check<AlbedoIsPercent>(), "albedo lies in [0, 1]"));
+    CHECK(finds_only(check<CallsItselfBlack>(), "what is black reflects nothing"));
+    CHECK(finds_only(check<WeightWithoutCosine>(), "weights of samples are eval cos / pdf"));
+    CHECK(finds(check<SamplesBelow>(),
+                "samples are unit directions above the surface with finite weights"));
+    CHECK(finds_only(check<ThrowsMostAway>(), "samples of what reflects are mostly kept"));
+}
+
+// Hypothesis, level and seed: see check_bsdf_samples().
+TEST_CASE("check_bsdf_samples finds samples of another density", "[statistical]") {
+    CHECK(mir::validation::check_bsdf_samples<Lambert>(grey[0], 0.7f).passed());
+    CHECK(finds(mir::validation::check_bsdf_samples<SamplesAnotherDensity>(grey[0], 0.7f),
+                "samples follow pdf"));
+}
