@@ -31,7 +31,7 @@ class Bench {
         : executor_(executor),
           set_(set),
           embree_(s.engine.visibility()),
-          scene_(s.geometry, executor),
+          scene_(s.geometry, executor, wide_options_of_run()),
           gbuffer_(s.gbuffer(image, image)),
           vpls_(s.vpls(vpl_count)) {
         mir::sched::detail::append_blocks(blocks_, 0, gbuffer_.tiles()[0]);

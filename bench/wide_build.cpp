@@ -56,13 +56,14 @@ void build(benchmark::State& state, const std::string& name) {
     mir::cpu::TbbExecutor executor(threads);
     tbb::task_arena arena(threads);  // in which Embree builds
     const mir::WorldGeometry& geometry = bench_scene(name).geometry;
+    const mir::WideBvhOptions options = wide_options_of_run();
     double ours = 0.0;
     double embree = 0.0;
     for (auto _ : state) {
         const double before = ours;
         {
             const mir::Stopwatch watch(ours);
-            benchmark::DoNotOptimize(mir::build_wide_bvh(geometry, executor).nodes());
+            benchmark::DoNotOptimize(mir::build_wide_bvh(geometry, executor, options).nodes());
         }
         {
             const mir::Stopwatch watch(embree);
@@ -70,10 +71,12 @@ void build(benchmark::State& state, const std::string& name) {
         }
         state.SetIterationTime(ours - before);
     }
-    const mir::WideBvh bvh = mir::build_wide_bvh(geometry, executor);
+    const mir::WideBvh bvh = mir::build_wide_bvh(geometry, executor, options);
     const mir::WideBvhStatistics s = mir::wide_statistics(bvh.nodes());
     state.counters["time_over_embree"] = ours / embree;
-    state.counters["triangles"] = static_cast<double>(s.triangles);
+    state.counters["triangles"] = static_cast<double>(geometry.triangles().size());
+    state.counters["references"] = static_cast<double>(s.triangles);
+    state.counters["bytes"] = static_cast<double>(bvh.bytes());
     state.counters["nodes"] = static_cast<double>(s.nodes);
     state.counters["depth"] = s.depth;
     state.counters["sah_cost"] = s.sah_cost();

@@ -22,7 +22,7 @@ class SceneOnBackend {
         : queue_(backend.queue()),
           tree_(backend, queue_, scene.tree()),
           geometry_(backend, queue_, scene.geometry()),
-          bvh_(backend, queue_, scene.geometry(), geometry_.view()),
+          bvh_(backend, queue_, scene.geometry(), geometry_.view(), scene.wide_options()),
           boxes_(backend, queue_, bvh_.view(), bvh_.node_count()),
           sigma_(scene.sigma()),
           surfaces_(backend, queue_, scene.surfaces()),

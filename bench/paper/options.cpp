@@ -67,8 +67,9 @@ float real(const std::string& option, const std::string& text) {
     return value;
 }
 
-/// A choice for the kd-tree, which knows its own limits.
-void set_tree(float& choice, const mir::KdTreeOptions& tree, const std::string& option,
+/// A choice for a tree, which knows its own limits.
+template <class TreeOptions>
+void set_tree(float& choice, const TreeOptions& tree, const std::string& option,
               const std::string& text) {
     choice = real(option, text);
     try {
@@ -134,6 +135,8 @@ void set(Options& o, const std::string& option, const std::string& value) {
         set_tree(o.tree.traversal_cost, o.tree, option, value);
     else if (option == "--empty-bonus")
         set_tree(o.tree.empty_bonus, o.tree, option, value);
+    else if (option == "--splits")
+        set_tree(o.wide.splits, o.wide, option, value);
     else if (option == "--out")
         o.out = value;
     else
@@ -181,6 +184,8 @@ std::string usage() {
            "  --threads N         of the host (default 0: every core)\n"
            "  --traversal-cost X  of an inner node of the kd-tree, in triangle tests\n"
            "  --empty-bonus X     of planes of the kd-tree that cut off empty space, 0 <= X < 1\n"
+           "  --splits X          of triangles of the wide hierarchy, for each of them; 0 <= X <= "
+           "1\n"
            "  --out FOLDER        writes paper.json, paper.csv and paper.md there\n\n"
            "Tables go to stdout, progress to stderr. Exit codes: 0 done, 1 failed, 2 usage, 4 no "
            "such device.\n";

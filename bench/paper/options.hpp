@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/kd_options.hpp"
+#include "mir/accel/wide_options.hpp"
 #include "mir/data/tile.hpp"
 
 #include <string>
@@ -20,6 +21,7 @@ struct Options {
     unsigned host_repeat = 3;  ///< where rays are traced on the host
     unsigned threads = 0;      ///< 0: every core
     mir::KdTreeOptions tree = mir::KdTreeOptions::for_gpu();
+    mir::WideBvhOptions wide;
     std::string out;  ///< folder; empty: tables on stdout alone
 
     [[nodiscard]] bool wants(const std::string& figure) const;

@@ -40,13 +40,14 @@ void sort_along_morton(std::vector<std::uint32_t>& chosen, const mir::VplList& p
 }  // namespace
 
 PaperScene::PaperScene(const std::string& name, mir::Extent size, const mir::KdTreeOptions& tree,
-                       Executor& executor)
+                       const mir::WideBvhOptions& wide, Executor& executor)
     : name_(name),
       executor_(&executor),
       scene_(mir::builtin::make(name)),
       hash_(mir::SceneHash(scene_).hex()),
       geometry_(scene_),
       tree_(geometry_, tree, executor),
+      wide_(wide),
       lights_(scene_, geometry_),
       surfaces_(scene_),
       luxels_(size, size) {

@@ -4,6 +4,7 @@
 #include "mir/accel/kd_ray_caster.hpp"
 #include "mir/accel/kd_tree.hpp"
 #include "mir/accel/kd_tree_visibility.hpp"
+#include "mir/accel/wide_options.hpp"
 #include "mir/data/gbuffer.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/fill_gbuffer.hpp"
@@ -27,15 +28,17 @@ using Executor = mirbench::ThreadExecutor;
 /// from any thread but for vpls().
 class PaperScene {
  public:
-    /// The built-in scene `name` at one luxel per pixel of `size`; `tree` changes no VPL.
+    /// The built-in scene `name` at one luxel per pixel of `size`; neither `tree` nor `wide`, for
+    /// the hierarchy that backends build, changes a VPL.
     /// @throws Error(invalid_argument) when there is no such scene.
     PaperScene(const std::string& name, mir::Extent size, const mir::KdTreeOptions& tree,
-               Executor& executor);
+               const mir::WideBvhOptions& wide, Executor& executor);
 
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const std::string& hash() const { return hash_; }
     [[nodiscard]] const mir::WorldGeometry& geometry() const { return geometry_; }
     [[nodiscard]] const mir::KdTree& tree() const { return tree_; }
+    [[nodiscard]] const mir::WideBvhOptions& wide_options() const { return wide_; }
     /// As shafts want it, metres.
     [[nodiscard]] float sigma() const;
     [[nodiscard]] mir::KdTreeVisibility<mir::Space::host> visibility() const {
@@ -74,6 +77,7 @@ class PaperScene {
     std::string hash_;
     mir::WorldGeometry geometry_;
     mir::KdTree tree_;
+    mir::WideBvhOptions wide_;
     mir::LightTable lights_;
     mir::SurfaceTable<Bsdf> surfaces_;
     GBuffer luxels_;

@@ -134,6 +134,7 @@ Fields fields_of(const SceneNote& scene) {
     f.add("tree_bytes", static_cast<double>(scene.tree_bytes));
     f.add("traversal_cost", scene.tree.traversal_cost);
     f.add("empty_bonus", scene.tree.empty_bonus);
+    f.add("splits", scene.splits);
     return f;
 }
 

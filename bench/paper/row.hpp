@@ -53,6 +53,7 @@ struct SceneNote {
     double tree_sah_cost = 0.0;
     std::uint64_t tree_bytes = 0;
     mir::KdTreeOptions tree;
+    float splits = 0.0f;  ///< WideBvhOptions::splits
 };
 
 /// Everything that was measured.

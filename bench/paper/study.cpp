@@ -63,10 +63,10 @@ void print_progress(const Row& row) {
 void measure_scene(const std::string& name, const std::vector<Figure>& figures, Lab& lab,
                    Results& results) {
     std::fprintf(stderr, "%s\n", name.c_str());
-    PaperScene scene(name, lab.options.size, lab.options.tree, lab.executor);
+    PaperScene scene(name, lab.options.size, lab.options.tree, lab.options.wide, lab.executor);
     const mir::KdTreeStatistics& tree = scene.tree().statistics();
     results.scenes.push_back({name, scene.hash(), tree.triangles, tree.seconds(), tree.sah_cost,
-                              tree.bytes, lab.options.tree});
+                              tree.bytes, lab.options.tree, lab.options.wide.splits});
     std::fprintf(stderr, "  %llu triangles, kd-tree in %.2f s\n",
                  static_cast<unsigned long long>(tree.triangles), tree.seconds());
     for (const auto& machine : lab.machines) machine->enter(scene);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/wide_options.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"
@@ -49,6 +50,10 @@ const BenchScene& bench_scene(const std::string& name);
 /// Scenes of a run: those named by the environment variable MIR_BENCH_SCENES (separated by commas),
 /// else the built-in sphere.
 std::vector<std::string> scenes_of_run();
+
+/// How wide hierarchies of a run are built: as the library does it, but for splits named by the
+/// environment variable MIR_BENCH_SPLITS.
+mir::WideBvhOptions wide_options_of_run();
 
 /// Number of luxel-VPL pairs that face each other, those that need a ray.
 std::uint64_t count_facing(const GBuffer& gbuffer, const mir::VplList& vpls,

@@ -71,6 +71,14 @@ std::vector<std::string> scenes_of_run() {
     return names;
 }
 
+mir::WideBvhOptions wide_options_of_run() {
+    mir::WideBvhOptions options;
+    if (const char* splits = std::getenv("MIR_BENCH_SPLITS"))
+        options.splits = std::strtof(splits, nullptr);
+    mir::check(options);
+    return options;
+}
+
 std::uint64_t count_facing(const GBuffer& gbuffer, const mir::VplList& vpls,
                            mir::cpu::TbbExecutor& executor) {
     std::atomic<std::uint64_t> facing{0};
@@ -95,6 +103,8 @@ int main(int argc, char** argv) {
     try {
         for (const std::string& name : mirbench::scenes_of_run())
             benchmark::AddCustomContext("scene_hash " + name, mirbench::bench_scene(name).hash);
+        benchmark::AddCustomContext("splits",
+                                    std::to_string(mirbench::wide_options_of_run().splits));
         benchmark::RunSpecifiedBenchmarks();
     } catch (const mir::Error& e) {
         std::fprintf(stderr, "bench: %s\n", e.what());

@@ -20,16 +20,16 @@ inline World world_of(mir::Mesh mesh) {
 }
 
 /// Triangles with one corner far from the two others, which are 1 / aspect as far apart.
-inline World needles(std::uint32_t count, float aspect, std::uint64_t index) {
+inline World needles(std::uint32_t count, float aspect, std::uint64_t index, float scale = 1.0f) {
     mir::Random random = test_random(index);
     mir::Mesh mesh;
     for (std::uint32_t i = 0; i < count; ++i) {
         const mir::Vec3 a = point_in_cube(random);
         const mir::Vec3 along = direction(random);
         const mir::Vec3 side = glm::normalize(glm::cross(along, direction(random)));
-        mesh.positions.push_back(a);
-        mesh.positions.push_back(a + along);
-        mesh.positions.push_back(a + side / aspect);
+        mesh.positions.push_back(scale * a);
+        mesh.positions.push_back(scale * (a + along));
+        mesh.positions.push_back(scale * (a + side / aspect));
         mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     return world_of(std::move(mesh));

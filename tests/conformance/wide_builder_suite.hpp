@@ -38,7 +38,10 @@ template <class Build>
 CopiedWideBvh build_and_check(const Build& build, const mir::WorldGeometry& geometry,
                               const mir::WideBvhOptions& options = {}) {
     CopiedWideBvh bvh = build(geometry, options);
-    check_whole(geometry, bvh);
+    if (options.splits == 0.0f)
+        check_whole(geometry, bvh);
+    else
+        check_split(geometry, bvh, options.splits);
     check_order(bvh.nodes());
     const mir::WideBvhStatistics count = mir::wide_statistics(bvh.nodes());
     CHECK(count.depth == bvh.depth());
@@ -70,6 +73,64 @@ void bits_are_those_of_every_triangle(const Build& build) {
         options.leaf_size = GENERATE(1u, 2u, 8u);
         check_bits(build, triangle_soup(150, 9), 10, options);
     }
+}
+
+/// Long triangles across all axes, of any width, whose boxes are next to empty, among the triangles
+/// of a soup.
+inline World diagonals(std::uint32_t count, std::uint64_t index, float scale = 1.0f,
+                       mir::Vec3 move = {0, 0, 0}) {
+    mir::Random random = test_random(index);
+    mir::Mesh mesh;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const bool large = i % 3 == 0;
+        const mir::Vec3 a = point_in_cube(random);
+        const mir::Vec3 b = large ? -a : a + 0.25f * point_in_cube(random);
+        const float width = large ? std::pow(10.0f, -6.0f * random.next()) : 0.25f;
+        const mir::Vec3 c = a + random.next() * (b - a) + width * direction(random);
+        for (mir::Vec3 p : {a, b, c}) mesh.positions.push_back(move + scale * p);
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return world_of(std::move(mesh));
+}
+
+template <class Build>
+void bits_do_not_depend_on_splits(const Build& build) {
+    mir::WideBvhOptions options;
+    options.splits = 1.0f;
+    SECTION("of a soup") { check_bits(build, soup_anywhere(23), 24, options); }
+    SECTION("of needles") { check_bits(build, needles_anywhere(25), 26, options); }
+    SECTION("of large triangles across all axes") {
+        const auto [scale, x] = GENERATE(table<float, float>(
+            {{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e4f, 0.0f}, {1.0f, 100.0f}, {1.0f, 1e4f}}));
+        const World world = diagonals(150, 27, scale, {x, 0.3f * x, -x});
+        check_bits(build, world, 28, options);
+    }
+    SECTION("of one triangle many times") { check_bits(build, coincident(50), 29, options); }
+    SECTION("with leaves of any size, in flat trees") {
+        options.leaf_size = GENERATE(1u, 8u);
+        options.max_depth = 1;
+        check_bits(build, diagonals(150, 30), 31, options);
+    }
+    SECTION("of very few triangles") {
+        build_and_check(build, needles(GENERATE(1u, 2u, 5u), 100.0f, 32).geometry, options);
+    }
+    SECTION("in huge and tiny scenes") {
+        build_and_check(build, diagonals(300, 33, GENERATE(5e35f, 1e-20f)).geometry, options);
+    }
+}
+
+/// Splits that the tree could not use would test nothing.
+template <class Build>
+void splits_are_made_where_boxes_are_empty(const Build& build) {
+    mir::WideBvhOptions options;
+    options.splits = 0.5f;
+    const World world = diagonals(600, 34);
+    const CopiedWideBvh bvh = build_and_check(build, world.geometry, options);
+    CHECK(bvh.indices().size() > 800);
+    const double whole = mir::wide_statistics(build(world.geometry, {}).nodes()).sah_cost();
+    CHECK(mir::wide_statistics(bvh.nodes()).sah_cost() < 0.9 * whole);
+    const World walls = flat_grid(16, 1);
+    CHECK(build(walls.geometry, options).indices().size() == walls.geometry.triangles().size());
 }
 
 template <class Build>
@@ -136,6 +197,10 @@ void scale_changes_nothing(const Build& build) {
     const CopiedWideBvh other = build(scaled.geometry, {});
     CHECK(equal_bytes(one.indices(), other.indices()));
     CHECK(one.nodes().size() == other.nodes().size());
+    mir::WideBvhOptions split;
+    split.splits = 0.3f;
+    CHECK(equal_bytes(build(needles(200, 100.0f, 35).geometry, split).indices(),
+                      build(needles(200, 100.0f, 35, 0x1p60f).geometry, split).indices()));
 }
 
 template <class Build>
@@ -148,6 +213,11 @@ void what_cannot_be_built_is_refused(const Build& build) {
     SECTION("too many neighbours") { options.radius = 65; }
     SECTION("nodes for nothing") { options.node_cost = 0.0f; }
     SECTION("nodes too dear") { options.node_cost = std::numeric_limits<float>::infinity(); }
+    SECTION("splits taken back") { options.splits = -0.1f; }
+    SECTION("too many splits") { options.splits = 1.5f; }
+    SECTION("splits that are no number") {
+        options.splits = std::numeric_limits<float>::quiet_NaN();
+    }
     SECTION("no depth") { options.max_depth = 0; }
     SECTION("depth") { options.max_depth = 33; }
     CHECK_THROWS_AS(build(triangle_soup(10, 19).geometry, options), mir::Error);
@@ -157,6 +227,8 @@ void what_cannot_be_built_is_refused(const Build& build) {
 template <class Build>
 void wide_builder_suite(const Build& build) {
     SECTION("bits") { bits_are_those_of_every_triangle(build); }
+    SECTION("splits") { bits_do_not_depend_on_splits(build); }
+    SECTION("where splits are made") { splits_are_made_where_boxes_are_empty(build); }
     SECTION("few triangles") { few_triangles_make_whole_trees(build); }
     SECTION("no triangle") { no_triangle_makes_a_root_without_children(build); }
     SECTION("hard scenes") { hard_scenes_make_whole_trees(build); }

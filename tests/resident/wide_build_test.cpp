@@ -7,12 +7,14 @@
 using namespace mirtest;
 
 TEST_CASE("The host's tree is that of a backend in every byte, for any number of threads") {
+    mir::WideBvhOptions options;
+    options.splits = GENERATE(0.0f, 0.3f);
     for (const World& world : worlds_to_compare()) {
         PutOff work(0);
-        const CopiedWideBvh truth = build_wide_on(LazyBackend(work), world.geometry);
+        const CopiedWideBvh truth = build_wide_on(LazyBackend(work), world.geometry, options);
         for (std::size_t threads : {1u, 3u}) {
             BackwardsExecutor executor{threads};
-            const mir::WideBvh bvh = mir::build_wide_bvh(world.geometry, executor);
+            const mir::WideBvh bvh = mir::build_wide_bvh(world.geometry, executor, options);
             CHECK(same_trees(truth, bvh));
             CHECK(bvh.view().reach == truth.view().reach);
         }

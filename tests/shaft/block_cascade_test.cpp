@@ -62,6 +62,20 @@ TEST_CASE("Leaves of any size are right") {
     }
 }
 
+TEST_CASE("Triangles that lie in several leaves change no bit of a block") {
+    const mirtest::World world = soup(GENERATE(false, true), 1.0f, GENERATE(0.0f, 30.0f));
+    const Lit lit = mirtest::random_lit(world.geometry, 512, 30, mirtest::test_random(27));
+    mir::WideBvhOptions options;
+    options.splits = 1.0f;
+    const ShaftStage stage(world.geometry, mirtest::clustered(lit), options);
+    CHECK(stage.bvh().indices().size() > world.geometry.triangles().size());
+    const std::vector<std::uint32_t> truth = stage.by_brute_force();
+    CHECK(different_bits(by_blocks(stage), truth) == 0);
+    CHECK(different_bits(by_blocks(stage, {2, 1}), truth) == 0);
+    CHECK(different_bits(stage.by_shafts(), truth) == 0);
+    CHECK(different_bits(stage.by_shafts({{2, 4}, {3, 2}}), truth) == 0);
+}
+
 TEST_CASE("Blocks of any number of luxels are right") {
     const mirtest::World world = soup(false);
     for (std::uint32_t luxels : {0u, 1u, 15u, 17u, 256u, 257u, 513u})

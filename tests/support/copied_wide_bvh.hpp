@@ -14,8 +14,8 @@ class CopiedWideBvh {
     template <mir::Backend B>
     CopiedWideBvh(typename B::Queue& queue, const mir::BackendWideBvh<B>& there)
         : nodes_(there.node_count()),
-          triangles_(there.triangle_count()),
-          indices_(there.triangle_count()),
+          triangles_(there.reference_count()),
+          indices_(there.reference_count()),
           reach_(there.view().reach),
           depth_(there.depth()) {
         const mir::WaitAtEnd wait(queue);

@@ -26,10 +26,12 @@ TEST_CASE("Without options everything is measured as the paper did") {
 
 TEST_CASE("Options of bench_paper are read") {
     const auto [o, help, error] =
-        parsed({"--figure",      "9,11",    "--backend", "cpu",   "--scenes",         "car,garage",
-                "--vpls",        "16,1024", "--size",    "64x48", "--repeat",         "3",
-                "--host-repeat", "2",       "--threads", "4",     "--traversal-cost", "0.5",
-                "--empty-bonus", "0.25",    "--out",     "there"});
+        parsed({"--figure",         "9,11",       "--backend",     "cpu",
+                "--scenes",         "car,garage", "--vpls",        "16,1024",
+                "--size",           "64x48",      "--repeat",      "3",
+                "--host-repeat",    "2",          "--threads",     "4",
+                "--traversal-cost", "0.5",        "--empty-bonus", "0.25",
+                "--splits",         "0.1",        "--out",         "there"});
     REQUIRE(error.empty());
     CHECK(o.figures == std::vector<std::string>{"9", "11"});
     CHECK(o.backends == std::vector<std::string>{"cpu"});
@@ -41,6 +43,7 @@ TEST_CASE("Options of bench_paper are read") {
     CHECK(o.threads == 4);
     CHECK(o.tree.traversal_cost == 0.5f);
     CHECK(o.tree.empty_bonus == 0.25f);
+    CHECK(o.wide.splits == 0.1f);
     CHECK(o.out == "there");
     CHECK(parsed({"--help"}).help);
 }
@@ -57,7 +60,7 @@ TEST_CASE("Bad options of bench_paper are refused in one line that names them") 
         {"--host-repeat", "x"}, {"--threads", "1000000"},
         {"--unknown", "1"},     {"word"},
         {"--empty-bonus", "1"}, {"--traversal-cost", "0"},
-        {"--empty-bonus", "x"},
+        {"--empty-bonus", "x"}, {"--splits", "2"},
     };
     for (const auto& words : bad) {
         const std::string error = parsed(words).error;

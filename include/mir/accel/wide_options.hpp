@@ -18,6 +18,11 @@ struct WideBvhOptions {
 
     std::uint32_t leaf_size = 4;  ///< most triangles of a leaf; 1 to largest_leaf
 
+    /// Most splits of triangles before the tree is built over their parts, for each triangle; 0 to
+    /// 1. Those are split whose boxes are mostly empty. A triangle that is split lies in several
+    /// leaves, each time with its rows.
+    float splits = 0.0f;
+
     /// How far along Morton's curve a cluster looks for its nearest, in clusters; 1 to 64. More
     /// makes better trees, more slowly.
     std::uint32_t radius = 8;
@@ -44,6 +49,9 @@ inline void check(const WideBvhOptions& options) {
     expects(options.node_cost >= 0.1f && options.node_cost <= 100.0f,
             "the wide tree's node_cost must lie between 0.1 and 100 (triangle tests that take as "
             "long as a node); choose one there");
+    expects(options.splits >= 0.0f && options.splits <= 1.0f,
+            "the wide tree's splits must lie between 0 and 1 (splits of triangles, for each "
+            "triangle); choose a share there");
     expects(options.max_depth >= 1 && options.max_depth <= WideBvhOptions::depth_limit,
             "the wide tree's max_depth must lie between 1 and 32, the stack of its traversal; "
             "choose one there");

@@ -15,7 +15,7 @@ struct WideBvhStatistics {
     /// What visiting a node, which tests eight boxes, is taken to cost, in triangle tests.
     static constexpr double node_cost = 2.0;
 
-    std::uint64_t triangles = 0;
+    std::uint64_t triangles = 0;  ///< in leaves; one that was split counts in each
     std::uint64_t nodes = 0;
     std::uint64_t leaves = 0;
     std::uint32_t depth = 0;         ///< most nodes on the way from the root to a triangle

@@ -10,7 +10,8 @@ namespace mir {
 /// Builds the hierarchy over all triangles of a scene that BackendWideBvh builds, in every byte, on
 /// the executor's threads.
 /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
-///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more.
+///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more, 2^30 where
+///         they are to be split.
 template <Executor E>
 [[nodiscard]] WideBvh build_wide_bvh(const WorldGeometry& geometry, E& executor,
                                      const WideBvhOptions& options = {}) {
@@ -18,8 +19,8 @@ template <Executor E>
     auto queue = backend.queue();
     detail::WideBuild<host::Backend<E>> build(backend, queue, geometry, geometry.view(), options);
     std::vector<WideNode> nodes(build.nodes());
-    std::vector<TriangleRows> triangles(build.triangles());
-    std::vector<std::uint32_t> indices(build.triangles());
+    std::vector<TriangleRows> triangles(build.references());
+    std::vector<std::uint32_t> indices(build.references());
     build.write(queue, {nodes.data(), triangles.data(), indices.data()});
     return {std::move(nodes), std::move(triangles), std::move(indices), build.reach()};
 }

@@ -20,7 +20,8 @@ class BackendWideBvh {
     /// left. The binary tree becomes a wide one from the root down; which of its nodes stay is what
     /// costs least by the surface area heuristic (WideBvhOptions::node_cost). Some dozens of
     /// rounds, never more than three for each node of depth; up to half a kilobyte of the backend's
-    /// memory per triangle meanwhile.
+    /// memory per triangle meanwhile. Triangles whose boxes are mostly empty may be split before
+    /// (WideBvhOptions::splits).
     /// `uploaded` views `geometry` in the backend's memory, for which kernels on `queue` need not
     /// wait. All work is done when it returns.
     /// Sources: Meister and Bittner, "Parallel locally-ordered clustering for bounding volume
@@ -28,8 +29,8 @@ class BackendWideBvh {
     /// incoherent ray traversal on GPUs through compressed wide BVHs", High Performance Graphics
     /// 2017.
     /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
-    ///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more; what the
-    ///         backend throws.
+    ///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more, 2^30
+    ///         where they are to be split; what the backend throws.
     BackendWideBvh(const B& backend, typename B::Queue& queue, const WorldGeometry& geometry,
                    GeometryView<B::space> uploaded, const WideBvhOptions& options = {})
         : BackendWideBvh(backend, queue,
@@ -41,11 +42,12 @@ class BackendWideBvh {
     }
 
     [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
-    [[nodiscard]] std::size_t triangle_count() const { return rows_.size(); }
+    /// Triangles in leaves; those that were split lie in several.
+    [[nodiscard]] std::size_t reference_count() const { return rows_.size(); }
     /// Most nodes on the way from the root to a triangle; 1 without triangles.
     [[nodiscard]] std::uint32_t depth() const { return depth_; }
 
-    /// Starts copying the tree to the host: node_count() nodes, and triangle_count() triangles and
+    /// Starts copying the tree to the host: node_count() nodes, and reference_count() triangles and
     /// their indices. What it copies to must live until that is done.
     void download(typename B::Queue& queue, std::span<WideNode> nodes,
                   std::span<TriangleRows> triangles, std::span<std::uint32_t> indices) const {
@@ -57,14 +59,14 @@ class BackendWideBvh {
     /// Memory held, bytes.
     [[nodiscard]] std::size_t bytes() const {
         return node_count() * sizeof(WideNode) +
-               triangle_count() * (sizeof(TriangleRows) + sizeof(std::uint32_t));
+               reference_count() * (sizeof(TriangleRows) + sizeof(std::uint32_t));
     }
 
  private:
     BackendWideBvh(const B& backend, typename B::Queue& queue, detail::WideBuild<B>&& build)
         : nodes_(backend.template buffer<WideNode>(build.nodes())),
-          rows_(backend.template buffer<TriangleRows>(build.triangles())),
-          indices_(backend.template buffer<std::uint32_t>(build.triangles())),
+          rows_(backend.template buffer<TriangleRows>(build.references())),
+          indices_(backend.template buffer<std::uint32_t>(build.references())),
           reach_(build.reach()),
           depth_(build.depth()) {
         const WaitAtEnd wait(queue);

@@ -8,13 +8,14 @@
 
 namespace mir::detail {
 
-/// A node of the binary tree that is made into a wide one. Its leaves are single triangles.
+/// A node of the binary tree that is made into a wide one. Its leaves are single triangles or parts
+/// of such.
 struct BinaryNode {
     Vec3 low{0};
     Vec3 high{0};
     std::uint32_t left = 0;   ///< child, or the triangle of a leaf
     std::uint32_t right = 0;  ///< child; nothing in a leaf
-    std::uint32_t count = 0;  ///< triangles below; 1 in a leaf
+    std::uint32_t count = 0;  ///< leaves below; 1 in a leaf
     /// Most nodes on a way down to what fits into a leaf of the wide tree; 0 when all of it does.
     std::uint32_t height = 0;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/detail/construction.hpp"
+#include "mir/accel/detail/split_planes.hpp"
 #include "mir/accel/wide_options.hpp"
 
 #include <algorithm>
@@ -28,6 +29,8 @@ inline std::uint32_t ceil_log2(std::uint32_t n) {
 /// What all kernels of one construction share.
 struct ClusterPlan {
     std::uint32_t triangles = 0;
+    std::uint32_t references = 0;  ///< to triangles: leaves of the binary tree
+    std::uint32_t splits = 0;      ///< of triangles, at most
     std::uint32_t leaf_size = 0;
     std::uint32_t radius = 0;
     float node_cost = 0.0f;
@@ -37,9 +40,16 @@ struct ClusterPlan {
     Vec3 low{0};                  ///< of the scene's bounds, metres
     float to_unit = 0.0f;         ///< 1 / metres: turns the scene's largest extent into 1
     float area_scale = 0.0f;      ///< 1 / metres: keeps surfaces from overflowing
+    SplitPlanes planes;           ///< at which triangles are split
 
-    /// Triangles for which to keep memory.
-    [[nodiscard]] std::uint32_t room() const { return std::max(triangles, 1u); }
+    /// Makes it a plan for so many references.
+    void hold(std::uint32_t count) {
+        references = count;
+        max_depth = std::max({max_depth, (ceil_log2(room()) + 2) / 3, 1u});
+    }
+
+    /// References for which to keep memory.
+    [[nodiscard]] std::uint32_t room() const { return std::max(references, 1u); }
 
     /// Whether a round may look for the nearest clusters, see above, when there are no more than
     /// that many, which is at least 2.
@@ -51,10 +61,11 @@ struct ClusterPlan {
 /// 1 / length, but finite.
 inline float finite_inverse(float length) { return smaller(1.0f / length, 0x1p120f); }
 
-/// Nodes of the binary tree are counted in 32 bits.
+/// Nodes of the binary tree are counted in 32 bits, and a triangle is split once on average at
+/// most.
 /// @throws Error(limit_exceeded)
-inline void check_triangle_count(std::size_t triangles) {
-    if (triangles < std::size_t{1} << 31) return;
+inline void check_triangle_count(std::size_t triangles, const WideBvhOptions& options) {
+    if (triangles < std::size_t{1} << (options.splits > 0.0f ? 30 : 31)) return;
     throw Error(ErrorCode::limit_exceeded,
                 "the scene has " + std::to_string(triangles) +
                     " triangles (their tree would have more nodes than 32 bits count); leave "
@@ -62,23 +73,27 @@ inline void check_triangle_count(std::size_t triangles) {
 }
 
 /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
-///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more.
+///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more, 2^30 where
+///         they are to be split.
 inline ClusterPlan cluster_plan(const WorldGeometry& geometry, const WideBvhOptions& options) {
     check(options);
     check_coordinates(geometry);
-    check_triangle_count(geometry.triangles().size());
+    check_triangle_count(geometry.triangles().size(), options);
     const Bounds& bounds = geometry.bounds();
     ClusterPlan plan;
     plan.triangles = static_cast<std::uint32_t>(geometry.triangles().size());
+    plan.splits = static_cast<std::uint32_t>(static_cast<double>(options.splits) * plan.triangles);
     plan.leaf_size = options.leaf_size;
     plan.radius = options.radius;
     plan.node_cost = options.node_cost;
-    plan.max_depth = std::max({options.max_depth, (ceil_log2(plan.room()) + 2) / 3, 1u});
+    plan.max_depth = options.max_depth;
+    plan.hold(plan.triangles);
     plan.magnitude = magnitude_of(bounds);
     plan.reach = reach_of(plan.magnitude);
     if (bounds.empty()) return plan;
     const float widest = max_abs(bounds.high - bounds.low);
     plan.low = bounds.low;
+    plan.planes = split_planes(bounds.low, widest);
     plan.to_unit = finite_inverse(widest);
     // No accept box is smaller than 2^-18 of the magnitude, however small its triangle.
     plan.area_scale = finite_inverse(larger(widest, 0x1p-18f * plan.magnitude));

@@ -28,11 +28,14 @@ struct WideNotes {
 /// Kernel over one index: the first wide node is made of all.
 struct StartAtRoot {
     const Cluster* all = nullptr;
+    const BinaryNode* nodes = nullptr;
     WideNotes notes;
+    std::uint32_t* count = nullptr;  ///< one word: of triangles in leaves
 
     MIR_HD void operator()(std::uint32_t /*i*/) const {
         notes.roots[0] = all->node;
         notes.first_triangle[0] = 0;
+        *count = nodes[all->node].count;
     }
 };
 

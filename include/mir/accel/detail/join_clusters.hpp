@@ -35,7 +35,7 @@ struct JoinClusters {
     SlotCosts* costs = nullptr;
     Cluster* next = nullptr;
     std::uint32_t* next_left = nullptr;
-    std::uint32_t triangles = 0;
+    std::uint32_t references = 0;
     CostRule rule;
 
     MIR_HD void operator()(std::uint32_t i) const {
@@ -55,17 +55,23 @@ struct JoinClusters {
 
  private:
     /// Number of the node for which a cluster goes. Clusters and the nodes above leaves made so far
-    /// are as many as triangles.
+    /// are as many as references.
     [[nodiscard]] MIR_HD std::uint32_t node_without(std::uint32_t cluster) const {
-        return 2 * triangles - *left + (cluster - kept_before[cluster]);
+        return 2 * references - *left + (cluster - kept_before[cluster]);
     }
 
+    /// Two parts of one triangle become one leaf again.
     MIR_HD void write_node(const Cluster& both, std::uint32_t a, std::uint32_t b) const {
+        const float area = rule.area(both.low, both.high);
+        if (nodes[a].count == 1 && nodes[b].count == 1 && nodes[a].left == nodes[b].left) {
+            nodes[both.node] = {both.low, both.high, nodes[a].left, 0, 1, 0};
+            costs[both.node] = triangle_costs(area);
+            return;
+        }
         const std::uint32_t count = nodes[a].count + nodes[b].count;
         const std::uint32_t taller =
             nodes[a].height > nodes[b].height ? nodes[a].height : nodes[b].height;
         const std::uint32_t height = count <= rule.leaf_size ? 0 : taller + 1;
-        const float area = rule.area(both.low, both.high);
         nodes[both.node] = {both.low, both.high, a, b, count, height};
         costs[both.node] = joined_costs(costs[a], costs[b], area, count, rule);
     }

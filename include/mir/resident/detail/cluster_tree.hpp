@@ -5,14 +5,14 @@
 #include "mir/accel/detail/join_clusters.hpp"
 #include "mir/accel/detail/make_clusters.hpp"
 #include "mir/accel/detail/wide_children.hpp"
-#include "mir/resident/detail/counter.hpp"
+#include "mir/resident/detail/split_plan.hpp"
 
 #include <array>
 
 namespace mir::detail {
 
-/// A binary tree over all triangles of a scene in a backend's memory, made by joining clusters that
-/// lie next to each other. Equal in bytes on every backend.
+/// A binary tree over all triangles of a scene, or parts of them, in a backend's memory, made by
+/// joining clusters that lie next to each other. Equal in bytes on every backend.
 template <Backend B>
 class ClusterTree {
  public:
@@ -30,11 +30,12 @@ class ClusterTree {
 
     /// Does all of it but the last steps, which it starts. There are triangles. The scratch is for
     /// one element more than these.
-    void build(typename B::Queue& queue, GeometryView<B::space> geometry,
+    void build(typename B::Queue& queue, GeometryView<B::space> geometry, const SplitPlan<B>& split,
                typename B::template Buffer<std::byte>& scratch) {
-        const std::uint32_t n = plan_.triangles;
-        queue.for_each(
-            n, MakeBoxes<B::space>{geometry, plan_, next(), keys_.data(), partners_.data()});
+        const std::uint32_t n = plan_.references;
+        queue.for_each(plan_.triangles,
+                       MakeBoxes<B::space>{geometry, plan_, split.splits(), split.first(), next(),
+                                           keys_.data(), partners_.data()});
         queue.sort_by_key(n, keys_.data(), partners_.data(), scratch);
         queue.for_each(
             n, PlaceLeaves{next(), partners_.data(), nodes_.data(), costs_.data(), now(), rule()});
@@ -81,7 +82,7 @@ class ClusterTree {
         queue.sum_before(bound + 1, kept_.data(), kept_before_.data(), scratch);
         queue.for_each(bound + 1, JoinClusters{now(), left, partners_.data(), kept_before_.data(),
                                                nodes_.data(), costs_.data(), next(),
-                                               left_[1 - turn_].data(), plan_.triangles, rule()});
+                                               left_[1 - turn_].data(), plan_.references, rule()});
         turn_ = 1 - turn_;
     }
 

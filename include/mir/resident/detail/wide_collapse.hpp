@@ -23,7 +23,8 @@ class WideCollapse {
     /// All of it. There are triangles.
     void run(typename B::Queue& queue, const ClusterTree<B>& tree,
              typename B::template Buffer<std::byte>& scratch) {
-        queue.for_each(1, StartAtRoot{tree.all(), notes()});
+        queue.for_each(1, StartAtRoot{tree.all(), tree.view().nodes, notes(), next_size_.data()});
+        references_ = next_size_.read(queue);
         while (level_.size > 0) {
             choose(queue, tree, scratch);
             const std::uint32_t size = next_size_.read(queue);
@@ -32,6 +33,8 @@ class WideCollapse {
     }
 
     [[nodiscard]] std::uint32_t node_count() const { return level_.begin; }
+    /// In leaves.
+    [[nodiscard]] std::uint32_t reference_count() const { return references_; }
     [[nodiscard]] std::uint32_t depth() const { return level_.depth; }
     [[nodiscard]] WideNotes notes() {
         return {roots_.data(), children_.data(), first_child_.data(), first_triangle_.data()};
@@ -40,7 +43,7 @@ class WideCollapse {
  private:
     /// Room for wide nodes: each is made of a node of the binary tree that has two children.
     static std::size_t most_nodes(const ClusterPlan& plan) {
-        return std::max(plan.triangles, 2u) - 1;
+        return std::max(plan.references, 2u) - 1;
     }
 
     void choose(typename B::Queue& queue, const ClusterTree<B>& tree,
@@ -64,6 +67,7 @@ class WideCollapse {
     Buffer<std::uint32_t> inner_;
     Buffer<std::uint32_t> inner_before_;
     Counter<B> next_size_;
+    std::uint32_t references_ = 0;
     WideLevel level_;
 };
 
