@@ -11,11 +11,14 @@ namespace mir {
 /// the triangle, and no larger than the piece where that is known. A trivially copyable value of 64
 /// bytes.
 struct alignas(16) Surfel {
+    /// What discs belong to that were not made from a triangle.
+    static constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
+
     Vec3 position{0};            ///< centre, metres
     float radius = 0.0f;         ///< metres; SurfelOptions::extent says which
     Vec3 normal{0, 0, 1};        ///< unit, of the triangle's front
     float area = 0.0f;           ///< of the piece, m^2
-    std::uint32_t triangle = 0;  ///< index into WorldGeometry
+    std::uint32_t triangle = 0;  ///< index into WorldGeometry, or no_triangle
     std::uint32_t material = 0;  ///< index into Scene::materials
     /// From the centre to two corners of the piece, counter-clockwise around the normal; the third
     /// is minus their sum. Both zero: the disc is whole. Metres.
