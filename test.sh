@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# ./test.sh [OPTIONS OF CTEST]   builds everything and runs all tests
+# ./test.sh [OPTIONS OF CTEST]   builds everything and runs all tests but those labelled `extended`,
+#                                which .ci/run adds
 set -eu
 
 cd -- "$(dirname -- "$0")"
@@ -9,4 +10,4 @@ MIR_WANT=${MIR_WANT:-test}
 . tools/setup.sh
 mir_build cpu
 
-exec ctest --preset cpu --parallel "$(mir_jobs)" "$@"
+exec ctest --preset cpu --label-exclude extended --parallel "$(mir_jobs)" "$@"

@@ -25,8 +25,8 @@ mir::SurfelHit brute_force_cut(const mir::SurfelTree& tree, const mir::SurfelRay
 inline mir::SurfelHit brute_force_cut(const mir::SurfelTree& tree, const mir::SurfelRay& ray) {
     const float sine2 = mir::cap_sine_squared(ray.solid_angle);
     return brute_force_cut(tree, ray, [&](std::uint32_t node) {
-        return mir::detail::stops_at(tree.nodes()[node], tree.nodes()[node].centre - ray.origin,
-                                     sine2);
+        return mir::detail::stops_at(tree.nodes()[node], ray.normal,
+                                     tree.nodes()[node].centre - ray.origin, sine2);
     });
 }
 

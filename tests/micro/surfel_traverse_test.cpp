@@ -140,7 +140,8 @@ TEST_CASE("A wall is met in few nodes from everywhere, from its own plane too") 
         for (std::uint32_t i = 0; i < tree.nodes().size();) {
             const SurfelNode& node = tree.nodes()[i];
             const bool is_end =
-                node.is_leaf() || mir::detail::stops_at(node, node.centre - ray.origin, sine2);
+                node.is_leaf() ||
+                mir::detail::stops_at(node, ray.normal, node.centre - ray.origin, sine2);
             i += is_end ? 2 * node.count - 1 : 1;
             ends += is_end ? 1 : 0;
         }

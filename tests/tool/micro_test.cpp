@@ -103,7 +103,14 @@ TEST_CASE("glossy surfaces have a micro-buffer for their lobe where it is asked 
     const std::string diffuse = "builtin:cornell-box";
     CHECK(largest_difference(picture(diffuse, "importance"), picture(diffuse, "hemisphere")) ==
           0.0f);
-    const std::string glossy = "builtin:sphere";
+    std::ofstream(folder / "a.mtl") << "newmtl steel\nKd 0.8 0.8 0.8\nPr 0.4\nPm 1\n"
+                                       "newmtl lamp\nKe 5 5 5\n";
+    std::ofstream(folder / "a.obj") << "mtllib a.mtl\n"
+                                       "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\n"
+                                       "v -1 2 -1\nv 1 2 -1\nv 0 1 0\nv 0.2 1 0\nv 0 1 -0.2\n"
+                                       "usemtl steel\nf 1 2 3 4\nf 4 3 6 5\n"
+                                       "usemtl lamp\nf 7 9 8\n";
+    const std::string glossy = (folder / "a.obj").string();
     CHECK(largest_difference(picture(glossy, "importance"), picture(glossy, "hemisphere")) > 0.0f);
 }
 

@@ -18,6 +18,12 @@ struct Monitor {
     std::atomic<std::uint32_t> passes{0};                 ///< of a ProgressiveRender: done
     std::atomic<bool> cancelled{false};                   ///< set to stop at the next block
 
+    /// Nothing done and nothing known of the pass that begins, `passes` being behind it.
+    void begin_pass(std::uint32_t done) {
+        passes = done;
+        contributions = planned_contributions = gathers = planned_gathers = 0;
+    }
+
     /// @throws Error(cancelled) when the caller asked to stop.
     void check() const {
         if (cancelled.load(std::memory_order_relaxed))

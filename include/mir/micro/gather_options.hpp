@@ -35,8 +35,8 @@ struct BufferGatherOptions {
     static constexpr std::uint32_t largest_side = 24;
 
     std::uint32_t side = 16;  ///< texels in each direction, 1 to largest_side
-    /// Largest solid angle of a node that is drawn as a whole, in units of the texels' there, of
-    /// those that follow the cosine pi / side^2: 0 is exact.
+    /// Largest solid angle of a node that is drawn as a whole, in units of the smallest texel that
+    /// it may cover, of those that follow the cosine pi / side^2 everywhere: 0 is exact.
     float threshold = 1.0f;
     BufferWarp warp = BufferWarp::hemisphere;
 };
@@ -48,6 +48,8 @@ inline void check(const BufferGatherOptions& options) {
     expects(options.threshold >= 0.0f && std::isfinite(options.threshold),
             "the threshold of a micro-buffer must be a finite number, not below 0; 0 is exact, 1 "
             "usual");
+    expects(options.warp == BufferWarp::hemisphere || options.warp == BufferWarp::importance,
+            "the warp of a micro-buffer must be hemisphere or importance");
 }
 
 /// @throws Error(invalid_argument) when an option is out of its range.

@@ -99,9 +99,9 @@ class MicroBuffer {
     /// Whether a walk for a point ends at a node that it does not pass by.
     template <Space S>
     [[nodiscard]] MIR_HD bool ends_at(const SurfelTreeView<S>& tree, std::uint32_t index,
-                                      Vec3 origin, float share) const {
+                                      const SurfelRay& point, float share) const {
         const SurfelNode& node = tree.nodes[index];
-        return ends_at(node, node.centre - origin, share);
+        return ends_at(node, point.normal, node.centre - point.origin, share);
     }
 
  private:
@@ -149,7 +149,7 @@ class MicroBuffer {
                                    detail::padded_radius(node, to_centre)))
                 return;
             right[lane] = node.right;
-            const bool ends = ends_at(node, to_centre, share);
+            const bool ends = ends_at(node, point.normal, to_centre, share);
             is_inner[lane] = !ends;
             is_end[lane] = ends && (node.is_leaf() || detail::is_above(point, to_centre));
         });
@@ -169,11 +169,12 @@ class MicroBuffer {
         return {LaneGroup::count(inner), LaneGroup::count(ends)};
     }
 
-    [[nodiscard]] MIR_HD bool ends_at(const SurfelNode& node, Vec3 to_centre, float share) const {
+    [[nodiscard]] MIR_HD bool ends_at(const SurfelNode& node, Vec3 normal, Vec3 to_centre,
+                                      float share) const {
         if (node.is_leaf()) return true;
         const float solid_angle =
             share / texels_.largest_density(SeenSphere(to_centre, node.radius));
-        return detail::stops_at(node, to_centre, cap_sine_squared(solid_angle));
+        return detail::stops_at(node, normal, to_centre, cap_sine_squared(solid_angle));
     }
 
     /// Texels that up to 32 nodes may cover are found by a lane for each node, and met by a lane

@@ -85,8 +85,8 @@ MIR_HD inline void meet_sphere(const SurfelNode& node, std::uint32_t index, cons
 
 /// True when all discs below a node show the same side to a point: however a normal of its cone is
 /// tilted, all of the sphere lies on one side of the plane through the point across that normal.
-/// Or, what flat walls seen at a slant need, all of the slab of the discs does. Or the slab is so
-/// flat that what is in doubt is seen under less than a thousandth of the node's angle: a wall seen
+/// Or, what flat walls seen at a slant need, all of the slab of the discs does. Or the point is so
+/// deep in a slab so flat that what is in doubt is less than a thousandth of the node: a wall seen
 /// edge-on.
 MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre) {
     const float cosine = node.cos_angle;
@@ -100,17 +100,18 @@ MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre) {
     if (is_beyond_tilt(height - padded)) return true;
     const float doubt =
         node.thickness * cosine + sqrtf(sine2) * node.radius + (padded - node.radius);
-    return is_beyond_tilt(height - doubt) ||
-           is_beyond_tilt(0x1p-10f * glm::length(to_centre) - doubt);
+    return is_beyond_tilt(height - doubt) || is_beyond_tilt(0x1p-10f * node.radius - doubt);
 }
 
 /// True when a ray ends at an inner node: it is not inside, the node's solid angle is not larger
 /// than the ray's (`sine2` is its cap_sine_squared()), and it shows one side. As a disc, it is
-/// passed by when its centre lies below the tangent plane.
-MIR_HD inline bool stops_at(const SurfelNode& node, Vec3 to_centre, float sine2) {
+/// passed by when its centre lies below the tangent plane of `normal`: that is an end for nodes up
+/// to an eighth of their distance alone, of which little is above the plane and that at a slant.
+MIR_HD inline bool stops_at(const SurfelNode& node, Vec3 normal, Vec3 to_centre, float sine2) {
     const float distance2 = length_squared(to_centre);
     const float radius2 = node.radius * node.radius;
     if (!(radius2 < distance2) || !(radius2 <= sine2 * distance2)) return false;
+    if (glm::dot(normal, to_centre) < 0.0f && radius2 * 64.0f > distance2) return false;
     return shows_one_side(node, to_centre);
 }
 
@@ -183,7 +184,8 @@ template <Space S>
     std::uint32_t index = tree.root;
     while (index != SurfelHit::none) {
         const SurfelNode& node = tree.nodes[index];
-        if (!node.is_leaf() && !detail::stops_at(node, node.centre - ray.origin, sine2)) {
+        if (!node.is_leaf() &&
+            !detail::stops_at(node, ray.normal, node.centre - ray.origin, sine2)) {
             index = detail::descend(tree, index, ray, hit.t, waiting);
             continue;
         }

@@ -63,8 +63,8 @@ class BackendGather {
     }
 
  private:
-    /// Luxels between two looks at whether to go on.
-    static constexpr std::uint32_t portion = 65536;
+    /// Luxels between two looks at whether to go on: whole blocks.
+    static constexpr std::uint32_t portion = 256 * BlockedLayout::block_size;
 
     /// make(GatherTile, radiance) gives what starts the work of a run of luxels of the tile.
     template <class Done, class Make>
@@ -86,12 +86,24 @@ class BackendGather {
                 const std::uint32_t n = std::min(portion, view.size() - i);
                 start(i, n);
                 queue_.record().sync();
-                done(n);
+                done(luxels_of_run(there.tiles()[t], i, n));
             }
         }
         queue_.download(layer.words(), std::span(words));
         queue_.record().sync();
         return image_of({words.data(), layer.grid()});
+    }
+
+    /// Luxels of a run of whole blocks, without the padding.
+    [[nodiscard]] static std::uint64_t luxels_of_run(const Tile& tile, LuxelIndex first,
+                                                     std::uint32_t count) {
+        const auto layout = BlockedLayout::of(tile);
+        std::uint64_t sum = 0;
+        for (LuxelIndex i = first; i < first + count; i += BlockedLayout::block_size) {
+            const Tile area = layout.block_area(tile, i / BlockedLayout::block_size);
+            sum += std::uint64_t{area.width} * area.height;
+        }
+        return sum;
     }
 
     [[nodiscard]] static Image<Rgb> image_of(const LayerView& layer) {

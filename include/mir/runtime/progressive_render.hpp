@@ -43,9 +43,7 @@ class ProgressiveRender {
     void next_pass() {
         if (monitor_ != nullptr) {
             monitor_->check();
-            monitor_->passes = sums_.passes();
-            monitor_->planned_contributions = 0;
-            monitor_->contributions = 0;
+            monitor_->begin_pass(sums_.passes());
         }
         settings_.seed = pass_seed(seed_, sums_.passes());
         sums_.add(renderer_.render(scene_, settings_, monitor_));

@@ -12,9 +12,11 @@ struct NormalCone {
 };
 
 /// Around the mean normal by area, or the first one where normals cancel. In exact arithmetic every
-/// normal is inside: the cosine is rounded downwards, past its error.
+/// normal is inside: the cosine is rounded downwards, past its error. Equal normals have no width.
 inline NormalCone normal_cone(std::span<const Surfel> surfels) {
-    if (surfels.size() == 1) return {surfels[0].normal, 1.0f};
+    if (std::all_of(surfels.begin(), surfels.end(),
+                    [&](const Surfel& s) { return s.normal == surfels[0].normal; }))
+        return {surfels[0].normal, 1.0f};
     Double3 sum(0.0);
     double area = 0.0;
     for (const Surfel& s : surfels) {

@@ -25,7 +25,7 @@ inline constexpr std::size_t workspace_bytes = 48 * 1024;
 /// slowest warp is done, and no more than there is room for.
 template <class Kernel>
 inline constexpr std::uint32_t groups_per_block = static_cast<std::uint32_t>(
-    std::min<std::size_t>(4, workspace_bytes / sizeof(typename Kernel::Workspace)));
+    std::clamp<std::size_t>(workspace_bytes / sizeof(typename Kernel::Workspace), 1, 4));
 template <class Kernel>
 inline constexpr std::uint32_t threads_of_groups = groups_per_block<Kernel>* LaneGroup::width;
 
@@ -132,10 +132,12 @@ void Queue::fill_bits(std::uint32_t rows, std::uint32_t columns, const Kernel& k
 template <class Kernel>
 void Queue::for_each_group(std::uint32_t n, const Kernel& kernel) {
     detail::check_kernel<Kernel>();
+    static_assert(sizeof(typename Kernel::Workspace) <= detail::workspace_bytes,
+                  "mir: a kernel's Workspace must not be larger than 48 kB, what a group may have "
+                  "of fast memory");
     if (n == 0) return;
     const ActiveDevice active(device_);
     constexpr std::uint32_t groups = detail::groups_per_block<Kernel>;
-    static_assert(groups > 0, "mir: a kernel's Workspace must not be larger than 48 kB");
     detail::launch(detail::blocks_for(n, groups), detail::threads_of_groups<Kernel>, stream_,
                    detail::for_each_group_index<Kernel>, n, kernel);
 }
