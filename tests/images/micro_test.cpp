@@ -96,6 +96,11 @@ TEST_CASE("light gathered from discs does not depend on threads, tiles or layers
     const RenderResult sum = mirtest::render(scene, s);
     CHECK(sum.bounces.empty());
     CHECK(mirtest::relative_difference(usual.indirect, sum.indirect) < 1e-5);
+    s.bounce_layers = true;
+    mir::Monitor monitor;
+    CHECK(mirtest::same_bits(mirtest::render(scene, s, &monitor).beauty, usual.beauty));
+    CHECK(monitor.planned_gathers == 2 * 16 * 16);  // bounces 2 and 3
+    CHECK(monitor.gathers == monitor.planned_gathers);
 }
 
 TEST_CASE("one reflection is direct light, and black scenes are black") {

@@ -11,10 +11,11 @@
 namespace mirtest {
 
 /// Renders with the compiled CPU renderer.
-inline mir::RenderResult render(const mir::Scene& scene, const mir::RenderSettings& settings) {
+inline mir::RenderResult render(const mir::Scene& scene, const mir::RenderSettings& settings,
+                                mir::Monitor* monitor = nullptr) {
     mir::Registry registry;
     mir::cpu::add_to(registry);
-    return registry.make(settings.backend, settings.scheduler)->render(scene, settings, nullptr);
+    return registry.make(settings.backend, settings.scheduler)->render(scene, settings, monitor);
 }
 
 /// Settings of a small picture without any bound.

@@ -52,6 +52,21 @@ TEST_CASE("passes have seeds of their own, the first that of the render") {
     static_assert(mir::pass_seed(0, 1) != mir::pass_seed(1, 1));
 }
 
+TEST_CASE("each pass begins with nothing done and nothing planned") {
+    // What a MicroRender leaves behind.
+    const NoiseRenderer renderer;
+    mir::Monitor monitor;
+    mir::ProgressiveRender render(renderer, scene, settings(), {.passes = 2}, &monitor);
+    monitor.gathers = monitor.planned_gathers = 5;
+    monitor.contributions = monitor.planned_contributions = 7;
+    render.next_pass();
+    CHECK(monitor.passes == 0);
+    CHECK((monitor.gathers == 0 && monitor.planned_gathers == 0));
+    CHECK((monitor.contributions == 0 && monitor.planned_contributions == 0));
+    render.next_pass();
+    CHECK(monitor.passes == 1);
+}
+
 TEST_CASE("each pass is rendered with its seed, and all else as asked") {
     const NoiseRenderer renderer;
     finished(renderer, {.passes = 3}, 11);
