@@ -71,7 +71,10 @@ int main(int argc, char** argv) {
     try {
         host::ThreadPool pool(3);
         host::PoolExecutor executor(pool);
-        const mir::validation::Report report = mir::validation::check_executor(executor);
+        host::ThreadPool full(3, 1);
+        host::PoolExecutor short_of_help(full);
+        mir::validation::Report report = mir::validation::check_executor(executor);
+        report.add("full pool", mir::validation::check_executor(short_of_help));
         require(report.passed(), report.text());
         std::cout << report.checks() << " checks of the executor passed\n";
 

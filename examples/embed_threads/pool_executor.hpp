@@ -38,7 +38,11 @@ class PoolExecutor {
                 loop->count_one();
             }
         };
-        for (std::size_t k = 1; k < std::min(n, concurrency()); ++k) pool_.post(work);
+        try {
+            for (std::size_t k = 1; k < std::min(n, concurrency()); ++k) pool_.post(work);
+        } catch (...) {
+            // Helpers that were posted may run `body` already: go on with those, or alone.
+        }
         work();
         loop->wait();
         if (loop->failure) std::rethrow_exception(loop->failure);

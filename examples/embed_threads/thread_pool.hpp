@@ -8,6 +8,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace host {
 /// Threads that run jobs in the order in which they came. Jobs must not throw.
 class ThreadPool {
  public:
-    explicit ThreadPool(std::size_t threads) {
+    explicit ThreadPool(std::size_t threads, std::size_t most_waiting = 1000)
+        : most_waiting_(most_waiting) {
         for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { serve(); });
     }
     ThreadPool(const ThreadPool&) = delete;
@@ -30,9 +32,11 @@ class ThreadPool {
         for (std::thread& t : threads_) t.join();
     }
 
+    /// @throws std::runtime_error when as many jobs wait as may.
     void post(std::function<void()> job) {
         {
             const std::lock_guard lock(mutex_);
+            if (jobs_.size() >= most_waiting_) throw std::runtime_error("the pool is full");
             jobs_.push_back(std::move(job));
         }
         wake_.notify_one();
@@ -52,6 +56,7 @@ class ThreadPool {
         }
     }
 
+    const std::size_t most_waiting_;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<std::function<void()>> jobs_;

@@ -5,7 +5,7 @@
 
 namespace mirtest {
 
-using mir::validation::Double3;
+using Double3 = mir::detail::Double3;
 using mir::validation::LineHit;
 using mir::validation::Referee;
 

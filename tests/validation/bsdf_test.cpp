@@ -45,6 +45,16 @@ struct NotANumberWhenGrazing : Lambert {
         return p.reflectance * (grazing ? nan : mir::inv_pi);
     }
 };
+/// In one channel, away from where check_bsdf() looks for single values.
+struct NotANumberInBlue : Lambert {
+    static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3) {
+        const float cosine = glm::dot(n, wi);
+        const bool there = cosine > 0.4f && cosine < 0.6f;
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        return {p.reflectance.r * mir::inv_pi, p.reflectance.g * mir::inv_pi,
+                there ? nan : p.reflectance.b * mir::inv_pi};
+    }
+};
 struct PdfTooLarge : Lambert {
     static float pdf(const Params&, Vec3 n, Vec3 wi, Vec3) {
         return mir::larger(glm::dot(n, wi), 0.0f);
@@ -83,6 +93,51 @@ struct SamplesAnotherDensity : Lambert {
         return Lambert::sample(p, n, wo, {u.x, 0.95f * u.y}, lobe);
     }
 };
+struct ThrowsFewAway : Lambert {
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        return lobe < 0.02f ? BsdfSample{} : Lambert::sample(p, n, wo, u, lobe);
+    }
+};
+struct SamplesAreNotANumber : Lambert {
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        BsdfSample s = Lambert::sample(p, n, wo, u, lobe);
+        if (lobe < 1e-3f) s.wi.x = std::numeric_limits<float>::quiet_NaN();
+        return s;
+    }
+};
+/// Lambert, one side of whose hemisphere is folded onto the other.
+struct OneSided : Lambert {
+    static float pdf(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
+        const bool there = glm::dot(mir::Frame::around(n).bitangent, wi) > 0.0f;
+        return there ? 2.0f * Lambert::pdf(p, n, wi, wo) : 0.0f;
+    }
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        BsdfSample s = Lambert::sample(p, n, wo, u, lobe);
+        const Vec3 across = mir::Frame::around(n).bitangent;
+        const float side = glm::dot(across, s.wi);
+        if (side < 0.0f) s.wi -= 2.0f * side * across;
+        return {s.wi, s.weight * 0.5f, 2.0f * s.pdf};
+    }
+};
+struct SamplesWherePdfIsZero : OneSided {
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        return lobe < 0.02f ? Lambert::sample(p, n, wo, u, lobe)
+                            : OneSided::sample(p, n, wo, u, lobe);
+    }
+};
+/// Throws everything away.
+struct Black : Lambert {
+    static Rgb eval(const Params&, Vec3, Vec3, Vec3) { return {}; }
+    static float pdf(const Params&, Vec3, Vec3, Vec3) { return 0.0f; }
+    static Rgb albedo(const Params&, Vec3, Vec3) { return {}; }
+    static bool is_black(const Params&) { return true; }
+    static BsdfSample sample(const Params&, Vec3, Vec3, Vec2, float) { return {}; }
+};
+struct BlackButSampled : Black {
+    static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
+        return Lambert::sample(p, n, wo, u, lobe);
+    }
+};
 
 const std::vector<Lambert::Params> grey{{{0.9f, 0.6f, 0.3f}}};
 
@@ -91,10 +146,16 @@ mir::validation::Report check() {
     return mir::validation::check_bsdf<B>(grey);
 }
 
+template <class B>
+mir::validation::Report check_samples() {
+    return mir::validation::check_bsdf_samples<B>(grey[0], 0.7f);
+}
+
 }  // namespace
 
 TEST_CASE("check_bsdf finds nothing wrong with a right model") {
     CHECK(check<Lambert>().passed());
+    CHECK(check<Black>().passed());
     CHECK_FALSE(mir::validation::check_bsdf<Lambert>({}).passed());
 }
 
@@ -102,6 +163,8 @@ TEST_CASE("check_bsdf finds each axiom that a model breaks, and no other") {
     CHECK(finds_only(check<BrighterFromOneSide>(), "eval is reciprocal"));
     CHECK(finds_only(check<TwiceAsBright>(), "no more light is reflected than arrives"));
     CHECK(finds(check<NotANumberWhenGrazing>(), "eval and pdf are finite and not negative"));
+    CHECK(finds(check<NotANumberInBlue>(), "eval is reciprocal"));
+    CHECK(finds(check<NotANumberInBlue>(), "no more light is reflected than arrives"));
     CHECK(finds_only(check<PdfTooLarge>(), "pdf integrates to at most 1"));
     CHECK(finds_only(check<AlbedoIsPercent>(), "albedo lies in [0, 1]"));
     CHECK(finds_only(check<CallsItselfBlack>(), "what is black reflects nothing"));
@@ -113,7 +176,13 @@ TEST_CASE("check_bsdf finds each axiom that a model breaks, and no other") {
 
 // Hypothesis, level and seed: see check_bsdf_samples().
 TEST_CASE("check_bsdf_samples finds samples of another density", "[statistical]") {
-    CHECK(mir::validation::check_bsdf_samples<Lambert>(grey[0], 0.7f).passed());
-    CHECK(finds(mir::validation::check_bsdf_samples<SamplesAnotherDensity>(grey[0], 0.7f),
-                "samples follow pdf"));
+    CHECK(check_samples<Lambert>().passed());
+    CHECK(check_samples<OneSided>().passed());
+    CHECK(check_samples<Black>().passed());
+    const char* follow = "samples follow pdf";
+    CHECK(finds_only(check_samples<SamplesAnotherDensity>(), follow));
+    CHECK(finds_only(check_samples<ThrowsFewAway>(), follow));
+    CHECK(finds_only(check_samples<SamplesWherePdfIsZero>(), follow));
+    CHECK(finds_only(check_samples<BlackButSampled>(), follow));
+    CHECK(finds(check_samples<SamplesAreNotANumber>(), "samples are finite"));
 }

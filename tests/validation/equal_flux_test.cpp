@@ -11,6 +11,8 @@
 #include "support/catch.hpp"
 #include "validation/finds.hpp"
 
+#include <limits>
+
 namespace {
 
 using mir::Lambert;
@@ -61,5 +63,13 @@ TEST_CASE("check_equal_flux passes Metropolis VPLs and finds those that are brig
     const mir::validation::Report found = placed.check(brighter);
     INFO(found.text() << placed.vpls.size() << " VPLs of " << intensities.size() << " states");
     CHECK(mirtest::finds_only(found, "every recorded state brings the same light to the image"));
+
+    const float infinity = std::numeric_limits<float>::infinity();
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const float value : {infinity, nan}) {
+        brighter.relight(std::vector<mir::Rgb>(intensities.size(), {value, value, value}));
+        CHECK(mirtest::finds_only(placed.check(brighter),
+                                  "every recorded state brings the same light to the image"));
+    }
     CHECK(mirtest::finds(placed.check({}), "luxels see most of the VPLs"));
 }

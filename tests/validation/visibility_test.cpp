@@ -6,6 +6,7 @@
 #include "validation/finds.hpp"
 
 #include <atomic>
+#include <stdexcept>
 
 namespace {
 
@@ -45,6 +46,15 @@ struct CountsCalls : Right {
         return Right::visible(a, b) != (++*calls == 6000);
     }
 };
+/// Fails on threads that are not the one that made it.
+struct FailsElsewhere : Right {
+    std::thread::id home = std::this_thread::get_id();
+
+    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const {
+        if (std::this_thread::get_id() != home) throw std::runtime_error("no buffer");
+        return Right::visible(a, b);
+    }
+};
 
 const mir::validation::World& soup() {
     static const mir::validation::World world = mir::validation::triangle_soup(60, 1);
@@ -78,6 +88,23 @@ TEST_CASE("check_visibility finds answers that depend on who else asks") {
     const CountsCalls cache{{mirtest::Referee(soup().geometry)}, &calls};
     CHECK(finds_only(mir::validation::check_concurrent_visibility(cache, soup().geometry),
                      "may be asked from many threads at once"));
+}
+
+TEST_CASE("check_visibility finds exceptions of threads") {
+    const FailsElsewhere fails{{mirtest::Referee(soup().geometry)}};
+    CHECK(finds_only(mir::validation::check_concurrent_visibility(fails, soup().geometry),
+                     "may be asked from many threads at once"));
+}
+
+TEST_CASE("check_visibility finds that there is nothing to check") {
+    const mir::WorldGeometry empty{mir::Scene{}};
+    const Right right{mirtest::Referee(empty)};
+    const char* triangles = "there are triangles to ask about";
+    CHECK(finds_only(mir::validation::check_visibility(right, empty), triangles));
+    CHECK(finds_only(mir::validation::check_visibility_by_brute_force(right, empty), triangles));
+    CHECK(finds_only(mir::validation::check_visibility_symmetry(right, empty), triangles));
+    CHECK(finds_only(mir::validation::check_lifted_points(right, empty), triangles));
+    CHECK(finds_only(mir::validation::check_concurrent_visibility(right, empty), triangles));
 }
 
 TEST_CASE("check_visibility says when triangles that hide nothing prove nothing") {

@@ -17,6 +17,10 @@ namespace mir {
 ///  2. the directional albedo is at most 1 (1.0025 where a model says so);
 ///  3. albedo() lies in [0, 1]; is_black() only where eval() is zero for all directions;
 ///  4. sample() follows pdf(), and its weight is eval cos / pdf.
+///
+/// Micro-buffers with BufferWarp::importance look for a static ReflectionLobe lobe(p, n, wo)
+/// (shading/reflection_lobe.hpp); a model without it, or with another return type, gets no second
+/// buffer.
 template <class B>
 concept Bsdf = WordCopyable<typename B::Params> &&
     requires(const typename B::Params& p, Vec3 n, Vec3 wi, Vec3 wo, Vec2 u, float v) {

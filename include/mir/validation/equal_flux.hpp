@@ -4,6 +4,7 @@
 #include "mir/data/vpl_list.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sched/cpu.hpp"
+#include "mir/validation/detail/worse.hpp"
 #include "mir/validation/report.hpp"
 
 #include <cmath>
@@ -25,12 +26,13 @@ Report check_equal_flux(const G& gbuffer, const VplList& vpls, V visibility, F s
         const Image<Rgb> image =
             reconstruct(sched::Cpu{executor}, gbuffer, one, visibility, shading);
         for (const Rgb& c : image.pixels()) sum += static_cast<double>(luminance(c));
-        if (sum > 0.0) flux.push_back(sum / static_cast<double>(vpls.origins()[j].multiplicity));
+        if (!(sum <= 0.0))
+            flux.push_back(sum / static_cast<double>(vpls.origins()[j].multiplicity));
     }
     double mean = 0.0;
     for (const double f : flux) mean += f / static_cast<double>(flux.size());
     double worst = 0.0;
-    for (const double f : flux) worst = std::max(worst, std::fabs(f / mean - 1.0));
+    for (const double f : flux) worst = detail::worse(worst, std::fabs(f / mean - 1.0));
     Report report;
     report.expect(2 * flux.size() > vpls.size(), "luxels see most of the VPLs",
                   std::to_string(flux.size()) + " of " + std::to_string(vpls.size()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/detail/double3.hpp"
 #include "mir/scene/world_geometry.hpp"
 
 #include <algorithm>
@@ -9,26 +10,6 @@
 #include <optional>
 
 namespace mir::validation {
-
-/// Three numbers in double precision.
-struct Double3 {
-    double x = 0.0;
-    double y = 0.0;
-    double z = 0.0;
-
-    Double3() = default;
-    Double3(double a, double b, double c) : x(a), y(b), z(c) {}
-    explicit Double3(Vec3 v) : x(v.x), y(v.y), z(v.z) {}
-
-    friend Double3 operator-(Double3 a, Double3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-};
-
-/// Inner product.
-inline double dot(Double3 a, Double3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-/// Outer product.
-inline Double3 cross(Double3 a, Double3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// Where the line origin + t direction meets the plane of a triangle.
 struct LineHit {
@@ -108,18 +89,21 @@ class Referee {
     static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
  private:
+    using Double3 = mir::detail::Double3;
+
     /// Nothing when line and triangle are parallel.
     [[nodiscard]] std::optional<LineHit> line(std::uint32_t i, Double3 origin,
                                               Double3 direction) const {
         const Double3 a(geometry_->corner(i, 0));
         const Double3 e1 = Double3(geometry_->corner(i, 1)) - a;
         const Double3 e2 = Double3(geometry_->corner(i, 2)) - a;
-        const Double3 p = cross(direction, e2);
-        const double det = dot(e1, p);
+        const Double3 p = glm::cross(direction, e2);
+        const double det = glm::dot(e1, p);
         if (det == 0.0) return std::nullopt;
         const Double3 from_corner = origin - a;
-        const Double3 q = cross(from_corner, e1);
-        return LineHit{dot(e2, q) / det, dot(from_corner, p) / det, dot(direction, q) / det};
+        const Double3 q = glm::cross(from_corner, e1);
+        return LineHit{glm::dot(e2, q) / det, glm::dot(from_corner, p) / det,
+                       glm::dot(direction, q) / det};
     }
 
     const WorldGeometry* geometry_;

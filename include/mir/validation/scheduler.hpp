@@ -50,7 +50,7 @@ std::size_t wrong_luxels(const S& scheduler, const In& in, const Image<Rgb>& wan
     return wrong;
 }
 
-/// Forwards, backwards, and from the middle outwards: luxels that differ.
+/// Forwards, backwards, and backwards from the middle on, wrapped round: luxels that differ.
 template <class S, class In>
 std::size_t luxels_by_order(const S& scheduler, const In& in) {
     std::vector<TileIndex> tiles(in.gbuffer.tiles().size());
@@ -68,6 +68,7 @@ std::size_t luxels_by_order(const S& scheduler, const In& in) {
 /// The axioms of Scheduler, by the image that sched::Cpu makes of the same luxels, VPLs, visibility
 /// and shading, in every bit. Compile with -ffp-contract=off, or bits differ for other reasons. The
 /// G-buffer should have several tiles and ragged edges, and the VPLs should light a hundred luxels.
+/// A luxel that is stored twice with the same value is not noticed.
 template <class S, TiledGBuffer G, VplSet P, Visibility V, Shading F>
 Report check_scheduler(const S& scheduler, const G& gbuffer, P vpls, V visibility, F shading) {
     const Inputs<G, P, V, F> in{gbuffer, vpls, visibility, shading};

@@ -37,7 +37,7 @@ inline World triangle_soup(std::uint32_t count, std::uint64_t index, float scale
     return World(std::move(scene));
 }
 
-/// A point on a random triangle, seen from a random side.
+/// A point on a random triangle, of which there must be one, seen from a random side.
 inline SurfacePoint random_surface_point(const WorldGeometry& geometry, Random& random) {
     const auto count = static_cast<float>(geometry.triangles().size());
     const auto triangle = static_cast<std::uint32_t>(random.next() * count);
