@@ -71,6 +71,34 @@ TEST_CASE("what a killed process left over is removed by the next writer of that
     CHECK(folder.files() == 2);
 }
 
+TEST_CASE("a left-over behind names that are free is removed too") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    write(folder / ".a.1.tmp", "half of it");
+    write(folder / ".a.5.tmp", "half of it");
+    mir::AtomicFile(folder / "a");
+    CHECK(folder.files() == 0);
+}
+
+TEST_CASE("processes that begin to write one file at the same time get a name each") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    const auto begin_often = [&] {
+        try {
+            for (int i = 0; i < 5000; ++i) mir::AtomicFile(folder / "a");
+            return true;
+        } catch (...) {
+            return false;
+        }
+    };
+    const pid_t other = fork();
+    if (other == 0) _exit(begin_often() ? 0 : 40);
+    const bool mine = begin_often();
+    int status = 0;
+    waitpid(other, &status, 0);
+    CHECK(mine);
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+    CHECK(folder.files() == 0);
+}
+
 TEST_CASE("what another process is writing is left to it, what it wrote before it was killed not") {
     const mirtest::TemporaryFolder folder("atomic_file");
     std::array<int, 2> ready{};

@@ -241,6 +241,12 @@ TEST_CASE("a header that announces more than the file has is refused before memo
                   [&] { static_cast<void>(mir::read_exr(file)); });
 }
 
+TEST_CASE("a description of tiles in a file of scan lines counts for nothing") {
+    const fs::path file = fs::path(MIR_FOUND_INPUTS_DIR) / "exr" / "tiles_of_lines.exr";
+    check_refused(mir::ErrorCode::invalid_input, "tiles_of_lines.exr: the image cannot be read",
+                  [&] { static_cast<void>(mir::read_exr(file)); });
+}
+
 TEST_CASE("pixels that the file's bytes cannot hold are refused before memory is taken") {
     const Folder folder("bomb");
     const fs::path file = folder.path / "a.exr";

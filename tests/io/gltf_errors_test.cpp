@@ -44,6 +44,7 @@ TEST_CASE("every kind of damage is refused with its place and a remedy") {
         {R"("2.0")", R"("1.0")", "asset: it is glTF 1.0", ErrorCode::unsupported},
         {R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"],"scene":0)",
          "'KHR_draco_mesh_compression'", ErrorCode::unsupported},
+        {R"("data.bin")", R"("bad_alloc.bin")", "no valid glTF"},
         {R"("scene":0)", R"("scene":7)", "names scene 7"},
         {R"("nodes":[0])", R"("nodes":[0,0])", "listed twice"},
         {R"("nodes":[0])", R"("nodes":[9])", "names node 9"},

@@ -175,12 +175,13 @@ inline Imf::Header checked_header(std::ifstream& stream, const std::filesystem::
     Imf::StdIFStream exr_stream(stream, path.string().c_str());
     Imf::Header header;
     header.readFrom(exr_stream, version);
-    header.sanityCheck((version & Imf::TILED_FLAG) != 0);
+    const bool tiled = (version & Imf::TILED_FLAG) != 0;
+    header.sanityCheck(tiled);
     const Imath::Box2i& window = header.dataWindow();
     const auto width = static_cast<std::uint64_t>(std::int64_t{window.max.x} - window.min.x + 1);
     const auto height = static_cast<std::uint64_t>(std::int64_t{window.max.y} - window.min.y + 1);
     check_limit(saturating_mul(width, height), limits.pixels, "pixels");
-    check_exr_sizes(header, width, height, path, file_bytes);
+    check_exr_sizes(header, tiled, width, height, path, file_bytes);
     return header;
 }
 

@@ -27,9 +27,9 @@ inline std::uint64_t exr_expansion(Imf::Compression method) {
 
 /// Parts of the file that are compressed by themselves: those of the largest level, if there are
 /// several. Each has a place in a table.
-inline std::uint64_t exr_chunks(const Imf::Header& header, std::uint64_t width,
+inline std::uint64_t exr_chunks(const Imf::Header& header, bool tiled, std::uint64_t width,
                                 std::uint64_t height) {
-    if (header.hasTileDescription()) {
+    if (tiled) {
         const std::uint64_t x = header.tileDescription().xSize;
         const std::uint64_t y = header.tileDescription().ySize;
         return ((width + x - 1) / x) * ((height + y - 1) / y);
@@ -42,21 +42,25 @@ inline std::uint64_t exr_chunks(const Imf::Header& header, std::uint64_t width,
     return (height + lines - 1) / lines;
 }
 
-/// @pre `header` passed its sanityCheck(), width and height are those of its data window.
+/// @pre `header` passed its sanityCheck(tiled), `tiled` is the flag of the file's version (a file
+/// of
+///      scan lines may have a description of tiles, which nobody checks), width and height are
+///      those of its data window.
 /// @throws Error(invalid_input) when a file of `file_bytes` cannot hold the pixels, or the table of
 ///         places of their chunks.
-inline void check_exr_sizes(const Imf::Header& header, std::uint64_t width, std::uint64_t height,
-                            const std::filesystem::path& path, std::uint64_t file_bytes) {
+inline void check_exr_sizes(const Imf::Header& header, bool tiled, std::uint64_t width,
+                            std::uint64_t height, const std::filesystem::path& path,
+                            std::uint64_t file_bytes) {
     std::uint64_t bytes_of_pixel = 0;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         bytes_of_pixel += c.channel().type == Imf::HALF ? 2 : 4;
     std::uint64_t area = width * height;
-    if (header.hasTileDescription()) {
+    if (tiled) {
         const Imf::TileDescription& tile = header.tileDescription();
         area = std::max(area, saturating_mul(tile.xSize, tile.ySize));
     }
     const std::uint64_t bytes = saturating_mul(area, bytes_of_pixel);
-    const std::uint64_t chunks = exr_chunks(header, width, height);
+    const std::uint64_t chunks = exr_chunks(header, tiled, width, height);
     if (bytes / exr_expansion(header.compression()) > file_bytes || chunks > file_bytes / 8)
         cannot_read(path,
                     "it announces " + std::to_string(bytes) + " bytes of pixels in " +

@@ -121,8 +121,8 @@ inline tinygltf::Model load_gltf_model(const std::filesystem::path& path, FileBu
             ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, folder)
             : loader.LoadASCIIFromString(&model, &error, &warning,
                                          reinterpret_cast<const char*>(bytes.data()), size, folder);
-    // tinygltf makes text of every exception.
-    if (error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+    // tinygltf makes text of every exception of its parser, and of names in the file.
+    if (error == std::bad_alloc().what()) throw std::bad_alloc();
     // An extension that is asked for and unknown is the better reason than what breaks without it.
     check_version_and_extensions(model);
     // Some errors are reported together with success.

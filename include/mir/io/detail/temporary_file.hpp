@@ -36,8 +36,9 @@ class LockedFile {
         LockedFile file(open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666));
         if (!file) return {};
         const bool lost = flock(file.descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-        errno = EEXIST;
-        return lost || !file.is_at(path) ? LockedFile() : std::move(file);
+        if (!lost && file.is_at(path)) return file;
+        errno = EEXIST;  // another process took it for a left-over
+        return {};
     }
 
     /// Locks a file that is there; none when another process has it, or its name is another's now.
@@ -70,10 +71,12 @@ class TemporaryFile {
  public:
     /// `error()` says why there is none.
     explicit TemporaryFile(const std::filesystem::path& target) {
-        int names = 0;
         std::error_code ignored;
-        while (names < most_writers && std::filesystem::exists(name(target, names), ignored))
-            remove_abandoned(name(target, names++));
+        for (int i = 0, gap = 0; i < most_writers && gap < widest_gap; ++i, ++gap) {
+            if (!std::filesystem::exists(name(target, i), ignored)) continue;
+            remove_abandoned(name(target, i));
+            gap = 0;
+        }
         for (int i = 0; i < most_writers && !file_; ++i) {
             path_ = name(target, i);
             file_ = LockedFile::create(path_);
@@ -101,6 +104,8 @@ class TemporaryFile {
 
  private:
     static constexpr int most_writers = 1000;
+    /// Names without a file after which no left-over is looked for.
+    static constexpr int widest_gap = 8;
 
     static std::filesystem::path name(const std::filesystem::path& target, int i) {
         return target.parent_path() /
