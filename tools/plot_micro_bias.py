@@ -57,6 +57,11 @@ def style():
             f"{DARK_STYLE}{colours(2)}\n}}</style>")
 
 
+def number(value):
+    """As a label: large numbers in whole ones."""
+    return f"{value:,.0f}".replace(",", "\u2009") if value >= 100 else f"{value:.2g}"
+
+
 def draw_panel(out, title, found, left, y, scenes):
     xs = sorted({x for curve in found.values() for x in curve})
     x = Scale(xs[0] / 1.4, xs[-1] * 1.4, left, left + WIDTH)
@@ -67,7 +72,7 @@ def draw_panel(out, title, found, left, y, scenes):
     for value in xs:
         out.append(f'<line class="grid" x1="{x(value):.1f}" x2="{x(value):.1f}" y1="{y.begin}" '
                    f'y2="{y.end}"/><text x="{x(value):.1f}" y="{y.begin + 16}" '
-                   f'text-anchor="middle">{value:.2g}</text>')
+                   f'text-anchor="middle">{number(value)}</text>')
     for scene, curve in found.items():
         line = [(x(v), y(curve[v])) for v in sorted(curve)]
         i = scenes.index(scene)
