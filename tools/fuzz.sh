@@ -1,24 +1,34 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 #
-# tools/fuzz.sh [SECONDS] [TARGET...]   builds the fuzzers and runs each for SECONDS (30), or all of
-#                                       them, as many at a time as there are cores
+# tools/fuzz.sh [--same] [SECONDS] [TARGET...]   builds the fuzzers and runs each for SECONDS (30), or
+#                                                all of them, as many at a time as there are cores
 #
-# Inputs that reach new code are kept in build/fuzz/corpus/TARGET and used again. Fails when a target
-# crashes, leaks, hangs for 10 s on one input, allocates 256 MiB at once or holds 1 GiB; what did it
-# is left in build/fuzz/findings. MIR_FUZZ_SCENES names a folder of scenes to start from as well.
+# Inputs that reach new code are kept in build/fuzz/corpus/TARGET and used again; with --same nothing
+# is kept or used, and every run makes the same inputs in the same order. Fails when a target crashes,
+# leaks, hangs for 25 s on one input, allocates 256 MiB at once or holds 1 GiB; what did it is left in
+# build/fuzz/findings. MIR_FUZZ_SCENES names a folder of scenes to start from as well.
 set -euo pipefail
 
 cd -- "$(dirname -- "$0")/.."
 MIR_WANT=check
 . tools/setup.sh
 
+same=
+[ "${1:-}" != --same ] || { same=1 && shift; }
 case ${1:-} in
+0) mir_say "0 seconds would be no limit; give the fuzzers 1 or more" && exit 2 ;;
 '' | *[!0-9]*) seconds=30 ;;
 *) seconds=$1 && shift ;;
 esac
 all="gltf obj ply exr journal command_line visibility"
 targets=${*:-$all}
+for name in $targets; do
+    case " $all " in
+    *" $name "*) ;;
+    *) mir_say "There is no fuzzer '$name'; there are: $all" && exit 2 ;;
+    esac
+done
 findings=$PWD/build/fuzz/findings
 
 # Whether a file of that name may be an input of a target; large ones would slow every run down.
@@ -39,12 +49,14 @@ scenes_for() {
 fuzz() {
     local name=$1 work=build/fuzz/corpus/$1 files options=()
     files=$(mktemp -d -p "$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)")
+    [ -z "$same" ] || work=$files/corpus
     mkdir -p "$work" "$findings"
     if [ -n "${MIR_FUZZ_SCENES:-}" ]; then
         scenes_for "$name" | while read -r scene; do cp -n "$scene" "$work"; done
     fi
     local words=tests/fuzz/dictionaries/$name.dict
     [ ! -f "$words" ] || options+=(-dict="$words")
+    [ -z "$same" ] || options+=(-seed=1)
     # The parser of arguments prints.
     [ "$name" != command_line ] || options+=(-close_fd_mask=3)
     local status=0 found=()
@@ -55,7 +67,7 @@ fuzz() {
     TMPDIR=$files \
         ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1 \
         UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 \
-        "build/fuzz/bin/fuzz_$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 \
+        "build/fuzz/bin/fuzz_$name" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=1024 \
         -malloc_limit_mb=256 -max_len="$longest" -print_final_stats=1 -verbosity=1 \
         -artifact_prefix="$findings/$name-" "${options[@]}" \
         "$work" "tests/fuzz/corpus/$name" "${found[@]}" >"build/fuzz/$name.log" 2>&1 || status=$?

@@ -92,7 +92,9 @@ mir_jobs() {
 # Tests want packages that rendering does without: they are left out of a build folder that
 # render.sh makes, and taken in by the others.
 mir_configure() {
-    if [ "${MIR_WANT:-render}" != render ]; then
+    if [ "$1" = fuzz ]; then
+        cmake --preset "$1"
+    elif [ "${MIR_WANT:-render}" != render ]; then
         cmake --preset "$1" -DMIR_BUILD_TESTS=ON
     elif [ -f "build/$1/CMakeCache.txt" ]; then
         cmake --preset "$1"

@@ -38,7 +38,8 @@ struct ChildEnds {
 /// look() after each.
 template <class Work, class Look>
 ChildEnds fail_in_children(const Work& work, const Look& look) {
-    enum { was_done, failed, blamed_input };
+    // Far from the codes of a test program that goes on in the child.
+    enum { was_done = 40, failed, blamed_input, foreign };
     ChildEnds ends;
     while (true) {
         const pid_t child = fork();
@@ -53,6 +54,8 @@ ChildEnds fail_in_children(const Work& work, const Look& look) {
                 code = failed;
             } catch (const mir::Error& error) {
                 code = mirtest::is_fair(error) ? failed : blamed_input;
+            } catch (...) {
+                code = foreign;
             }
             _exit(fault.struck() && code == was_done ? failed : code);
         }

@@ -9,6 +9,7 @@
 #include <array>
 #include <csignal>
 #include <random>
+#include <utility>
 
 namespace {
 
@@ -18,13 +19,24 @@ class EndlessWriter {
     EndlessWriter(const std::array<mirtest::Writer, 2>& contents, const std::filesystem::path& path)
         : pid_(fork()) {
         if (pid_ != 0) return;
-        for (std::size_t i = 0;; ++i) contents[i % 2].write(path);
+        try {
+            for (std::size_t i = 0;; ++i) contents[i % 2].write(path);
+        } catch (...) {
+            _exit(3);
+        }
     }
     EndlessWriter(const EndlessWriter&) = delete;
     EndlessWriter& operator=(const EndlessWriter&) = delete;
     ~EndlessWriter() {
+        if (pid_ > 0) static_cast<void>(end());
+    }
+
+    /// Kills it; true when it wrote until then.
+    [[nodiscard]] bool end() {
         kill(pid_, SIGKILL);
-        waitpid(pid_, nullptr, 0);
+        int status = 0;
+        waitpid(std::exchange(pid_, -1), &status, 0);
+        return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
     }
 
  private:
@@ -49,10 +61,9 @@ TEST_CASE("a writer that is killed at any moment leaves one whole file or the ot
         CHECK(first != second);
         std::array<std::size_t, 2> met{};
         for (int moment = 0; moment < 50; ++moment) {
-            {
-                const EndlessWriter writer({one[kind], two[kind]}, path);
-                usleep(static_cast<useconds_t>(1000 + random() % 4000));
-            }
+            EndlessWriter writer({one[kind], two[kind]}, path);
+            usleep(static_cast<useconds_t>(1000 + random() % 4000));
+            CHECK(writer.end());
             const std::string bytes = mirtest::bytes_of_file(path);
             met[0] += bytes == first ? 1 : 0;
             met[1] += bytes == second ? 1 : 0;
@@ -64,6 +75,6 @@ TEST_CASE("a writer that is killed at any moment leaves one whole file or the ot
         one[kind].write(path);
         CHECK(folder.files() == 1);
     }
-    // Writers were at work when they were killed.
-    CHECK(left_over > 5);
+    // Some writers were at work when they were killed.
+    CHECK(left_over > 0);
 }

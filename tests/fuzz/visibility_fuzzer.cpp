@@ -28,14 +28,17 @@ void check_segment(const View& view, const std::vector<mir::TriangleRows>& rows,
 }  // namespace
 
 /// A few triangles, and segments among them: the kd-tree, with costs of any proportion, and the
-/// wide hierarchy, with leaves of any size, must answer with the bits of asking every triangle.
+/// wide hierarchy, with leaves of any size and any share of split triangles, must answer with the
+/// bits of asking every triangle.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     ByteReader bytes(data, size);
     mirfuzz::Coordinates coordinates(bytes);
     mir::KdTreeOptions kd_options;
     kd_options.traversal_cost = 0.01f * static_cast<float>(1 + bytes.next<std::uint8_t>());
     mir::WideBvhOptions wide_options;
-    wide_options.leaf_size = 1 + bytes.next<std::uint8_t>() % 8;
+    const std::uint32_t choice = bytes.next<std::uint8_t>();
+    wide_options.leaf_size = 1 + choice % 8;
+    wide_options.splits = static_cast<float>(choice / 8) / 31.0f;
     const mir::WorldGeometry geometry(mirfuzz::small_scene(bytes, coordinates));
     mir::InlineExecutor executor;
     const mir::KdTree kd(geometry, kd_options, executor);
