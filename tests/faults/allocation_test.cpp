@@ -34,31 +34,35 @@ struct ChildEnds {
     std::uint64_t aborted = 0;  ///< by an assertion
 };
 
+/// Exit codes of a child, far from those of a test program that goes on in it.
+enum ChildCode : std::uint8_t { was_done = 40, failed, blamed_input, foreign };
+
+/// How `work` ends whose n-th allocation fails, aborting where a library does.
+template <class Work>
+ChildCode fail_once(const Work& work, std::uint64_t n) {
+    std::signal(SIGABRT, SIG_DFL);
+    close(STDERR_FILENO);
+    const AllocationFault fault(n);
+    try {
+        work();
+    } catch (const std::bad_alloc&) {
+        return failed;
+    } catch (const mir::Error& error) {
+        return mirtest::is_fair(error) ? failed : blamed_input;
+    } catch (...) {
+        return foreign;
+    }
+    return fault.struck() ? failed : was_done;
+}
+
 /// fail_allocations() for libraries that may abort: each failure in a process of its own, and
 /// look() after each.
 template <class Work, class Look>
 ChildEnds fail_in_children(const Work& work, const Look& look) {
-    // Far from the codes of a test program that goes on in the child.
-    enum { was_done = 40, failed, blamed_input, foreign };
     ChildEnds ends;
     while (true) {
         const pid_t child = fork();
-        if (child == 0) {
-            std::signal(SIGABRT, SIG_DFL);
-            close(STDERR_FILENO);
-            int code = was_done;
-            const AllocationFault fault(ends.tried + 1);
-            try {
-                work();
-            } catch (const std::bad_alloc&) {
-                code = failed;
-            } catch (const mir::Error& error) {
-                code = mirtest::is_fair(error) ? failed : blamed_input;
-            } catch (...) {
-                code = foreign;
-            }
-            _exit(fault.struck() && code == was_done ? failed : code);
-        }
+        if (child == 0) _exit(fail_once(work, ends.tried + 1));
         int status = 0;
         waitpid(child, &status, 0);
         look();

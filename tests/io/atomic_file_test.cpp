@@ -75,7 +75,7 @@ TEST_CASE("a left-over behind names that are free is removed too") {
     const mirtest::TemporaryFolder folder("atomic_file");
     write(folder / ".a.1.tmp", "half of it");
     write(folder / ".a.5.tmp", "half of it");
-    mir::AtomicFile(folder / "a");
+    { const mir::AtomicFile file(folder / "a"); }
     CHECK(folder.files() == 0);
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("processes that begin to write one file at the same time get a name ea
     const mirtest::TemporaryFolder folder("atomic_file");
     const auto begin_often = [&] {
         try {
-            for (int i = 0; i < 5000; ++i) mir::AtomicFile(folder / "a");
+            for (int i = 0; i < 5000; ++i) const mir::AtomicFile file(folder / "a");
             return true;
         } catch (...) {
             return false;

@@ -2,6 +2,7 @@
 #include "mir/micro/sphere_surfels.hpp"
 
 #include "micro/surfel_worlds.hpp"
+#include "mir/micro/surfel_traverse.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;

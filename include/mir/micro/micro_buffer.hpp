@@ -62,7 +62,7 @@ class MicroBuffer {
     /// Distance of that node, metres.
     [[nodiscard]] MIR_HD float distance(std::uint32_t texel) const {
         const auto word = static_cast<std::uint32_t>(space_.nearest[texel] >> 32);
-        float t;
+        float t = 0.0f;
         memcpy(&t, &word, sizeof(t));
         return t;
     }
@@ -247,7 +247,7 @@ class MicroBuffer {
     }
 
     MIR_HD void keep(std::uint32_t texel, const SurfelHit& hit) {
-        std::uint32_t t;
+        std::uint32_t t = 0;
         memcpy(&t, &hit.t, sizeof(t));
         LaneGroup::put_least(space_.nearest[texel], std::uint64_t{t} << 32 | hit.node);
     }
