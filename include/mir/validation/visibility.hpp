@@ -44,6 +44,25 @@ inline bool expect_triangles(const WorldGeometry& geometry, Report& report) {
     return some;
 }
 
+/// Segments of which two answers differ.
+struct Disagreements {
+    std::size_t all = 0;
+    std::size_t sure = 0;  ///< of them, those that the referee does not doubt
+
+    void add(const Referee::Verdict& verdict) {
+        ++all;
+        sure += verdict.doubtful(doubtful_margin) ? 0 : 1;
+    }
+
+    /// None may be sure, and one in a thousand of all `asked` in doubt.
+    void expect_few(std::size_t asked, const std::string& axiom, const std::string& how,
+                    Report& report) const {
+        const std::string of = " of " + std::to_string(asked) + " segments are judged " + how;
+        report.expect(sure == 0, axiom, std::to_string(sure) + of);
+        report.expect(all <= asked / 1000, axiom + " at edges", std::to_string(all) + of);
+    }
+};
+
 }  // namespace detail
 
 /// Axiom 4 of Visibility: agrees with brute force over the triangles of `geometry`. Wherever the
@@ -56,22 +75,16 @@ Report check_visibility_by_brute_force(const V& visibility, const WorldGeometry&
     if (!detail::expect_triangles(geometry, report)) return report;
     const Referee referee(geometry);
     std::size_t open = 0;
-    std::size_t sure_and_wrong = 0;
-    std::size_t different = 0;
+    detail::Disagreements wrong;
     for (const Segment& s : random_segments(geometry, count, 2)) {
         const Referee::Verdict verdict = referee.segment(s.a, s.b);
         open += verdict.visible() ? 1 : 0;
         if (visibility.visible(s.a, s.b) == verdict.visible()) continue;
-        ++different;
-        if (!verdict.doubtful(doubtful_margin)) ++sure_and_wrong;
+        wrong.add(verdict);
     }
-    const std::string of = " of " + std::to_string(count) + " segments";
     report.expect(open > 0 && open < count, "the triangles hide something, but not everything",
-                  std::to_string(open) + of + " are open");
-    report.expect(sure_and_wrong == 0, "agrees with brute force",
-                  std::to_string(sure_and_wrong) + of + " are judged wrongly");
-    report.expect(different <= count / 1000, "agrees with brute force at edges",
-                  std::to_string(different) + of + " are judged in another way");
+                  std::to_string(open) + " of " + std::to_string(count) + " segments are open");
+    wrong.expect_few(count, "agrees with brute force", "in another way", report);
     return report;
 }
 
@@ -83,18 +96,12 @@ Report check_visibility_symmetry(const V& visibility, const WorldGeometry& geome
     Report report;
     if (!detail::expect_triangles(geometry, report)) return report;
     const Referee referee(geometry);
-    std::size_t different = 0;
-    std::size_t sure_and_different = 0;
+    detail::Disagreements turned;
     for (const Segment& s : random_segments(geometry, count, 4)) {
         if (visibility.visible(s.a, s.b) == visibility.visible(s.b, s.a)) continue;
-        ++different;
-        if (!referee.segment(s.a, s.b).doubtful(doubtful_margin)) ++sure_and_different;
+        turned.add(referee.segment(s.a, s.b));
     }
-    const std::string of = " of " + std::to_string(count) + " segments";
-    report.expect(sure_and_different == 0, "is symmetric",
-                  std::to_string(sure_and_different) + of + " are judged otherwise backwards");
-    report.expect(different <= count / 1000, "is symmetric at edges",
-                  std::to_string(different) + of + " are judged otherwise backwards");
+    turned.expect_few(count, "is symmetric", "otherwise backwards", report);
     return report;
 }
 
