@@ -263,3 +263,18 @@ TEST_CASE("pixels that the file's bytes cannot hold are refused before memory is
                       [&] { static_cast<void>(mir::read_exr(file)); });
     }
 }
+
+TEST_CASE("a chunk of many rows for one wide row is refused before memory is taken") {
+    const fs::path file = fs::path(MIR_FOUND_INPUTS_DIR) / "exr" / "wide_line.exr";
+    check_refused(mir::ErrorCode::invalid_input, "parts of 1330151424 bytes, which 761 bytes",
+                  [&] { static_cast<void>(mir::read_exr(file)); });
+}
+
+TEST_CASE("one flat row of many pixels is no bomb") {
+    const Folder folder("wide");
+    const fs::path file = folder.path / "a.exr";
+    const Image<Rgb> image({200'000, 1});
+    mir::write_exr(file, image.extent(), {{"", &image}});
+    CHECK(fs::file_size(file) < 16 * 12 * 200'000 / 4096);
+    CHECK(mir::read_exr(file).image.extent().width == 200'000);
+}

@@ -25,47 +25,59 @@ inline std::uint64_t exr_expansion(Imf::Compression method) {
     return dwa ? 1u << 17 : 4096;
 }
 
-/// Parts of the file that are compressed by themselves: those of the largest level, if there are
-/// several. Each has a place in a table.
-inline std::uint64_t exr_chunks(const Imf::Header& header, bool tiled, std::uint64_t width,
-                                std::uint64_t height) {
+/// Bytes of a chunk that are taken for any file: writers code a flat row of many pixels in few
+/// bytes, and OpenEXR reads it into a chunk of many rows.
+inline constexpr std::uint64_t exr_free_chunk = 64ull << 20;
+
+/// Rows that a file of scan lines compresses together.
+inline std::uint64_t exr_rows_of_chunk(Imf::Compression method) {
+    if (method <= Imf::ZIPS_COMPRESSION) return 1;
+    if (method == Imf::ZIP_COMPRESSION || method == Imf::PXR24_COMPRESSION) return 16;
+    return method == Imf::DWAB_COMPRESSION ? 256 : 32;
+}
+
+/// How a file is cut into parts that are compressed by themselves, those of the largest level if
+/// there are several. Each has a place in a table.
+struct ExrChunks {
+    std::uint64_t count;
+    std::uint64_t pixels;  ///< of a whole one, beyond the image's edge too
+};
+
+inline ExrChunks exr_chunks(const Imf::Header& header, bool tiled, std::uint64_t width,
+                            std::uint64_t height) {
+    std::uint64_t x = width;
+    std::uint64_t y = 0;
     if (tiled) {
-        const std::uint64_t x = header.tileDescription().xSize;
-        const std::uint64_t y = header.tileDescription().ySize;
-        return ((width + x - 1) / x) * ((height + y - 1) / y);
+        x = header.tileDescription().xSize;
+        y = header.tileDescription().ySize;
+    } else {
+        y = exr_rows_of_chunk(header.compression());
     }
-    const Imf::Compression method = header.compression();
-    std::uint64_t lines = 32;
-    if (method <= Imf::ZIPS_COMPRESSION) lines = 1;
-    if (method == Imf::ZIP_COMPRESSION || method == Imf::PXR24_COMPRESSION) lines = 16;
-    if (method == Imf::DWAB_COMPRESSION) lines = 256;
-    return (height + lines - 1) / lines;
+    return {((width + x - 1) / x) * ((height + y - 1) / y), saturating_mul(x, y)};
 }
 
 /// @pre `header` passed its sanityCheck(tiled), `tiled` is the flag of the file's version (a file
 /// of
 ///      scan lines may have a description of tiles, which nobody checks), width and height are
 ///      those of its data window.
-/// @throws Error(invalid_input) when a file of `file_bytes` cannot hold the pixels, or the table of
-///         places of their chunks.
+/// @throws Error(invalid_input) when a file of `file_bytes` cannot hold the pixels, a chunk larger
+///         than exr_free_chunk, or the table of places of the chunks.
 inline void check_exr_sizes(const Imf::Header& header, bool tiled, std::uint64_t width,
                             std::uint64_t height, const std::filesystem::path& path,
                             std::uint64_t file_bytes) {
     std::uint64_t bytes_of_pixel = 0;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         bytes_of_pixel += c.channel().type == Imf::HALF ? 2 : 4;
-    std::uint64_t area = width * height;
-    if (tiled) {
-        const Imf::TileDescription& tile = header.tileDescription();
-        area = std::max(area, saturating_mul(tile.xSize, tile.ySize));
-    }
-    const std::uint64_t bytes = saturating_mul(area, bytes_of_pixel);
-    const std::uint64_t chunks = exr_chunks(header, tiled, width, height);
-    if (bytes / exr_expansion(header.compression()) > file_bytes || chunks > file_bytes / 8)
+    const ExrChunks chunks = exr_chunks(header, tiled, width, height);
+    const std::uint64_t bytes = saturating_mul(width * height, bytes_of_pixel);
+    const std::uint64_t chunk_bytes = saturating_mul(chunks.pixels, bytes_of_pixel);
+    const std::uint64_t can_hold = saturating_mul(file_bytes, exr_expansion(header.compression()));
+    if (bytes > can_hold || chunk_bytes > std::max(can_hold, exr_free_chunk) ||
+        chunks.count > file_bytes / 8)
         cannot_read(path,
                     "it announces " + std::to_string(bytes) + " bytes of pixels in " +
-                        std::to_string(chunks) + " parts, which " + std::to_string(file_bytes) +
-                        " bytes cannot hold",
+                        std::to_string(chunks.count) + " parts of " + std::to_string(chunk_bytes) +
+                        " bytes, which " + std::to_string(file_bytes) + " bytes cannot hold",
                     "write it again");
 }
 
