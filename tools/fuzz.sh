@@ -70,7 +70,7 @@ fuzz() {
     [ ! -d "tests/fuzz/found/$name" ] || found+=("tests/fuzz/found/$name")
     # OpenEXR's densest code makes 2^17 bytes of one.
     local longest=16384
-    [ "$name" != exr ] || longest=2048
+    [ "$name" != exr ] || longest=1024
     TMPDIR=$files \
         ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1 \
         UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 \

@@ -264,9 +264,12 @@ TEST_CASE("pixels that the file's bytes cannot hold are refused before memory is
     }
 }
 
-TEST_CASE("a chunk of many rows for one wide row is refused before memory is taken") {
-    const fs::path file = fs::path(MIR_FOUND_INPUTS_DIR) / "exr" / "wide_line.exr";
-    check_refused(mir::ErrorCode::invalid_input, "parts of 1330151424 bytes, which 761 bytes",
+TEST_CASE("chunks and rows of tiles that reach far beyond the image are refused") {
+    const auto [name, says] = GENERATE(table<std::string, std::string>(
+        {{"wide_line.exr", "1 parts of 1330151424 bytes, which 761 bytes cannot hold"},
+         {"high_tiles.exr", "25 parts of 1144263216 bytes, which 492 bytes cannot hold"}}));
+    const fs::path file = fs::path(MIR_FOUND_INPUTS_DIR) / "exr" / name;
+    check_refused(mir::ErrorCode::invalid_input, says,
                   [&] { static_cast<void>(mir::read_exr(file)); });
 }
 

@@ -40,7 +40,7 @@ inline std::uint64_t exr_rows_of_chunk(Imf::Compression method) {
 /// there are several. Each has a place in a table.
 struct ExrChunks {
     std::uint64_t count;
-    std::uint64_t pixels;  ///< of a whole one, beyond the image's edge too
+    std::uint64_t pixels;  ///< of a whole one, or a row of tiles, beyond the image's edge too
 };
 
 inline ExrChunks exr_chunks(const Imf::Header& header, bool tiled, std::uint64_t width,
@@ -53,7 +53,7 @@ inline ExrChunks exr_chunks(const Imf::Header& header, bool tiled, std::uint64_t
     } else {
         y = exr_rows_of_chunk(header.compression());
     }
-    return {((width + x - 1) / x) * ((height + y - 1) / y), saturating_mul(x, y)};
+    return {((width + x - 1) / x) * ((height + y - 1) / y), saturating_mul(std::max(x, width), y)};
 }
 
 /// @pre `header` passed its sanityCheck(tiled), `tiled` is the flag of the file's version (a file
@@ -65,9 +65,9 @@ inline ExrChunks exr_chunks(const Imf::Header& header, bool tiled, std::uint64_t
 inline void check_exr_sizes(const Imf::Header& header, bool tiled, std::uint64_t width,
                             std::uint64_t height, const std::filesystem::path& path,
                             std::uint64_t file_bytes) {
+    // As floats, which a row of tiles is kept as.
     std::uint64_t bytes_of_pixel = 0;
-    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
-        bytes_of_pixel += c.channel().type == Imf::HALF ? 2 : 4;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) bytes_of_pixel += 4;
     const ExrChunks chunks = exr_chunks(header, tiled, width, height);
     const std::uint64_t bytes = saturating_mul(width * height, bytes_of_pixel);
     const std::uint64_t chunk_bytes = saturating_mul(chunks.pixels, bytes_of_pixel);
