@@ -171,6 +171,58 @@ TEST_CASE("a report tells time, settings, scene and chains, and names are no mar
     CHECK(seconds == Approx(2.0 * json.at("seconds").at("total").get<double>()).margin(0.002));
 }
 
+TEST_CASE("a report of several passes charts their error over VPLs and over seconds") {
+    const Reported r({"--passes", "18", "--json"});
+    const auto json = nlohmann::json::parse(r.outcome.out);
+    const auto& points = json.at("convergence");
+    REQUIRE(points.size() == 17);  // 1 to 16, and the last
+    CHECK(points.front().at("relative_error").is_null());
+    CHECK(points.back().at("passes") == 18);
+    CHECK(points.back().at("vpls") == json.at("vpls"));
+    CHECK(points.back().at("seconds") == json.at("seconds").at("total"));
+    CHECK(points.back().at("relative_error") == json.at("relative_error"));
+    const mir::Image<mir::Rgb> seen = mir::read_exr(r.picture).image;
+    const mir::Image<mir::Rgb> wanted = mir::read_exr(r.reference).image;
+    double squares = 0.0, light = 0.0;
+    for (std::size_t i = 0; i < seen.pixels().size(); ++i) {
+        const auto y = static_cast<double>(luminance(wanted.pixels()[i]));
+        squares += std::pow(static_cast<double>(luminance(seen.pixels()[i])) - y, 2.0);
+        light += y;
+    }
+    const double pixels = static_cast<double>(seen.pixels().size());
+    // The file is read as it was written, in single precision.
+    CHECK(points.back().at("reference_error").get<double>() ==
+          Approx(std::sqrt(squares / pixels) / (light / pixels)).epsilon(1e-4));
+    const std::string section = between(r.page, "<h2>Convergence", "<h2>");
+    CHECK(count_of(section, "<svg class=\"series\" role=\"img\" aria-label=\"") == 2);
+    CHECK(count_of(section, "<polyline") == 4);
+    CHECK(count_of(section, "<tr><th scope=\"row\">") == 17);
+    for (const std::string& line : all_matches(section, R"re(<polyline points="([^"]+))re"))
+        CHECK(count_of(line, ",") >= 16);
+    for (const std::string& place : all_matches(section, R"re(c[xy]="([^"]+))re"))
+        CHECK((std::stod(place) >= 8.0 && std::stod(place) <= 446.0));
+}
+
+TEST_CASE("charts are of what a logarithm can show") {
+    const TemporaryFolder folder("report_convergence");
+    const std::string report = (folder / "r.html").string();
+    // Every pass is the same black: no error, and a reference without mean luminance.
+    const std::string scene = (folder / "dark.obj").string();
+    std::ofstream(scene) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const auto dark = [&](const char* name) {
+        return small_render(folder / name, scene) + Words{"--allow-no-light"};
+    };
+    REQUIRE(run_mir(dark("a.exr")).exit_code == 0);
+    REQUIRE(run_mir(dark("b.exr") + Words{"--passes", "3", "--report", report, "--report-reference",
+                                          (folder / "a.exr").string()})
+                .exit_code == 0);
+    const std::string section = between(file_bytes(report), "<h2>Convergence", "<h2>");
+    CHECK(count_of(section, "<svg") == 0);
+    CHECK(count_of(section, "<tr><th scope=\"row\">") == 3);
+    CHECK(has(section, "0.00 %"));
+    CHECK(has(section, "unknown"));
+}
+
 TEST_CASE("renders without VPLs have reports without them, dark ones too") {
     const TemporaryFolder folder("report_path");
     const std::string report = (folder / "r.html").string();

@@ -103,13 +103,13 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
 }
 
 mir::RenderResult render(const RenderOptions& o, const mir::Scene& scene, const OutputPaths& paths,
-                         mir::Monitor& monitor) {
+                         mir::Monitor& monitor, Convergence& convergence) {
     mir::Registry registry;
     mir::add_all_to(registry);
     const auto renderer = registry.make(o.settings.backend, o.settings.scheduler);
     std::optional<Progress> progress;
     if (!o.quiet) progress.emplace(monitor);
-    return render_passes(*renderer, scene, o, paths, monitor);
+    return render_passes(*renderer, scene, o, paths, monitor, convergence);
 }
 
 /// Does `work`; a failure that is the fault of the scene names it.
@@ -142,13 +142,14 @@ int run(const RenderOptions& options) {
     // Also while files are written, since a signal that ended the program there would leave halves.
     mir::Monitor monitor;
     const CancelOnInterrupt cancel(monitor);
+    Convergence convergence(reference);
     const mir::RenderResult result =
-        blaming(o.scene, [&] { return render(o, loaded.scene, paths, monitor); });
+        blaming(o.scene, [&] { return render(o, loaded.scene, paths, monitor, convergence); });
     write_outputs(paths, result, o);
-    write_render_report({o, loaded, result, reference});
+    write_render_report({o, loaded, result, reference, convergence});
     if (!o.quiet) print_summary(result);
     if (o.json) {
-        print_json(paths, result, o);
+        print_json(paths, result, o, convergence);
     } else {
         std::printf("%s\n", paths.exr.c_str());
         for (const std::string& name : {paths.png, o.report, o.vpls_out})

@@ -124,6 +124,18 @@ Json health_of(const mir::ChainHealth& h) {
             {"capped", h.capped}};
 }
 
+Json points_of(const Convergence& convergence) {
+    const auto known = [](std::optional<double> error) { return error ? Json(*error) : Json(); };
+    Json out = Json::array();
+    for (const ConvergencePoint& p : convergence.points())
+        out.push_back({{"passes", p.passes},
+                       {"vpls", p.vpls},
+                       {"seconds", p.seconds},
+                       {"relative_error", known(p.spread_error)},
+                       {"reference_error", known(p.reference_error)}});
+    return out;
+}
+
 Json mean_of(const mir::Image<mir::Rgb>& image) {
     double r = 0.0;
     double g = 0.0;
@@ -225,7 +237,8 @@ void print_summary(const mir::RenderResult& r) {
         std::fprintf(stderr, "mir: warning: %s\n", warning.c_str());
 }
 
-void print_json(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o) {
+void print_json(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o,
+                const Convergence& convergence) {
     const mir::RenderStatistics& s = r.statistics;
     Json out{{"version", mir::version},
              {"scene", o.scene},
@@ -247,6 +260,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["passes"] = s.passes;
     out["complete"] = s.complete;
     out["relative_error"] = s.relative_error ? Json(*s.relative_error) : Json();
+    if (!convergence.points().empty()) out["convergence"] = points_of(convergence);
     out["luxels"] = s.luxels;
     out["light_paths"] = s.light_paths;
     out["camera_paths"] = s.camera_paths;

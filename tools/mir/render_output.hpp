@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "convergence.hpp"
 #include "mir/runtime/result.hpp"
 #include "options.hpp"
 
@@ -36,6 +37,6 @@ void print_summary(const mir::RenderResult& result);
 
 /// Statistics for programs, on stdout.
 void print_json(const OutputPaths& paths, const mir::RenderResult& result,
-                const RenderOptions& options);
+                const RenderOptions& options, const Convergence& convergence);
 
 }  // namespace mirtool

@@ -66,7 +66,7 @@ void check(const PassOptions& options) {
 
 mir::RenderResult render_passes(const mir::Renderer& renderer, const mir::Scene& scene,
                                 const RenderOptions& o, const OutputPaths& paths,
-                                mir::Monitor& monitor) {
+                                mir::Monitor& monitor, Convergence& convergence) {
     const mir::PassGoal goal = goal_of(o.passes);
     if (goal.passes == 1 && !o.passes.resume) return render_once(renderer, scene, o, monitor);
     const std::optional<mir::PassJournal> journal = open_journal(o, scene, paths);
@@ -75,16 +75,19 @@ mir::RenderResult render_passes(const mir::Renderer& renderer, const mir::Scene&
     const auto keep = [&] {
         if (journal) journal->write(render.sums());
     };
+    convergence.look_at(render.sums(), render.is_complete());
     Alarm save(o.passes.save_every.value_or(default_save_every));
     try {
         while (!render.is_complete()) {
             render.next_pass();
+            convergence.look_at(render.sums(), render.is_complete());
             if (render.is_complete() || !save.rings()) continue;
             keep();
             write_outputs(paths, render.result(), o);
         }
     } catch (const mir::Error& e) {
         if (e.code() != mir::ErrorCode::cancelled || render.sums().passes() == 0) throw;
+        convergence.look_at(render.sums(), true);
     }
     if (goal.passes == 1) monitor.check();
     keep();

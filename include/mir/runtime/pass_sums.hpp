@@ -41,6 +41,9 @@ class PassSums {
 
     [[nodiscard]] std::uint32_t passes() const { return statistics_.passes; }
 
+    /// Those of the passes together; they do not say how far the passes differ.
+    [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
+
     /// LuminanceSpread::relative_error() of the mean picture. It sees what differs between passes,
     /// and no bias that they share.
     [[nodiscard]] std::optional<double> relative_error() const {

@@ -33,7 +33,7 @@ std::string page_of(const ReportInput& in) {
         mir::detail::html_start(in.options.scene + " rendered by mir " + mir::version,
                                 {report_style, report_script, base64_of_hex(report_script_sha256)});
     page += picture_section(in, exposure) + warnings_section(in.result) + reference_section(in) +
-            vpls_section(in) + chains_section(s) + timing_section(s);
+            convergence_section(in) + vpls_section(in) + chains_section(s) + timing_section(s);
     page += "<div class=\"rows\">\n<div>" + settings_section(in) + "</div>\n<div>" +
             scene_section(in) + "</div>\n</div>\n";
     page += "<script>" + std::string(report_script) + "</script>\n";

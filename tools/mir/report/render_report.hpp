@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "convergence.hpp"
 #include "load_scene.hpp"
 #include "mir/runtime/result.hpp"
 #include "options.hpp"
@@ -13,6 +14,7 @@ struct ReportInput {
     const SceneAndReport& loaded;
     const mir::RenderResult& result;
     const mir::Image<mir::Rgb>& reference;  ///< empty: none
+    const Convergence& convergence;         ///< of a single pass nothing
 };
 
 /// The picture of --report-reference; empty without that option.

@@ -27,6 +27,9 @@ std::string vpls_section(const ReportInput& input);
 /// What Markov chains say about themselves.
 std::string chains_section(const mir::RenderStatistics& statistics);
 
+/// The error of a picture of several passes over VPLs and over seconds, as charts and as a table.
+std::string convergence_section(const ReportInput& input);
+
 /// Seconds by stage, as bars and as a table.
 std::string timing_section(const mir::RenderStatistics& statistics);
 
