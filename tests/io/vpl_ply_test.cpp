@@ -3,6 +3,7 @@
 
 #include "mir/io/ply_reader.hpp"
 #include "support/catch.hpp"
+#include "support/some_vpls.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/vpl_file.hpp"
 
@@ -16,20 +17,11 @@ std::string vpl_file_bytes(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-mir::VplList some_vpls() {
-    mir::VplList list;
-    mir::VplOrigin origin;
-    list.append({{1.5f, -2, 3e-7f}, {0, 1, 0}, {0.25f, 1e9f, 0}}, origin, 2);
-    origin.triangle = 1;
-    list.append({{4, 5, 6}, {-1, 0, 0}, {}}, origin, 254);
-    return list;
-}
-
 }  // namespace
 
 TEST_CASE("VPLs come back from their PLY file in every bit") {
     const mirtest::TemporaryFolder folder("vpl_ply");
-    const mir::VplList list = some_vpls();
+    const mir::VplList list = mirtest::some_vpls();
     mir::write_vpls_ply(folder / "a.ply", list);
     const auto read = mirtest::read_vpls(vpl_file_bytes(folder / "a.ply"));
     REQUIRE(read.size() == 2);
@@ -45,7 +37,7 @@ TEST_CASE("VPLs come back from their PLY file in every bit") {
 
 TEST_CASE("a PLY file of VPLs is sound for readers of meshes") {
     const mirtest::TemporaryFolder folder("vpl_ply_mesh");
-    mir::write_vpls_ply(folder / "a.ply", some_vpls());
+    mir::write_vpls_ply(folder / "a.ply", mirtest::some_vpls());
     const mir::LoadedScene loaded = mir::read_ply(folder / "a.ply");
     CHECK(loaded.report.triangles == 0);
     CHECK(loaded.report.ignored.contains("PLY vertex property 'bounce'"));
@@ -56,7 +48,7 @@ TEST_CASE("a PLY file of VPLs is sound for readers of meshes") {
 TEST_CASE("VPLs that cannot be written are an error that names the file") {
     const mirtest::TemporaryFolder folder("vpl_ply_missing");
     try {
-        mir::write_vpls_ply(folder / "missing" / "a.ply", some_vpls());
+        mir::write_vpls_ply(folder / "missing" / "a.ply", mirtest::some_vpls());
         FAIL("nothing was thrown");
     } catch (const mir::Error& error) {
         CHECK(error.code() == mir::ErrorCode::io);

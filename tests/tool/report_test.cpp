@@ -275,7 +275,7 @@ TEST_CASE("what a report or a file of VPLs cannot be is one error before any wor
     check_failing_render(render + Words{"--report", lost}, 1, "r.html");
     check_failing_render(render + Words{"--vpls-out", (folder / "missing" / "v.ply").string()}, 1,
                          "v.ply");
-    check_failing_render(render + Words{"--vpls-out", "v.obj"}, 2, "does not end in .ply");
+    check_failing_render(render + Words{"--vpls-out", "v.obj"}, 2, "does not end in .ply or .glb");
     check_failing_render(render + Words{"--vpls-out", "v.ply", "--integrator", "path"}, 2,
                          "places no VPLs");
     check_failing_render(render + Words{"--report-reference", small}, 2, "--report");
@@ -303,4 +303,13 @@ TEST_CASE("a file of VPLs holds those that were placed, with finite powers") {
         power += std::numbers::pi * static_cast<double>(luminance(v.vpl.intensity));
     }
     CHECK(power > 0.0);
+}
+
+TEST_CASE("VPLs are written as glTF too") {
+    const TemporaryFolder folder("report_glb");
+    const std::string vpls = (folder / "v.glb").string();
+    REQUIRE(run_mir(small_render(folder / "a.exr") + Words{"--vpls-out", vpls}).exit_code == 0);
+    const Outcome seen = run_mir({"info", vpls, "--json"});
+    REQUIRE(seen.exit_code == 0);
+    CHECK(nlohmann::json::parse(seen.out).at("ignored").at("primitive of points") == 1);
 }

@@ -28,7 +28,7 @@ struct RenderOptions {
     std::string preview;           ///< PNG; empty: beside the EXR
     std::string report;            ///< HTML; empty: none
     std::string report_reference;  ///< EXR to compare the report's picture with; empty: none
-    std::string vpls_out;          ///< PLY of the VPLs; empty: none
+    std::string vpls_out;          ///< PLY or .glb of the VPLs; empty: none
     std::string camera;            ///< name or index; empty: the first
     std::optional<std::uint32_t> width;
     std::optional<std::uint32_t> height;

@@ -221,12 +221,12 @@ void add_report(CLI::App& app, RenderOptions& o) {
     app.add_option("--report-reference", o.report_reference,
                    "OpenEXR picture that the report compares the render with")
         ->needs(report);
-    app.add_option("--vpls-out", o.vpls_out, "VPLs to write, as points (.ply)")
+    app.add_option("--vpls-out", o.vpls_out, "VPLs to write, as points (.ply or .glb)")
         ->check(CLI::Validator(
             [](const std::string& name) {
-                return name.ends_with(".ply")
+                return name.ends_with(".ply") || name.ends_with(".glb")
                            ? std::string()
-                           : "'" + name + "' does not end in .ply, the format of VPLs";
+                           : "'" + name + "' does not end in .ply or .glb, the formats of VPLs";
             },
             ""));
 }

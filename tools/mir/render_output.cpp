@@ -4,6 +4,7 @@
 #include "load_scene.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
+#include "mir/io/vpl_glb.hpp"
 #include "mir/io/vpl_ply.hpp"
 #include "mir/version.hpp"
 #include "output_places.hpp"
@@ -213,7 +214,8 @@ void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const R
     if (!paths.png.empty())
         mir::write_png(paths.png, r.beauty,
                        o.exposure ? *o.exposure : mir::auto_exposure(r.beauty));
-    if (!o.vpls_out.empty()) mir::write_vpls_ply(o.vpls_out, r.vpls);
+    if (o.vpls_out.ends_with(".glb")) mir::write_vpls_glb(o.vpls_out, r.vpls);
+    if (o.vpls_out.ends_with(".ply")) mir::write_vpls_ply(o.vpls_out, r.vpls);
 }
 
 void print_summary(const mir::RenderResult& r) {

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/io/atomic_file.hpp"
 #include "mir/io/detail/gltf_build.hpp"
+#include "mir/io/detail/write_glb_model.hpp"
 #include "mir/scene/scene.hpp"
 
-#include <tiny_gltf.h>
-
-#include <cerrno>
-#include <cstring>
-#include <exception>
 #include <filesystem>
-#include <fstream>
-#include <new>
-#include <string>
 
 namespace mir {
 
@@ -29,25 +21,7 @@ namespace mir {
 ///         texture that is sheared or a name that is not UTF-8; Error(limit_exceeded) when it
 ///         exceeds the 4 GiB of the format.
 inline void write_glb(const Scene& scene, const std::filesystem::path& path) {
-    const tinygltf::Model model = detail::GltfBuilder().build(scene);
-    AtomicFile file(path);
-    std::ofstream stream(file.temporary(), std::ios::binary);
-    errno = 0;
-    try {
-        tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw Error(ErrorCode::invalid_argument, path.string() +
-                                                     ": the scene cannot be put into glTF (" +
-                                                     error.what() + "); use UTF-8 names");
-    }
-    stream.close();
-    if (!stream)
-        throw Error(ErrorCode::io, path.string() + ": it cannot be written to the end (" +
-                                       (errno != 0 ? std::strerror(errno) : "unknown reason") +
-                                       "); make room on the disk");
-    file.commit();
+    detail::write_glb_model(detail::GltfBuilder().build(scene), path);
 }
 
 }  // namespace mir

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/frame.hpp"
+#include "mir/io/detail/gltf_build_arrays.hpp"
 #include "mir/io/detail/gltf_build_textures.hpp"
 #include "mir/scene/scene.hpp"
 #include "mir/scene/texture_table.hpp"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -59,10 +59,7 @@ class GltfBuilder {
                      mesh.triangles.size() * sizeof(TriangleIndices);
         }
         check_instances(scene, {});
-        if (bytes > 0xf000'0000u)
-            throw Error(ErrorCode::limit_exceeded,
-                        "the scene has " + std::to_string(bytes) +
-                            " bytes of geometry (a .glb holds less than 4 GiB); write it in parts");
+        check_glb_bytes(bytes, "the scene");
         if (bytes == 0) return;
         model_.buffers.emplace_back().data.reserve(bytes);
     }
@@ -127,54 +124,20 @@ class GltfBuilder {
         to.normalTexture.scale = t.normal_scale;
     }
 
-    /// Appends an array to the buffer; returns its accessor.
-    template <class Element>
-    int add_array(const std::vector<Element>& elements, std::size_t count, int component_type,
-                  int type, int target) {
-        auto& bytes = model_.buffers[0].data;
-        tinygltf::BufferView& view = model_.bufferViews.emplace_back();
-        view.buffer = 0;
-        view.byteOffset = bytes.size();
-        view.byteLength = elements.size() * sizeof(Element);
-        view.target = target;
-        bytes.resize(bytes.size() + view.byteLength);
-        std::memcpy(bytes.data() + view.byteOffset, elements.data(), view.byteLength);
-        tinygltf::Accessor& accessor = model_.accessors.emplace_back();
-        accessor.bufferView = static_cast<int>(model_.bufferViews.size() - 1);
-        accessor.componentType = component_type;
-        accessor.count = count;
-        accessor.type = type;
-        return static_cast<int>(model_.accessors.size() - 1);
-    }
-
-    int add_vectors(const std::vector<Vec3>& vectors) {
-        return add_array(vectors, vectors.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                         TINYGLTF_TARGET_ARRAY_BUFFER);
-    }
-
     void add(const Mesh& from) {
         tinygltf::Primitive primitive;
         primitive.mode = TINYGLTF_MODE_TRIANGLES;
         primitive.material = static_cast<int>(from.material);
-        const int positions = add_vectors(from.positions);
-        Bounds bounds;
-        for (Vec3 p : from.positions) bounds.add(p);
-        auto& accessor = model_.accessors[static_cast<std::size_t>(positions)];
-        accessor.minValues = {bounds.low.x, bounds.low.y, bounds.low.z};
-        accessor.maxValues = {bounds.high.x, bounds.high.y, bounds.high.z};
-        primitive.attributes["POSITION"] = positions;
-        if (!from.normals.empty()) primitive.attributes["NORMAL"] = add_vectors(from.normals);
+        auto& attributes = primitive.attributes;
+        attributes["POSITION"] = add_gltf_positions(model_, from.positions);
+        if (!from.normals.empty()) attributes["NORMAL"] = add_gltf_floats(model_, from.normals);
         if (!from.texture_coordinates.empty())
-            primitive.attributes["TEXCOORD_0"] = add_array(
-                from.texture_coordinates, from.texture_coordinates.size(),
-                TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
-        if (!from.colors.empty())
-            primitive.attributes["COLOR_0"] =
-                add_array(from.colors, from.colors.size(), TINYGLTF_COMPONENT_TYPE_FLOAT,
-                          TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-        primitive.indices = add_array(from.triangles, 3 * from.triangles.size(),
-                                      TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                                      TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+            attributes["TEXCOORD_0"] = add_gltf_floats(model_, from.texture_coordinates);
+        if (!from.colors.empty()) attributes["COLOR_0"] = add_gltf_floats(model_, from.colors);
+        primitive.indices =
+            add_gltf_array(model_, from.triangles, 3 * from.triangles.size(),
+                           {TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                            TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER});
         tinygltf::Mesh& to = model_.meshes.emplace_back();
         to.name = from.name;
         to.primitives.push_back(std::move(primitive));
