@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/core/math.hpp"
+#include "mir/scene/world_geometry.hpp"
 
 #include <tiny_gltf.h>
 
@@ -53,8 +54,9 @@ int add_gltf_array(tinygltf::Model& model, const std::vector<Element>& elements,
 /// Appends an attribute of one to three floats for each vertex; returns its accessor.
 template <class Element>
 int add_gltf_floats(tinygltf::Model& model, const std::vector<Element>& elements) {
-    static_assert(std::is_trivially_copyable_v<Element> && sizeof(Element) % sizeof(float) == 0);
-    constexpr std::size_t floats = sizeof(Element) / sizeof(float);
+    static_assert(std::is_trivially_copyable_v<Element> && sizeof(Element) % 4 == 0);
+    constexpr std::size_t bytes_of_float = 4;
+    constexpr std::size_t floats = sizeof(Element) / bytes_of_float;
     constexpr int types[] = {TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3};
     return add_gltf_array(
         model, elements, elements.size(),
