@@ -17,14 +17,44 @@ TEST_CASE("help goes to standard output, also that of each command") {
 
 TEST_CASE("the help of render names every option") {
     const std::string help = run_mir({"render", "--help"}).out;
-    for (const char* option :
-         {"--output",         "--png",     "--no-png",         "--exposure", "--aov",
-          "--record-seconds", "--json",    "--quiet",          "--width",    "--height",
-          "--luxels",         "--camera",  "--filter",         "--sampler",  "--sequence",
-          "--vpls",           "--direct",  "--direct-samples", "--bounces",  "--bound",
-          "--seed",           "--threads", "--scheduler",      "--tile",     "--allow-no-light",
-          "--backend",        "--accel",   "--passes",         "--time",     "--target-error",
-          "--save-every",     "--resume"})
+    for (const char* option : {"--output",
+                               "--png",
+                               "--no-png",
+                               "--exposure",
+                               "--aov",
+                               "--record-seconds",
+                               "--json",
+                               "--quiet",
+                               "--width",
+                               "--height",
+                               "--luxels",
+                               "--camera",
+                               "--filter",
+                               "--sampler",
+                               "--sequence",
+                               "--vpls",
+                               "--direct",
+                               "--direct-samples",
+                               "--bounces",
+                               "--bound",
+                               "--seed",
+                               "--threads",
+                               "--scheduler",
+                               "--tile",
+                               "--allow-no-light",
+                               "--sun",
+                               "--sun-irradiance",
+                               "--ground",
+                               "--eye",
+                               "--look-at",
+                               "--fov",
+                               "--backend",
+                               "--accel",
+                               "--passes",
+                               "--time",
+                               "--target-error",
+                               "--save-every",
+                               "--resume"})
         CHECK(has(help, option));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "option_types.hpp"
 
+#include <cmath>
+
 namespace mirtool {
 
 CLI::Validator between(double low, double high, const std::string& text) {
@@ -21,6 +23,34 @@ CLI::Validator seed_number() {
                 return "'" + value + "' is no seed; give 0 to 18446744073709551615";
             },
             "0 to 2^64-1"};
+}
+
+std::optional<mir::Vec3> read_vector(const std::string& text) {
+    mir::Vec3 v(0.0f);
+    std::size_t begin = 0;
+    for (int k = 0; k < 3; ++k) {
+        const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
+        if (end == std::string::npos || !read_whole(text.substr(begin, end - begin), v[k]) ||
+            !std::isfinite(v[k]))
+            return std::nullopt;
+        begin = end + 1;
+    }
+    return v;
+}
+
+CLI::Option* add_vector(CLI::App& app, const std::string& name, std::optional<mir::Vec3>& target,
+                        const std::string& help) {
+    return app
+        .add_option_function<std::string>(
+            name,
+            [&target, name](const std::string& text) {
+                target = read_vector(text);
+                if (!target)
+                    throw CLI::ValidationError(
+                        name, "'" + text + "' is no vector; give three numbers, such as 1,2.5,0");
+            },
+            help)
+        ->type_name("X,Y,Z");
 }
 
 }  // namespace mirtool

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/math.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <charconv>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace mirtool {
@@ -44,6 +47,13 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target,
             help)
         ->type_name(names);
 }
+
+/// Reads three finite numbers that are separated by commas.
+std::optional<mir::Vec3> read_vector(const std::string& text);
+
+/// An option whose value is a point or a direction.
+CLI::Option* add_vector(CLI::App& app, const std::string& name, std::optional<mir::Vec3>& target,
+                        const std::string& help);
 
 /// A whole number option of a smaller type than int.
 template <class T>

@@ -21,6 +21,16 @@ struct PassOptions {
     bool resume = false;                   ///< keep a journal and go on from it
 };
 
+/// What a file may lack: light, something to stand on, a view.
+struct AddedScene {
+    std::optional<mir::Vec3> sun;      ///< direction to it, of any length but 0
+    float sun_irradiance = 3.0f;       ///< of a surface that faces it, W m^-2
+    bool ground = false;               ///< a floor below everything
+    std::optional<mir::Vec3> eye;      ///< place of the camera, metres
+    std::optional<mir::Vec3> look_at;  ///< what is in the middle; none: the middle of the scene
+    float fov = 45.0f;                 ///< vertical, degrees
+};
+
 /// `mir render`.
 struct RenderOptions {
     std::string scene;
@@ -41,6 +51,7 @@ struct RenderOptions {
     bool quiet = false;
     bool json = false;
     PassOptions passes;
+    AddedScene added;
     mir::RenderSettings settings;
 };
 

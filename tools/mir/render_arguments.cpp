@@ -196,6 +196,26 @@ void add_image(CLI::App& app, RenderOptions& o) {
                             "Pixel filter (default lanczos, the paper's windowed sinc)");
 }
 
+/// Light, ground and view for files that have none.
+void add_scene_parts(CLI::App& app, RenderOptions& o) {
+    AddedScene& a = o.added;
+    CLI::Option* sun = add_vector(app, "--sun", a.sun, "Adds a sun in this direction, as 1,2,1");
+    app.add_option("--sun-irradiance", a.sun_irradiance,
+                   "W/m2 on a surface that faces the sun (default 3)")
+        ->check(between(1e-6, 1e6, "0.000001 to 1000000"))
+        ->needs(sun);
+    app.add_flag("--ground", a.ground, "Adds a grey floor below everything");
+    CLI::Option* eye =
+        add_vector(app, "--eye", a.eye, "Place of the camera, metres (default: the scene's)");
+    add_vector(app, "--look-at", a.look_at,
+               "What the camera of --eye looks at (default: the middle of the scene)")
+        ->needs(eye);
+    app.add_option("--fov", a.fov, "Vertical field of view of --eye, degrees (default 45)")
+        ->check(between(1, 170, "1 to 170"))
+        ->needs(eye);
+    eye->excludes("--camera");
+}
+
 void add_output(CLI::App& app, RenderOptions& o) {
     app.add_option("-o,--output", o.output, "Picture to write (default SCENE.exr)");
     app.add_option("--png", o.preview, "Preview to write (default: beside the EXR)");
@@ -284,6 +304,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
     add_output(app, options);
     add_report(app, options);
     add_image(app, options);
+    add_scene_parts(app, options);
     add_sampling(app, options);
     add_chains(app, options.settings);
     add_reference(app, options.settings);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "added_scene.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "load_scene.hpp"
@@ -81,6 +82,7 @@ mir::Extent choose_size(const RenderOptions& o, const std::optional<mir::CameraR
 }
 
 void prepare(RenderOptions& o, SceneAndReport& loaded) {
+    add_to_scene(o.added, loaded);
     const auto camera = choose_camera(o, loaded);
     o.settings.image = choose_size(o, camera, loaded.scene);
     if (!camera) {

@@ -45,9 +45,10 @@ inline std::vector<std::string> check_scene(const Scene& scene, const RenderSett
                     "'mir info'");
     if (has_light(scene)) return warnings;
     if (!settings.allow_no_light)
-        throw Error(ErrorCode::invalid_input,
-                    "the scene has no light (the picture would be black); add an emissive material "
-                    "or a light, or pass --allow-no-light");
+        throw Error(
+            ErrorCode::invalid_input,
+            "the scene has no light (the picture would be black); add an emissive material, a "
+            "light or, with --sun, a sun, or pass --allow-no-light");
     warnings.emplace_back("the scene has no light: the picture is black");
     return warnings;
 }
