@@ -48,7 +48,7 @@ TEST_CASE("what a material asks for and does not get is counted by name") {
     text = with(text, R"("scene":0)",
                 R"("scene":0,"textures":[{"source":0}],)"
                 R"("images":[{"uri":"no%20such.png"},{"uri":"data:image/png;base64,AAAA"}],)"
-                R"("materials":[{"alphaMode":"MASK",)"
+                R"("materials":[{"alphaMode":"BLEND",)"
                 R"("pbrMetallicRoughness":{"roughnessFactor":1.5,"baseColorTexture":{"index":0,)"
                 R"("extensions":{"KHR_texture_transform":{"scale":[2,2]}}}},)"
                 R"("extensions":{"KHR_materials_unlit":{},)"
@@ -57,7 +57,7 @@ TEST_CASE("what a material asks for and does not get is counted by name") {
     const auto loaded = read_text(text, triangle_bytes());
     const std::map<std::string, std::uint64_t> expected{
         {"KHR_materials_specular specularColorFactor", 1},
-        {"alphaMode MASK", 1},
+        {"alphaMode BLEND", 1},
         {"environment", 1},
         {"image 'no such.png' (not found)", 1},
         {"roughnessFactor outside 0..1 (clamped)", 1},

@@ -154,6 +154,41 @@ TEST_CASE("unlit materials shine with their colour") {
     CHECK(loaded.report.ignored.empty());
 }
 
+TEST_CASE("masks are read with their cutoff and the alpha of factor and texture") {
+    const auto loaded = read_textured(
+        R"("alphaMode":"MASK","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.75],
+"baseColorTexture":{"index":0}})");
+    const mir::Material& m = loaded.scene.materials.at(0);
+    CHECK(m.alpha_cutoff == 0.5f);
+    CHECK(m.alpha == 0.75f);
+    CHECK(loaded.scene.images.at(0).texels.at(3) >> 24 == 128);
+    CHECK(loaded.report.ignored.empty());
+    const auto cutoff = [](const std::string& fields) {
+        return read_textured(fields + "," + base).scene.materials.at(0).alpha_cutoff;
+    };
+    CHECK(cutoff(R"("alphaMode":"MASK","alphaCutoff":0.25)") == 0.25f);
+    CHECK(cutoff(R"("alphaMode":"MASK","alphaCutoff":0)") == 0.0f);
+    CHECK(cutoff(R"("alphaMode":"OPAQUE","alphaCutoff":0.25)") == 0.0f);
+    CHECK(read_textured(R"("alphaMode":"BLEND",)" + base).report.ignored ==
+          Ignored{{"alphaMode BLEND", 1}});
+    ErrorCode code = ErrorCode::internal;
+    const std::string says = message_of(
+        [&] { read_textured(R"("alphaMode":"MASK","alphaCutoff":-0.5,)" + base); }, &code);
+    CAPTURE(says);
+    CHECK(code == ErrorCode::invalid_input);
+    CHECK(says.find("material 0") != std::string::npos);
+    CHECK(says.find("alphaCutoff") != std::string::npos);
+}
+
+TEST_CASE("an unlit mask keeps the texture that cuts it out") {
+    const auto loaded =
+        read_textured(R"("alphaMode":"MASK","extensions":{"KHR_materials_unlit":{}},)" + base);
+    const mir::Material& m = loaded.scene.materials.at(0);
+    CHECK(m.textures.emission.is_set());
+    CHECK(m.textures.base_color.is_set());
+    CHECK(m.base_color == Rgb{});
+}
+
 TEST_CASE("images that are not there or of other formats are counted") {
     CHECK(read_textured(base, "no such.png").report.ignored ==
           Ignored{{"image 'no such.png' (not found)", 1},
@@ -212,6 +247,8 @@ TEST_CASE("textures, coordinates and colours survive being written and read") {
     mir::MaterialTextures& t = scene.materials[0].textures;
     t.base_color = t.normal = t.emission = texture_of(0);
     scene.materials[0].emission = {1, 1, 1};
+    scene.materials[0].alpha = 0.3f;
+    scene.materials[0].alpha_cutoff = 0.7f;
     t.normal_scale = 0.25f;
     t.normal.wrap_v = Wrap::mirror;
     t.emission.nearest = true;
@@ -229,6 +266,8 @@ TEST_CASE("textures, coordinates and colours survive being written and read") {
     CHECK(loaded.scene.images.at(0).texels == scene.images[0].texels);
     CHECK(loaded.scene.meshes.at(0).texture_coordinates == scene.meshes[0].texture_coordinates);
     CHECK(loaded.scene.meshes.at(0).colors == scene.meshes[0].colors);
+    CHECK(loaded.scene.materials.at(0).alpha == 0.3f);
+    CHECK(loaded.scene.materials.at(0).alpha_cutoff == 0.7f);
     const mir::MaterialTextures& back = loaded.scene.materials.at(0).textures;
     CHECK(back.base_color.is_set());
     CHECK_FALSE(back.metallic_roughness.is_set());

@@ -26,6 +26,8 @@ void check_same(const mir::Material& a, const mir::Material& b) {
     CHECK(a.emission == b.emission);
     CHECK(a.emits_from_both_sides == b.emits_from_both_sides);
     CHECK(a.light_group == b.light_group);
+    CHECK(a.alpha == b.alpha);
+    CHECK(a.alpha_cutoff == b.alpha_cutoff);
 }
 
 void check_same(const mir::Mesh& a, const mir::Mesh& b) {
@@ -116,6 +118,8 @@ mir::Scene full_scene() {
     lamp.metallic = 0.9f;
     lamp.roughness = 0.123f;
     lamp.specular = 0.77f;
+    lamp.alpha = 0.9f;
+    lamp.alpha_cutoff = 0.1f;
     const auto glowing = scene.add(lamp);
     scene.add(mir::emitter("dim", {0, 0, 0}, {0, 1e-30f, 0}));
     mir::Mat4 mirrored(1.0f);

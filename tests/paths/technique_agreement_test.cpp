@@ -82,6 +82,23 @@ TEST_CASE("all techniques agree around a lamp that shines from both sides", "[st
     CHECK(agreement(lab.world(), 2, 1100) > 0.01);
 }
 
+TEST_CASE("all techniques agree around a lamp with holes and a picture on it", "[statistical]") {
+    mir::Scene scene = Wedge(WedgeLights::ceiling).scene();
+    for (mir::Mesh& m : scene.meshes)
+        if (scene.materials[m.material].emits())
+            for (mir::Vec3 p : m.positions)
+                m.texture_coordinates.emplace_back(p.x + 0.3f * p.y, p.z - 0.4f * p.y);
+    scene.images = {{"lamp", 2, 2, {0xFFFFFFFFu, 0xFF404040u, 0x00FFFFFFu, 0xFF808080u}}};
+    for (mir::Material& m : scene.materials) {
+        if (!m.emits()) continue;
+        m.textures.base_color.image = m.textures.emission.image = 0;
+        m.textures.base_color.nearest = m.textures.emission.nearest = true;
+        m.alpha_cutoff = 0.5f;
+    }
+    const PathLab<Lambert> lab(scene);
+    CHECK(agreement(lab.world(), 2, 2900) > 0.01);
+}
+
 TEST_CASE("all techniques agree under lights without extent", "[statistical]") {
     const auto lights = GENERATE(WedgeLights::point, WedgeLights::spot, WedgeLights::directional);
     CAPTURE(static_cast<int>(lights));

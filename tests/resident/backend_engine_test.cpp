@@ -10,6 +10,7 @@
 #include "mir/sched/cpu.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
+#include "support/masked_scene.hpp"
 
 #include <cstring>
 
@@ -152,6 +153,25 @@ TEST_CASE("Light of VPLs that are no states is traced by every scheduler, with t
         INFO(static_cast<int>(scheduler));
         check_same(host, draw_on_backend(scene, settings, {scheduler, false, true}));
     }
+}
+
+TEST_CASE("A frame with alpha masks has the bits of the host's, by every scheduler") {
+    Scene scene = lit_room();
+    mirtest::hang_curtain(scene, mir::lambertian("curtain", {0.7f, 0.6f, 0.5f}), 6,
+                          {-0.6f, 1.3f, -0.5f}, {1.2f, 0.1f, 0.0f}, {0.0f, -0.1f, 1.1f});
+    RenderSettings settings = small_picture();
+    check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
+    settings.sampler = mir::SamplerKind::instant_radiosity;
+    const RenderResult host = draw_on_host(scene, settings);
+    for (const BackendScheduler scheduler :
+         {BackendScheduler::os, BackendScheduler::rc, BackendScheduler::rcvp}) {
+        INFO(static_cast<int>(scheduler));
+        check_same(host, draw_on_backend(scene, settings, {scheduler, false, true}));
+    }
+    scene.materials.back().alpha_cutoff = 0.0f;
+    const RenderResult whole = draw_on_host(scene, settings);
+    CHECK_FALSE(same_bits(whole.direct, host.direct));
+    CHECK_FALSE(same_bits(whole.indirect, host.indirect));
 }
 
 TEST_CASE("An engine on a backend says how long its stages took") {

@@ -28,6 +28,7 @@ struct Structures {
 constexpr Structures plain{"kdtree", true, false};
 constexpr Structures both{"kdtree+shafts", true, true};
 constexpr Structures hierarchy{"bvh", false, true};
+constexpr Structures for_masks{"bvh", false, false};
 
 /// Luxels times VPLs from which a kd-tree, which single rays walk faster, is worth the time that
 /// the host takes to build it (docs/performance.md, "A whole frame"). Bits are the same.
@@ -37,7 +38,8 @@ double pairs(const RenderSettings& settings) {
     return static_cast<double>(settings.image.area()) * settings.luxels_per_pixel * settings.vpls;
 }
 
-Structures structures_of(const RenderSettings& settings) {
+Structures structures_of(const Scene& scene, const RenderSettings& settings) {
+    if (is_masked(scene)) return for_masks;
     switch (settings.acceleration) {
         case Acceleration::kd_tree:
             return plain;
@@ -98,8 +100,9 @@ class CudaRenderer : public Renderer {
         RenderStatistics& s = result.statistics;
         s.backend = "cuda";
         s.device = device_.name;
-        s.acceleration =
-            settings.integrator != Integrator::vpl ? plain.name : structures_of(settings).name;
+        s.acceleration = settings.integrator != Integrator::vpl
+                             ? plain.name
+                             : structures_of(scene, settings).name;
         s.scheduler = name_;
         {
             const auto stage = clock.measure(&StageSeconds::hash);
@@ -177,7 +180,7 @@ class CudaRenderer : public Renderer {
                                                  monitor, clock)
                 .run();
         }
-        const Structures structures = structures_of(settings);
+        const Structures structures = structures_of(scene, settings);
         const BackendEngineOptions options{
             scheduler_, structures.kd_tree, structures.shafts,
             std::min<std::uint64_t>(usable_memory() / 4, ChainPortions{}.bytes)};

@@ -14,13 +14,15 @@ template <RayFinder F>
 class FinderRayCaster {
  public:
     static constexpr Space space = F::space;
+    using Mask = typename F::Mask;
 
-    /// `view` is what the finder reads: a tree.
-    MIR_HD FinderRayCaster(const GeometryView<space>& geometry, const typename F::View& view)
-        : geometry_(geometry), finder_{view} {}
-    FinderRayCaster(const WorldGeometry& geometry,
-                    const typename F::View& view) requires(space == Space::host)
-        : FinderRayCaster(geometry.view(), view) {}
+    /// `view` is what the finder reads: a tree; `mask` says which points of triangles are there.
+    MIR_HD FinderRayCaster(const GeometryView<space>& geometry, const typename F::View& view,
+                           const Mask& mask = {})
+        : geometry_(geometry), finder_{view, mask} {}
+    FinderRayCaster(const WorldGeometry& geometry, const typename F::View& view,
+                    const Mask& mask = {}) requires(space == Space::host)
+        : FinderRayCaster(geometry.view(), view, mask) {}
 
     /// Writes the first surface along the ray to `point`; false when there is none.
     [[nodiscard]] MIR_HD bool find_point(const Ray& ray, SurfacePoint& point) const {

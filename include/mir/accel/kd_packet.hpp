@@ -28,8 +28,8 @@ struct WaitingLanes {
 class PacketWalk {
  public:
     PacketWalk(const KdTreeView<Space::host>& tree, Vec3 origin, const PointPacket& points,
-               std::uint32_t active)
-        : tree_(tree), origin_(origin), points_(points), open_(active) {
+               std::uint32_t active, const AlphaMaskView<Space::host>& mask)
+        : tree_(tree), mask_(mask), origin_(origin), points_(points), open_(active) {
         const float shortest = shortest_step(tree.reach);
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             inverse_[0].at[k] = inverse_step(points.x[k] - origin.x, shortest);
@@ -46,6 +46,7 @@ class PacketWalk {
     void test_leaf(KdNode leaf);
 
     const KdTreeView<Space::host>& tree_;
+    const AlphaMaskView<Space::host>& mask_;
     Vec3 origin_;
     const PointPacket& points_;
     std::uint32_t open_;  ///< lanes that still ask
@@ -87,7 +88,8 @@ inline void PacketWalk::test_leaf(KdNode leaf) {
     const std::uint32_t* reference = tree_.references + leaf.first();
     for (const std::uint32_t* end = reference + leaf.count(); reference != end; ++reference) {
         const TriangleRows& rows = tree_.triangles[*reference];
-        open_ &= ~hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
+        const std::uint32_t hit = hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
+        if (hit != 0) open_ &= ~solid_lanes(rows, *reference, origin_, points_, hit, mask_);
     }
 }
 
@@ -115,10 +117,11 @@ inline std::uint32_t PacketWalk::run() {
 }  // namespace detail
 
 /// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
-/// !is_hidden(tree, origin, point i). Thread-safe.
+/// !is_hidden(tree, origin, point i, mask). Thread-safe.
 [[nodiscard]] inline std::uint32_t visible_in_packet(const KdTreeView<Space::host>& tree,
                                                      Vec3 origin, const PointPacket& points,
-                                                     std::uint32_t active) {
+                                                     std::uint32_t active,
+                                                     const AlphaMaskView<Space::host>& mask = {}) {
     std::uint32_t seen = 0;
     std::uint32_t together = 0;
     const bool origin_within = within_reach(origin, tree.reach);
@@ -127,11 +130,11 @@ inline std::uint32_t PacketWalk::run() {
         const Vec3 point{points.x[k], points.y[k], points.z[k]};
         if (origin_within && within_reach(point, tree.reach))
             together |= 1u << k;
-        else if (!is_hidden(tree, origin, point))
+        else if (!is_hidden(tree, origin, point, mask))
             seen |= 1u << k;
     }
     if (together == 0) return seen;
-    return seen | detail::PacketWalk(tree, origin, points, together).run();
+    return seen | detail::PacketWalk(tree, origin, points, together, mask).run();
 }
 
 }  // namespace mir

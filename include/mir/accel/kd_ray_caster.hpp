@@ -7,8 +7,8 @@
 namespace mir {
 
 /// Asks a kd-tree in memory of space `S` what a ray sees first.
-template <Space S>
-using KdRayCaster = FinderRayCaster<KdRayFinder<S>>;
+template <Space S, class M = UsualMask<S>>
+using KdRayCaster = FinderRayCaster<KdRayFinder<S, M>>;
 
 static_assert(RayCaster<KdRayCaster<Space::host>>);
 static_assert(PointFinder<KdRayCaster<Space::host>> && PointFinder<KdRayCaster<Space::device>>);

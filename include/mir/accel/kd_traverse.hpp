@@ -68,34 +68,41 @@ MIR_HD bool walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to, Leaf& leaf) {
 /// True when one of the leaf's triangles hides the ends of the segment from each other. This is
 /// hits_segment(), with its two conditions apart: one boolean less per triangle on the device,
 /// which is a sixth of the instructions of a triangle whose plane is not crossed.
-template <Space S>
-MIR_HD bool any_hides(const KdTreeView<S>& tree, KdNode leaf, Vec3 from, Vec3 to) {
+template <Space S, class Mask = Opaque>
+MIR_HD bool any_hides(const KdTreeView<S>& tree, KdNode leaf, Vec3 from, Vec3 to,
+                      const Mask& mask = {}) {
     const std::uint32_t last = leaf.first() + leaf.count();
     for (std::uint32_t i = leaf.first(); i != last; ++i) {
-        const TriangleRows& rows = tree.triangles[tree.references[i]];
+        const std::uint32_t triangle = tree.references[i];
+        const TriangleRows& rows = tree.triangles[triangle];
         const float s_from = row_at(rows.s, from);
         const float s_to = row_at(rows.s, to);
         if (!opposite(s_from, s_to)) continue;
-        if (is_inside(crossing(rows, from, to, s_from, s_to))) return true;
+        const PlaneCrossing c = crossing(rows, from, to, s_from, s_to);
+        if (is_inside(c) && is_solid(mask, triangle, c)) return true;
     }
     return false;
 }
 
 /// Leaf visitor of shadow segments: any triangle will do, in whichever cell the crossing lies.
-template <Space S>
+template <Space S, class Mask>
 struct FindAny {
     const KdTreeView<S>& tree;
+    const Mask& mask;
     Vec3 from{0};
     Vec3 to{0};
 
-    MIR_HD bool operator()(KdNode leaf, float) const { return any_hides(tree, leaf, from, to); }
+    MIR_HD bool operator()(KdNode leaf, float) const {
+        return any_hides(tree, leaf, from, to, mask);
+    }
 };
 
 /// Leaf visitor of rays. The walk may stop where the best crossing, enlarged by the rounding of its
 /// t, ends: no triangle of a later cell can come before it, or beside it.
-template <Space S>
+template <Space S, class Mask>
 struct FindFirst {
     const KdTreeView<S>& tree;
+    const Mask& mask;
     Vec3 from{0};
     Vec3 to{0};
     TriangleHit best;
@@ -104,7 +111,7 @@ struct FindFirst {
         const std::uint32_t last = leaf.first() + leaf.count();
         for (std::uint32_t i = leaf.first(); i != last; ++i) {
             const std::uint32_t triangle = tree.references[i];
-            keep_closer(tree.triangles[triangle], from, to, triangle, best);
+            keep_closer(tree.triangles[triangle], from, to, triangle, best, mask);
         }
         return best.t * (1.0f + 0x1p-20f) < end;
     }
@@ -114,26 +121,29 @@ struct FindFirst {
 
 /// True when a triangle of the tree hides the points from each other. Equal in bits to an "or" of
 /// hits_segment() over all triangles, and under exchange of the points, which are cut to the tree's
-/// reach. Cheapest when `from` is the end next to which most occluders are; thread-safe.
-template <Space S>
-[[nodiscard]] MIR_HD bool is_hidden(const KdTreeView<S>& tree, Vec3 from, Vec3 to) {
+/// reach. `mask` says which points of triangles are there, an Opaque or an AlphaMaskView. Cheapest
+/// when `from` is the end next to which most occluders are; thread-safe.
+template <Space S, class Mask = Opaque>
+[[nodiscard]] MIR_HD bool is_hidden(const KdTreeView<S>& tree, Vec3 from, Vec3 to,
+                                    const Mask& mask = {}) {
     if (!within_reach(from, tree.reach) || !within_reach(to, tree.reach)) {
         const CutSegment cut = cut_to_reach(from, to, tree.reach);
         if (cut.empty) return false;
         from = cut.from;
         to = cut.to;
     }
-    detail::FindAny<S> any{tree, from, to};
+    detail::FindAny<S, Mask> any{tree, mask, from, to};
     return detail::walk(tree, from, to, any);
 }
 
 /// The first triangle along a ray, with t in metres; TriangleHit::none if there is none. Equal in
-/// bits to keep_closer() over all triangles. Thread-safe.
-template <Space S>
-[[nodiscard]] MIR_HD TriangleHit first_hit(const KdTreeView<S>& tree, const Ray& ray) {
+/// bits to keep_closer() over all triangles. `mask` as for is_hidden(). Thread-safe.
+template <Space S, class Mask = Opaque>
+[[nodiscard]] MIR_HD TriangleHit first_hit(const KdTreeView<S>& tree, const Ray& ray,
+                                           const Mask& mask = {}) {
     const CutSegment cut = cut_to_reach(ray, tree.reach);
     if (cut.empty) return {};
-    detail::FindFirst<S> first{tree, cut.from, cut.to, {}};
+    detail::FindFirst<S, Mask> first{tree, mask, cut.from, cut.to, {}};
     detail::walk(tree, cut.from, cut.to, first);
     if (first.best.triangle == TriangleHit::none) return {};
     first.best.t = strict::add(cut.t_from, strict::mul(first.best.t, cut.t_length));

@@ -23,8 +23,12 @@ class KdTreeScene {
               return KdTree(geometry, {}, executor);
           }()) {}
 
-    [[nodiscard]] KdTreeVisibility<Space::host> visibility() const { return {tree_.view()}; }
-    [[nodiscard]] KdRayCaster<Space::host> ray_caster() const { return {*geometry_, tree_.view()}; }
+    [[nodiscard]] KdTreeVisibility<Space::host> visibility() const {
+        return {tree_.view(), geometry_->alpha_masks()};
+    }
+    [[nodiscard]] KdRayCaster<Space::host> ray_caster() const {
+        return {*geometry_, tree_.view(), geometry_->alpha_masks()};
+    }
     [[nodiscard]] const KdTree& tree() const { return tree_; }
 
  private:

@@ -9,19 +9,24 @@ namespace mir {
 
 /// Answers a kd-tree in memory of space `S`: a value that may be passed to a kernel. Model of
 /// Visibility, on the host of PacketVisibility too. Both faces give the bits of hits_segment()
-/// asked of every triangle, on the host and on the device. The tree must outlive it. Thread-safe.
-template <Space S>
+/// asked of every triangle, on the host and on the device. `M` says which points of triangles are
+/// there, an Opaque or an AlphaMaskView. What it reads must outlive it. Thread-safe.
+template <Space S, class M = UsualMask<S>>
 struct KdTreeVisibility {
     static constexpr Space space = S;
 
     KdTreeView<S> tree;
+    [[no_unique_address]] M mask{};
 
-    [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return !is_hidden(tree, a, b); }
+    [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return !is_hidden(tree, a, b, mask); }
 
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const
         requires(S == Space::host) {
-        return visible_in_packet(tree, origin, points, active);
+        if constexpr (std::is_same_v<M, Opaque>)
+            return visible_in_packet(tree, origin, points, active);
+        else
+            return visible_in_packet(tree, origin, points, active, mask);
     }
 };
 

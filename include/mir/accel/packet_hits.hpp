@@ -4,6 +4,7 @@
 #include "mir/accel/triangle_rows.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "mir/core/lanes.hpp"
+#include "mir/scene/alpha_mask.hpp"
 
 namespace mir::detail {
 
@@ -36,6 +37,21 @@ inline std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from,
                        static_cast<int>(side * c.u >= 0.0f) & static_cast<int>(side * c.v >= 0.0f) &
                        static_cast<int>(side * w >= 0.0f)) != 0;
            });
+}
+
+/// Lanes of `hit`, those that hit_lanes() found for triangle number `triangle`, where it is there.
+/// One by one: lanes that hit a masked triangle are few.
+inline std::uint32_t solid_lanes(const TriangleRows& rows, std::uint32_t triangle, Vec3 origin,
+                                 const PointPacket& points, std::uint32_t hit,
+                                 const AlphaMaskView<Space::host>& mask) {
+    if (!mask.exists()) return hit;
+    std::uint32_t solid = 0;
+    for (std::uint32_t rest = hit; rest != 0;) {
+        const std::uint32_t k = pop_lowest(rest);
+        const Vec3 to{points.x[k], points.y[k], points.z[k]};
+        if (hits_segment(rows, origin, to, triangle, mask)) solid |= 1u << k;
+    }
+    return solid;
 }
 
 }  // namespace mir::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/detail/double3.hpp"
+#include "mir/accel/triangle_mask.hpp"
 
 namespace mir {
 
@@ -136,6 +137,33 @@ MIR_HD inline PlaneCrossing crossing(const TriangleRows& rows, Vec3 from, Vec3 t
            detail::is_inside(detail::crossing(rows, from, to, s_from, s_to));
 }
 
+namespace detail {
+
+/// Barycentrics of the second and third corner; the same when the ends change places.
+MIR_HD inline Vec2 barycentrics_of(PlaneCrossing c) {
+    return {strict::div(c.u, c.d), strict::div(c.v, c.d)};
+}
+
+/// True when triangle number `triangle` is there where it is crossed.
+template <class Mask>
+MIR_HD bool is_solid(const Mask& mask, std::uint32_t triangle, PlaneCrossing c) {
+    return !mask.exists() || mask.is_solid(triangle, barycentrics_of(c));
+}
+
+}  // namespace detail
+
+/// The same of triangle number `triangle`, which `mask` may say not to be there where it is
+/// crossed: an Opaque or an AlphaMaskView.
+template <class Mask>
+[[nodiscard]] MIR_HD bool hits_segment(const TriangleRows& rows, Vec3 from, Vec3 to,
+                                       std::uint32_t triangle, const Mask& mask) {
+    const float s_from = row_at(rows.s, from);
+    const float s_to = row_at(rows.s, to);
+    if (!detail::opposite(s_from, s_to)) return false;
+    const detail::PlaneCrossing c = detail::crossing(rows, from, to, s_from, s_to);
+    return detail::is_inside(c) && detail::is_solid(mask, triangle, c);
+}
+
 /// What a ray met.
 struct TriangleHit {
     static constexpr std::uint32_t none = 0xFFFFFFFFu;
@@ -147,9 +175,10 @@ struct TriangleHit {
 
 /// Replaces `best` when the segment crosses triangle number `triangle` before it, or at the same
 /// computed place and with a smaller number: the first crossing then does not depend on the order
-/// in which triangles are asked. Crosses exactly when hits_segment() says so.
-MIR_HD inline void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std::uint32_t triangle,
-                               TriangleHit& best) {
+/// in which triangles are asked. Crosses exactly when hits_segment() with the same mask says so.
+template <class Mask = Opaque>
+MIR_HD void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std::uint32_t triangle,
+                        TriangleHit& best, const Mask& mask = {}) {
     const float s_from = row_at(rows.s, from);
     const float s_to = row_at(rows.s, to);
     if (!detail::opposite(s_from, s_to)) return;
@@ -157,7 +186,9 @@ MIR_HD inline void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std
     if (t > best.t || (t == best.t && triangle >= best.triangle)) return;
     const detail::PlaneCrossing c = detail::crossing(rows, from, to, s_from, s_to);
     if (!detail::is_inside(c)) return;
-    best = {t, {strict::div(c.u, c.d), strict::div(c.v, c.d)}, triangle};
+    const Vec2 barycentrics = detail::barycentrics_of(c);
+    if (mask.exists() && !mask.is_solid(triangle, barycentrics)) return;
+    best = {t, barycentrics, triangle};
 }
 
 }  // namespace mir

@@ -9,20 +9,25 @@ namespace mir {
 
 /// Answers from a wide bounding volume hierarchy in memory of space `S`: a value that may be passed
 /// to a kernel. Model of Visibility, on the host of PacketVisibility too. Both faces give the bits
-/// of hits_segment() asked of every triangle, on the host and on the device. The hierarchy must
-/// outlive it. Thread-safe.
-template <Space S>
+/// of hits_segment() asked of every triangle, on the host and on the device. `M` says which points
+/// of triangles are there, an Opaque or an AlphaMaskView. What it reads must outlive it.
+/// Thread-safe.
+template <Space S, class M = UsualMask<S>>
 struct WideBvhVisibility {
     static constexpr Space space = S;
 
     WideBvhView<S> bvh;
+    [[no_unique_address]] M mask{};
 
-    [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b); }
+    [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b, mask); }
 
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const
         requires(S == Space::host) {
-        return visible_in_packet(bvh, origin, points, active);
+        if constexpr (std::is_same_v<M, Opaque>)
+            return visible_in_packet(bvh, origin, points, active);
+        else
+            return visible_in_packet(bvh, origin, points, active, mask);
     }
 };
 

@@ -99,10 +99,13 @@ class WidePacketWalk {
  public:
     static constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
 
+    /// `mask` outlives the walk; nullptr: all triangles are whole.
     WidePacketWalk(const WideBvhView<Space::host>& bvh, const Hull& hull, Vec3 origin,
-                   const PointPacket& points, std::uint32_t active)
+                   const PointPacket& points, std::uint32_t active,
+                   const AlphaMaskView<Space::host>* mask = nullptr)
         : bvh_(bvh),
           hull_(hull),
+          mask_(mask),
           origin_(origin),
           points_(points),
           slabs_(origin, points, active, bvh.reach),
@@ -164,14 +167,18 @@ class WidePacketWalk {
     void test_leaf(std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t t = first; t < first + count; ++t) {
             const TriangleRows& rows = bvh_.triangles[t];
-            const std::uint32_t hit = hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
-            if (hit != 0) blocker_ = t;
+            std::uint32_t hit = hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
+            if (hit == 0) continue;
+            if (mask_ != nullptr)
+                hit = solid_lanes(rows, bvh_.indices[t], origin_, points_, hit, *mask_);
+            blocker_ = t;
             open_ &= ~hit;
         }
     }
 
     const WideBvhView<Space::host>& bvh_;
     const Hull& hull_;
+    const AlphaMaskView<Space::host>* mask_;
     Vec3 origin_;
     const PointPacket& points_;
     PacketSlabs slabs_;
@@ -184,10 +191,11 @@ class WidePacketWalk {
 }  // namespace detail
 
 /// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
-/// !is_hidden(bvh, origin, point i). Thread-safe.
+/// !is_hidden(bvh, origin, point i, mask). Thread-safe.
 [[nodiscard]] inline std::uint32_t visible_in_packet(const WideBvhView<Space::host>& bvh,
                                                      Vec3 origin, const PointPacket& points,
-                                                     std::uint32_t active) {
+                                                     std::uint32_t active,
+                                                     const AlphaMaskView<Space::host>& mask = {}) {
     std::uint32_t seen = 0;
     std::uint32_t together = 0;
     const bool origin_within = within_reach(origin, bvh.reach);
@@ -196,11 +204,12 @@ class WidePacketWalk {
         const Vec3 point{points.x[k], points.y[k], points.z[k]};
         if (origin_within && within_reach(point, bvh.reach))
             together |= 1u << k;
-        else if (!is_hidden(bvh, origin, point))
+        else if (!is_hidden(bvh, origin, point, mask))
             seen |= 1u << k;
     }
     if (together == 0) return seen;
-    return seen | detail::WidePacketWalk(bvh, detail::AllSlots{}, origin, points, together).run();
+    return seen |
+           detail::WidePacketWalk(bvh, detail::AllSlots{}, origin, points, together, &mask).run();
 }
 
 }  // namespace mir

@@ -7,8 +7,8 @@
 namespace mir {
 
 /// Asks a wide bounding volume hierarchy in memory of space `S` what a ray sees first.
-template <Space S>
-using WideRayCaster = FinderRayCaster<WideRayFinder<S>>;
+template <Space S, class M = UsualMask<S>>
+using WideRayCaster = FinderRayCaster<WideRayFinder<S, M>>;
 
 static_assert(RayCaster<WideRayCaster<Space::host>>);
 static_assert(PointFinder<WideRayCaster<Space::host>> && PointFinder<WideRayCaster<Space::device>>);

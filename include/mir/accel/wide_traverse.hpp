@@ -151,26 +151,29 @@ MIR_HD bool walk(const WideBvhView<S>& bvh, Vec3 from, Vec3 to, Leaf& leaf) {
 }
 
 /// Leaf visitor of shadow segments: any triangle will do.
-template <Space S>
+template <Space S, class Mask>
 struct FindAnyInLeaf {
     const WideBvhView<S>& bvh;
+    const Mask& mask;
     Vec3 from{0};
     Vec3 to{0};
 
     [[nodiscard]] MIR_HD static float end() { return 1.0f; }
 
     MIR_HD bool operator()(std::uint32_t first, std::int32_t count) const {
-        for (std::int32_t i = 0; i < count; ++i)
-            if (hits_segment(bvh.triangles[first + static_cast<std::uint32_t>(i)], from, to))
-                return true;
+        for (std::int32_t i = 0; i < count; ++i) {
+            const std::uint32_t at = first + static_cast<std::uint32_t>(i);
+            if (hits_segment(bvh.triangles[at], from, to, bvh.indices[at], mask)) return true;
+        }
         return false;
     }
 };
 
 /// Leaf visitor of rays.
-template <Space S>
+template <Space S, class Mask>
 struct FindFirstInLeaf {
     const WideBvhView<S>& bvh;
+    const Mask& mask;
     Vec3 from{0};
     Vec3 to{0};
     TriangleHit best;
@@ -180,7 +183,7 @@ struct FindFirstInLeaf {
     MIR_HD bool operator()(std::uint32_t first, std::int32_t count) {
         for (std::int32_t i = 0; i < count; ++i) {
             const std::uint32_t at = first + static_cast<std::uint32_t>(i);
-            keep_closer(bvh.triangles[at], from, to, bvh.indices[at], best);
+            keep_closer(bvh.triangles[at], from, to, bvh.indices[at], best, mask);
         }
         return false;
     }
@@ -190,26 +193,29 @@ struct FindFirstInLeaf {
 
 /// True when a triangle of the hierarchy hides the points from each other. Equal in bits to an "or"
 /// of hits_segment() over all triangles, and under exchange of the points, which are cut to the
-/// hierarchy's reach. Thread-safe.
-template <Space S>
-[[nodiscard]] MIR_HD bool is_hidden(const WideBvhView<S>& bvh, Vec3 from, Vec3 to) {
+/// hierarchy's reach. `mask` says which points of triangles are there, an Opaque or an
+/// AlphaMaskView. Thread-safe.
+template <Space S, class Mask = Opaque>
+[[nodiscard]] MIR_HD bool is_hidden(const WideBvhView<S>& bvh, Vec3 from, Vec3 to,
+                                    const Mask& mask = {}) {
     if (!within_reach(from, bvh.reach) || !within_reach(to, bvh.reach)) {
         const CutSegment cut = cut_to_reach(from, to, bvh.reach);
         if (cut.empty) return false;
         from = cut.from;
         to = cut.to;
     }
-    detail::FindAnyInLeaf<S> any{bvh, from, to};
+    detail::FindAnyInLeaf<S, Mask> any{bvh, mask, from, to};
     return detail::walk(bvh, from, to, any);
 }
 
 /// The first triangle along a ray, with t in metres; TriangleHit::none if there is none. Equal in
-/// bits to keep_closer() over all triangles. Thread-safe.
-template <Space S>
-[[nodiscard]] MIR_HD TriangleHit first_hit(const WideBvhView<S>& bvh, const Ray& ray) {
+/// bits to keep_closer() over all triangles. `mask` as for is_hidden(). Thread-safe.
+template <Space S, class Mask = Opaque>
+[[nodiscard]] MIR_HD TriangleHit first_hit(const WideBvhView<S>& bvh, const Ray& ray,
+                                           const Mask& mask = {}) {
     const CutSegment cut = cut_to_reach(ray, bvh.reach);
     if (cut.empty) return {};
-    detail::FindFirstInLeaf<S> first{bvh, cut.from, cut.to, {}};
+    detail::FindFirstInLeaf<S, Mask> first{bvh, mask, cut.from, cut.to, {}};
     detail::walk(bvh, cut.from, cut.to, first);
     if (first.best.triangle == TriangleHit::none) return {};
     first.best.t = strict::add(cut.t_from, strict::mul(first.best.t, cut.t_length));

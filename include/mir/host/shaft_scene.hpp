@@ -14,17 +14,25 @@ class ShaftScene {
     /// @throws Error what build_wide_bvh() throws.
     template <Executor E>
     ShaftScene(const WorldGeometry& geometry, E& executor, const WideBvhOptions& options = {})
-        : scene_(geometry, executor, options), lanes_(make_triangle_lanes(bvh().triangles())) {}
+        : scene_(geometry, executor, options), lanes_(lanes_of(bvh(), geometry)) {}
 
     /// Builds on the calling thread.
     explicit ShaftScene(const WorldGeometry& geometry)
-        : scene_(geometry), lanes_(make_triangle_lanes(bvh().triangles())) {}
+        : scene_(geometry), lanes_(lanes_of(bvh(), geometry)) {}
 
-    [[nodiscard]] ShaftVisibility visibility() const { return {bvh().view(), lanes_.data(), {}}; }
+    [[nodiscard]] ShaftVisibility visibility() const {
+        return {bvh().view(), lanes_.data(), {}, scene_.visibility().mask};
+    }
     [[nodiscard]] WideRayCaster<Space::host> ray_caster() const { return scene_.ray_caster(); }
     [[nodiscard]] const WideBvh& bvh() const { return scene_.bvh(); }
 
  private:
+    /// None where triangles are masked: no shaft is traced then.
+    static std::vector<TriangleLanes> lanes_of(const WideBvh& bvh, const WorldGeometry& geometry) {
+        if (geometry.is_masked()) return {};
+        return make_triangle_lanes(bvh.triangles());
+    }
+
     WideBvhScene scene_;
     std::vector<TriangleLanes> lanes_;
 };

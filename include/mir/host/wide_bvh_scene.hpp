@@ -24,9 +24,11 @@ class WideBvhScene {
               return build_wide_bvh(geometry, executor);
           }()) {}
 
-    [[nodiscard]] WideBvhVisibility<Space::host> visibility() const { return {bvh_.view()}; }
+    [[nodiscard]] WideBvhVisibility<Space::host> visibility() const {
+        return {bvh_.view(), geometry_->alpha_masks()};
+    }
     [[nodiscard]] WideRayCaster<Space::host> ray_caster() const {
-        return {*geometry_, bvh_.view()};
+        return {*geometry_, bvh_.view(), geometry_->alpha_masks()};
     }
     [[nodiscard]] const WideBvh& bvh() const { return bvh_; }
 

@@ -72,7 +72,8 @@ MIR_HD bool light_end_at(const World& world, const PathVertex& at, LightEnd& end
     const auto& lights = world.lights;
     const std::uint32_t light = lights.light_of(at.triangle);
     if (light == lights.none) return false;
-    const EmitterSample s = lights.point_on(world.geometry, light, {0.0f, 0.0f});
+    EmitterSample s = lights.point_on(world.geometry, light, {0.0f, 0.0f});
+    s.radiance = lights.radiance_at(world.geometry, at.triangle, at.barycentrics);
     const bool back = glm::dot(at.normal, s.normal) < 0.0f;
     if (back && !s.both_sides) return false;
     end = detail::area_end(lights, light, s, back, world.geometry.ray_offset).end;

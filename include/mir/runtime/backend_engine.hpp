@@ -33,7 +33,8 @@ namespace mir {
 enum class BackendScheduler { os, rc, rcvp };
 
 /// What a BackendEngine is to build and how it is to work. Pictures are the same for all of them,
-/// bit for bit.
+/// bit for bit. Shafts are decided by whole triangles: where some are masked, every ray is a single
+/// one through a wide hierarchy, whatever the options say.
 struct BackendEngineOptions {
     BackendScheduler scheduler = BackendScheduler::rcvp;
     bool kd_tree = false;  ///< single rays by a kd-tree that the host builds; else by a wide
@@ -42,6 +43,10 @@ struct BackendEngineOptions {
     std::uint64_t chain_bytes = std::uint64_t{1} << 29;  ///< see ChainPortions
 
     [[nodiscard]] bool needs_bvh() const { return shafts || !kd_tree; }
+    /// The same for a scene with masks.
+    [[nodiscard]] BackendEngineOptions masked() const {
+        return {scheduler, false, false, chain_bytes};
+    }
 };
 
 /// A scene in a backend's memory, and everything that a render does with it there: a frame leaves
@@ -92,9 +97,11 @@ class BackendEngine {
     BackendEngine(const B& backend, const Scene& scene, const WorldGeometry& geometry, E& executor,
                   MakeTree make_tree, const BackendEngineOptions& options, StageClock& clock);
 
-    [[nodiscard]] KdTreeVisibility<Space::host> visibility() const { return {host_tree().view()}; }
+    [[nodiscard]] KdTreeVisibility<Space::host> visibility() const {
+        return {host_tree().view(), geometry_.alpha_masks()};
+    }
     [[nodiscard]] KdRayCaster<Space::host> ray_caster() const {
-        return {geometry_, host_tree().view()};
+        return {geometry_, host_tree().view(), geometry_.alpha_masks()};
     }
     [[nodiscard]] double visible_area(const Camera& camera, float aspect) const;
 
@@ -132,8 +139,11 @@ class BackendEngine {
     static constexpr Space space = B::space;
 
     [[nodiscard]] const KdTree& host_tree() const;
+    [[nodiscard]] AlphaMaskView<space> masks_there() const {
+        return {geometry_there_.view(), masks_.data(), surfaces_.view().textures};
+    }
     void build_bvh();
-    /// Calls use(rays) with what single rays are traced by: KdRays or WideRays.
+    /// Calls use(rays) with what single rays are traced by: KdRays or one of WideRays.
     template <class Use>
     auto with_rays(const Use& use) const;
     /// Calls use(visibility) with the best that there is for whole tiles.
@@ -158,6 +168,7 @@ class BackendEngine {
     mutable typename B::Queue queue_;
     UploadedGeometry<B> geometry_there_;
     UploadedSurfaces<B, F> surfaces_;
+    UploadedArray<B, AlphaMask> masks_;
     mutable std::optional<KdTree> host_tree_;
     std::optional<UploadedKdTree<B>> tree_;
     std::optional<BackendWideBvh<B>> bvh_;

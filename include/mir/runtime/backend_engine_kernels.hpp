@@ -29,19 +29,20 @@ BackendEngine<B, F, E>::BackendEngine(const B& backend, const Scene& scene,
       geometry_(geometry),
       executor_(executor),
       make_tree_(std::move(make_tree)),
-      options_(options),
+      options_(geometry.is_masked() ? options.masked() : options),
       clock_(clock),
       table_(scene),
       sigma_(static_cast<float>(sigma_of(magnitude_of(geometry.bounds())))),
       queue_(backend.queue()),
       geometry_there_(backend, queue_, geometry),
-      surfaces_(backend, queue_, table_) {
+      surfaces_(backend, queue_, table_),
+      masks_(backend, queue_, geometry.masks()) {
     queue_.record().sync();
-    if (options.kd_tree) {
+    if (options_.kd_tree) {
         tree_.emplace(backend, queue_, host_tree());
         queue_.record().sync();
     }
-    if (options.needs_bvh()) build_bvh();
+    if (options_.needs_bvh()) build_bvh();
 }
 
 template <Backend B, Bsdf F, Executor E>
@@ -65,6 +66,8 @@ const KdTree& BackendEngine<B, F, E>::host_tree() const {
 template <Backend B, Bsdf F, Executor E>
 template <class Use>
 auto BackendEngine<B, F, E>::with_rays(const Use& use) const {
+    if (geometry_.is_masked())
+        return use(WideRays<space, AlphaMaskView<space>>{bvh_->view(), masks_there()});
     if (tree_) return use(KdRays<space>{tree_->view()});
     return use(WideRays<space>{bvh_->view()});
 }
@@ -74,9 +77,13 @@ template <class Use>
 auto BackendEngine<B, F, E>::with_tile_visibility(const Use& use) const {
     return with_rays([&](const auto& rays) {
         const auto sight = rays.sight();
-        if (!boxes_) return use(sight);
-        using Shafts = ClusterVisibility<std::remove_const_t<decltype(sight)>>;
-        return use(Shafts{{bvh_->view(), boxes_->data()}, sigma_, sight});
+        using Sight = std::remove_const_t<decltype(sight)>;
+        if constexpr (std::is_same_v<Sight, WideBvhVisibility<space, AlphaMaskView<space>>>) {
+            return use(sight);
+        } else {
+            if (!boxes_) return use(sight);
+            return use(ClusterVisibility<Sight>{{bvh_->view(), boxes_->data()}, sigma_, sight});
+        }
     });
 }
 

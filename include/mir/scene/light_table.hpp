@@ -28,7 +28,8 @@ class LightTable {
     [[nodiscard]] std::span<const std::uint32_t> emissive_triangles() const { return triangles_; }
 
     /// Luminance of the power emitted by everything, W. Directional lights count what passes the
-    /// bounding sphere of the scene, textured lamps the mean of their image wherever it is seen.
+    /// bounding sphere of the scene, textured lamps the mean of their image wherever it is seen,
+    /// masked ones what they would emit if they were whole.
     [[nodiscard]] double power() const { return by_power_.total(); }
 
     /// True when emissive triangles exist, so that sample_emitter() may be called.
@@ -121,7 +122,8 @@ inline Rgb mean_emission(const Scene& scene, const Material& m) {
 /// The images of a scene where lamps use any: a device holds them once more for the lights.
 inline TextureTable lamp_textures(const Scene& scene) {
     for (const Material& m : scene.materials)
-        if (m.emits() && m.textures.emission.is_set()) return TextureTable(scene);
+        if (m.emits() && (m.textures.emission.is_set() || m.is_masked()))
+            return TextureTable(scene);
     return {};
 }
 
@@ -136,7 +138,8 @@ inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     : scene_(&scene), geometry_(&geometry), textures_(detail::lamp_textures(scene)) {
     for (const Material& m : scene.materials) {
         detail::check_emission(m.emission, "material", m.name);
-        lamps_.push_back({m.emission, m.emits_from_both_sides, m.light_group, m.textures.emission});
+        lamps_.push_back({m.emission, m.emits_from_both_sides, m.light_group, m.textures.emission,
+                          alpha_mask_of(m)});
     }
     for (const PointLight& l : scene.point_lights)
         detail::check_emission(l.intensity, "point light", l.name);

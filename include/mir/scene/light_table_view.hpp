@@ -3,9 +3,8 @@
 
 #include "mir/core/discrete_distribution.hpp"
 #include "mir/core/warp.hpp"
-#include "mir/scene/geometry_view.hpp"
+#include "mir/scene/alpha_mask.hpp"
 #include "mir/scene/light.hpp"
-#include "mir/scene/texture_view.hpp"
 
 namespace mir {
 
@@ -13,7 +12,7 @@ namespace mir {
 struct EmitterSample {
     Vec3 position{0};         ///< on the surface, not lifted
     Vec3 normal{0};           ///< unit, of the triangle's front
-    Rgb radiance;             ///< W m^-2 sr^-1
+    Rgb radiance;             ///< W m^-2 sr^-1; black where the triangle's mask cuts it away
     float pdf_area = 0.0f;    ///< of this point among all emissive triangles, m^-2
     bool both_sides = false;  ///< shines from the back too
     std::uint16_t light_group = 0;
@@ -46,6 +45,7 @@ struct LampEntry {
     bool both_sides = false;
     std::uint16_t light_group = 0;
     Texture texture{};  ///< multiplies the radiance
+    AlphaMask mask{};   ///< where it cuts away, nothing shines
 };
 
 /// What kernels read of a LightTable. Lights are counted as there: first emissive triangles, then
@@ -115,17 +115,23 @@ struct LightTableView {
         s.barycentrics = square_to_triangle(uv);
         s.normal = geometry.front_normal(t);
         s.position = geometry.surface_point(t, s.barycentrics, -s.normal).position;
-        s.radiance = lamp.radiance;
-        if (lamp.texture.is_set())
-            s.radiance = s.radiance *
-                         textures.color(lamp.texture,
-                                        geometry.attributes(t, s.barycentrics).texture_coordinates,
-                                        TexelEncoding::srgb);
+        s.radiance = radiance_at(geometry, t, s.barycentrics);
         s.pdf_area = 1.0f / geometry.area(t);
         s.both_sides = lamp.both_sides;
         s.light_group = lamp.light_group;
         s.triangle = t;
         return s;
+    }
+
+    /// What a triangle emits at barycentrics of its second and third corner, W m^-2 sr^-1.
+    [[nodiscard]] MIR_HD Rgb radiance_at(const GeometryView<S>& geometry, std::uint32_t triangle,
+                                         Vec2 barycentrics) const {
+        const LampEntry& lamp = lamps[geometry.materials[triangle]];
+        if (!lamp.texture.is_set() && !lamp.mask.is_set()) return lamp.radiance;
+        const Vec2 uv = geometry.attributes(triangle, barycentrics).texture_coordinates;
+        if (lamp.mask.is_set() && !lamp.mask.is_solid(textures, uv)) return {};
+        if (!lamp.texture.is_set()) return lamp.radiance;
+        return lamp.radiance * textures.color(lamp.texture, uv, TexelEncoding::srgb);
     }
 };
 

@@ -22,12 +22,16 @@ struct Material {
     bool emits_from_both_sides = false;
     std::uint16_t light_group = 0;  ///< group that its light is counted in
     MaterialTextures textures;      ///< multiply what stands above, point by point
+    float alpha = 1.0f;             ///< 0..1, times that of textures.base_color; only masks use it
+    float alpha_cutoff = 0.0f;      ///< points with less alpha are not there; 0: all are
 
     [[nodiscard]] bool emits() const { return !is_black(emission); }
     /// How it reflects without textures and vertex colours.
     [[nodiscard]] MaterialFactors factors() const {
         return {base_color, metallic, roughness, specular, ior};
     }
+    /// True when it may have holes.
+    [[nodiscard]] bool is_masked() const { return alpha_cutoff > 0.0f; }
     [[nodiscard]] bool is_lambertian() const { return metallic == 0.0f && specular == 0.0f; }
 };
 

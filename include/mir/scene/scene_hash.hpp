@@ -85,6 +85,7 @@ class SceneHash {
                          x.offset);
         }
         if (t.normal.is_set()) add(t.normal_scale);
+        if (m.is_masked()) add_each(m.alpha, m.alpha_cutoff);
     }
 
     std::uint64_t state_ = 0xcbf29ce484222325ull;

@@ -32,7 +32,7 @@ struct Texture {
 
 /// Every texture of a material.
 struct MaterialTextures {
-    Texture base_color;          ///< sRGB; multiplies Material::base_color
+    Texture base_color;          ///< sRGB; multiplies Material::base_color, and its alpha alpha
     Texture metallic_roughness;  ///< linear; green multiplies roughness, blue metallic
     Texture normal;              ///< linear; tangent space, +y against the image's v
     Texture emission;            ///< sRGB; multiplies Material::emission

@@ -4,10 +4,12 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/core/limits.hpp"
 #include "mir/core/raw_allocator.hpp"
+#include "mir/scene/alpha_mask_table.hpp"
 #include "mir/scene/geometry_view.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,8 +36,8 @@ struct Bounds {
 class WorldGeometry {
  public:
     /// Places every instance. Triangles without area are left out and counted.
-    /// @throws Error(invalid_input) on an index out of range or a coordinate that is not finite;
-    ///         Error(limit_exceeded) before memory is taken.
+    /// @throws Error(invalid_input) on an index out of range, a coordinate that is not finite and
+    ///         what AlphaMaskTable refuses; Error(limit_exceeded) before memory is taken.
     template <Executor E>
     WorldGeometry(const Scene& scene, const Limits& limits, E& executor);
 
@@ -53,6 +55,17 @@ class WorldGeometry {
                 texture_coordinates_.empty() ? nullptr : texture_coordinates_.data(),
                 colors_.empty() ? nullptr : colors_.data()};
     }
+
+    /// Says which points of the triangles are there: what ray engines ask before they accept a hit.
+    /// Valid until the geometry is moved or ends.
+    [[nodiscard]] AlphaMaskView<Space::host> alpha_masks() const {
+        if (alpha_masks_->empty()) return {};
+        return {view(), alpha_masks_->masks().data(), alpha_masks_->textures()};
+    }
+    /// True when triangles may have holes.
+    [[nodiscard]] bool is_masked() const { return !alpha_masks_->empty(); }
+    /// Of the materials; empty when none is masked.
+    [[nodiscard]] std::span<const AlphaMask> masks() const { return alpha_masks_->masks(); }
 
     [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
     /// Unit normals of the vertices, zero where their mesh has none.
@@ -132,6 +145,7 @@ class WorldGeometry {
     std::vector<Rgb> colors_;
     Array<TriangleIndices> triangles_;
     Array<std::uint32_t> materials_;
+    std::shared_ptr<const AlphaMaskTable> alpha_masks_;  ///< copies share it
     Bounds bounds_;
     float ray_offset_ = 0.0f;
     std::uint64_t dropped_ = 0;
@@ -215,7 +229,8 @@ inline constexpr std::uint32_t placed_together = 8192;
 }  // namespace detail
 
 template <Executor E>
-WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& executor) {
+WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& executor)
+    : alpha_masks_(std::make_shared<const AlphaMaskTable>(scene)) {
     for (const Mesh& mesh : scene.meshes) detail::check_mesh(scene, mesh);
     detail::check_instances(scene, limits);
     const Parts parts = cut(scene);

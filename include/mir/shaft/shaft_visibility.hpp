@@ -7,7 +7,8 @@ namespace mir {
 
 /// Answers from a wide bounding volume hierarchy in host memory, segment by segment, for packets,
 /// and for blocks of luxels by shafts. Model of BlockVisibility. All faces give the bits of
-/// hits_segment() asked of every triangle. The hierarchy must outlive it. Thread-safe.
+/// hits_segment() asked of every triangle. A shaft is decided by whole triangles, so where some are
+/// masked blocks are asked by packets. The hierarchy must outlive it. Thread-safe.
 struct ShaftVisibility {
     static constexpr Space space = Space::host;
 
@@ -18,14 +19,16 @@ struct ShaftVisibility {
     };
 
     WideBvhView<Space::host> bvh;
-    const TriangleLanes* lanes = nullptr;  ///< make_triangle_lanes() of its triangles
+    const TriangleLanes* lanes = nullptr;  ///< make_triangle_lanes() of its triangles; not read
+                                           ///< where some are masked
     CascadeLimits limits;
+    AlphaMaskView<Space::host> mask{};
 
-    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b); }
+    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b, mask); }
 
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const {
-        return visible_in_packet(bvh, origin, points, active);
+        return visible_in_packet(bvh, origin, points, active, mask);
     }
 
     [[nodiscard]] Block block(const SoaView<const Hit>& luxels, InstructionSet set) const {
@@ -33,9 +36,20 @@ struct ShaftVisibility {
     }
 
     /// Not inlined: it is compiled for each instruction set once, and not again for every caller.
-    [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& mask) const {
-        run_with(b.instructions,
-                 [&] { BlockCascade(bvh, lanes, b.records, origin).decide(mask, limits); });
+    [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& seen) const {
+        run_with(b.instructions, [&] {
+            if (mask.exists())
+                ask_packets(b, origin, seen);
+            else
+                BlockCascade(bvh, lanes, b.records, origin).decide(seen, limits);
+        });
+    }
+
+ private:
+    void ask_packets(const Block& b, Vec3 origin, BlockMask& seen) const {
+        for (std::uint32_t g = 0; g < BlockMask::packets; ++g)
+            if (seen.packet[g] != 0)
+                seen.packet[g] = visible_packet(origin, b.records.points[g], seen.packet[g]);
     }
 };
 

@@ -25,6 +25,8 @@ struct LineHit {
 /// Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 2(1), 1997.
 class Referee {
  public:
+    using Double3 = mir::detail::Double3;
+
     explicit Referee(const WorldGeometry& geometry) : geometry_(&geometry) {}
 
     /// Answer to "is a hidden from b", with the margin by which it holds.
@@ -88,10 +90,7 @@ class Referee {
 
     static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
- private:
-    using Double3 = mir::detail::Double3;
-
-    /// Nothing when line and triangle are parallel.
+    /// Where a line meets the plane of triangle `i`; nothing when they are parallel.
     [[nodiscard]] std::optional<LineHit> line(std::uint32_t i, Double3 origin,
                                               Double3 direction) const {
         const Double3 a(geometry_->corner(i, 0));
@@ -106,6 +105,7 @@ class Referee {
                        glm::dot(direction, q) / det};
     }
 
+ private:
     const WorldGeometry* geometry_;
 };
 

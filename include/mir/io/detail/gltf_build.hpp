@@ -93,7 +93,11 @@ class GltfBuilder {
         to.name = from.name;
         to.doubleSided = from.emits_from_both_sides;
         auto& pbr = to.pbrMetallicRoughness;
-        pbr.baseColorFactor = {from.base_color.r, from.base_color.g, from.base_color.b, 1.0};
+        pbr.baseColorFactor = {from.base_color.r, from.base_color.g, from.base_color.b, from.alpha};
+        if (from.is_masked()) {
+            to.alphaMode = "MASK";
+            to.alphaCutoff = from.alpha_cutoff;
+        }
         pbr.metallicFactor = from.metallic;
         pbr.roughnessFactor = from.roughness;
         to.emissiveFactor = {0.0, 0.0, 0.0};

@@ -27,11 +27,11 @@ class GltfMaterials {
         to.emits_from_both_sides = from.doubleSided;
         to.light_group = light_group_of(from.extras, place_);
         base(from.pbrMetallicRoughness, to);
+        mask(from, to);
         emission(from, to);
         for (const auto& [name, extension] : from.extensions) this->extension(name, extension, to);
         textures(from, to);
         if (from.extensions.contains("KHR_materials_unlit")) shine(to);
-        if (from.alphaMode != "OPAQUE") ignore("alphaMode " + from.alphaMode);
         return to;
     }
 
@@ -47,8 +47,16 @@ class GltfMaterials {
         const auto& color = from.baseColorFactor;
         to.base_color = {unit(color[0], "baseColorFactor"), unit(color[1], "baseColorFactor"),
                          unit(color[2], "baseColorFactor")};
+        to.alpha = unit(color[3], "baseColorFactor");
         to.metallic = unit(from.metallicFactor, "metallicFactor");
         to.roughness = unit(from.roughnessFactor, "roughnessFactor");
+    }
+
+    void mask(const tinygltf::Material& from, Material& to) {
+        if (from.alphaMode == "MASK")
+            to.alpha_cutoff = checked_amount(from.alphaCutoff, "alphaCutoff", place_);
+        else if (from.alphaMode != "OPAQUE")
+            ignore("alphaMode " + from.alphaMode);
     }
 
     void emission(const tinygltf::Material& from, Material& to) {
@@ -106,6 +114,8 @@ class GltfMaterials {
             to.base_color = {unit(color.Get(0).GetNumberAsDouble(), "diffuseFactor"),
                              unit(color.Get(1).GetNumberAsDouble(), "diffuseFactor"),
                              unit(color.Get(2).GetNumberAsDouble(), "diffuseFactor")};
+        to.alpha =
+            color.ArrayLen() < 4 ? 1.0f : unit(color.Get(3).GetNumberAsDouble(), "diffuseFactor");
         ignore("KHR_materials_pbrSpecularGlossiness specularFactor");
         for (const char* texture : {"diffuseTexture", "specularGlossinessTexture"})
             if (from.Has(texture)) ignore(std::string("texture ") + texture);
@@ -147,11 +157,12 @@ class GltfMaterials {
         return {};
     }
 
-    /// What is seen in its own colour whatever the light is shines with that colour.
+    /// What is seen in its own colour whatever the light is shines with that colour. A mask needs
+    /// the texture, which then colours black.
     static void shine(Material& to) {
         to.emission = to.base_color;
         to.textures.emission = to.textures.base_color;
-        to.textures.base_color = {};
+        if (!to.is_masked()) to.textures.base_color = {};
         to.textures.metallic_roughness = {};
         to.base_color = {0.0f, 0.0f, 0.0f};
         to.metallic = 0.0f;

@@ -3,6 +3,7 @@
 
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/cpu/detail/embree.hpp"
+#include "mir/cpu/detail/embree_mask.hpp"
 #include "mir/cpu/embree_visibility.hpp"
 #include "mir/scene/world_geometry.hpp"
 
@@ -35,7 +36,7 @@ class EmbreeScene {
     /// Builds the acceleration structure, on the threads of the task library, in at most
     /// `max_bytes` of memory.
     /// @throws Error(device) with Embree's words when it reports a failure, the memory bound
-    ///         included.
+    ///         included; when triangles are masked and Embree was built without filter functions.
     explicit EmbreeScene(const WorldGeometry& geometry,
                          std::int64_t max_bytes = std::numeric_limits<std::int64_t>::max());
 
@@ -76,6 +77,7 @@ class EmbreeScene {
     static bool account(void* budget, ssize_t bytes, bool after);
 
     const WorldGeometry* geometry_;
+    std::unique_ptr<const AlphaMaskView<Space::host>> mask_;  ///< read by Embree's filters
     std::unique_ptr<DeviceErrors> errors_ = std::make_unique<DeviceErrors>();
     std::unique_ptr<MemoryBudget> budget_ = std::make_unique<MemoryBudget>();
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device_;
@@ -100,7 +102,11 @@ inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray) const {
 }
 
 inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
-    : geometry_(&geometry), device_(rtcNewDevice(nullptr)) {
+    : geometry_(&geometry),
+      mask_(geometry.is_masked()
+                ? std::make_unique<const AlphaMaskView<Space::host>>(geometry.alpha_masks())
+                : nullptr),
+      device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr) {
         const RTCError reason = rtcGetDeviceError(nullptr);
         if (reason == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -111,6 +117,7 @@ inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_
     rtcSetDeviceErrorFunction(device_.get(), &EmbreeScene::remember, errors_.get());
     budget_->most.store(max_bytes, std::memory_order_release);
     rtcSetDeviceMemoryMonitorFunction(device_.get(), &EmbreeScene::account, budget_.get());
+    if (mask_) detail::require_filters(device_.get());
     scene_.reset(rtcNewScene(device_.get()));
     throw_if_failed();
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -134,6 +141,7 @@ inline void EmbreeScene::add_triangles() {
         std::memcpy(vertices, positions.data(), positions.size_bytes());
         std::memcpy(indices, triangles.data(), triangles.size_bytes());
         rtcSetGeometryMask(mesh, detail::all_rays);
+        if (mask_) detail::filter_by(mesh, *mask_);
         rtcCommitGeometry(mesh);
         rtcAttachGeometry(scene_.get(), mesh);
     }
