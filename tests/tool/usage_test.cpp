@@ -24,7 +24,7 @@ TEST_CASE("the help of render names every option") {
           "--vpls",           "--direct",  "--direct-samples", "--bounces",  "--bound",
           "--seed",           "--threads", "--scheduler",      "--tile",     "--allow-no-light",
           "--backend",        "--accel",   "--passes",         "--time",     "--target-error",
-          "--save-every",     "--resume"})
+          "--save-every",     "--resume",  "--compensate"})
         CHECK(has(help, option));
 }
 
@@ -78,6 +78,7 @@ TEST_CASE("values out of range are refused before any work") {
           Words{"--bound", "0"},          Words{"--bound", "-1"},
           Words{"--bound", "nan"},        Words{"--bound", "inf"},
           Words{"--bound", "large"},      Words{"--passes", "0"},
+          Words{"--compensate", "-1"},    Words{"--compensate", "65537"},
           Words{"--passes", "1000001"},   Words{"--passes", "1.5"},
           Words{"--time", "0"},           Words{"--time", "-1"},
           Words{"--time", "nan"},         Words{"--target-error", "0"},
