@@ -175,6 +175,7 @@
 #include "mir/paths/wide_rgb.hpp"
 #include "mir/place_vpls.hpp"
 #include "mir/reconstruct.hpp"
+#include "mir/reference/bound_split.hpp"
 #include "mir/reference/path_rules.hpp"
 #include "mir/reference/path_tracer.hpp"
 #include "mir/reference/reference_image.hpp"

@@ -213,9 +213,11 @@ TEST_CASE("threads, tiles and scheduler change no bit of any layer") {
     settings.image = {70, 50};
     settings.luxels_per_pixel = 3;
     settings.bound.kind = mir::BoundPolicy::Kind::automatic;
+    settings.compensate = 6;
     settings.filter = mir::default_filter(mir::FilterKind::lanczos);
     settings.threads = 1;
     const auto reference = render(scene, settings);
+    CHECK(reference.statistics.residual_luminance > 0.0);
     for (unsigned threads : {1u, 2u})
         for (std::uint32_t tile : {16u, 64u, 80u})
             for (const char* scheduler : {"cpu", "cpu-blocks"}) {
@@ -228,5 +230,7 @@ TEST_CASE("threads, tiles and scheduler change no bit of any layer") {
                 CHECK(same_bits(reference.indirect, other.indirect));
                 CHECK(same_bits(reference.guides.albedo, other.guides.albedo));
                 CHECK(reference.statistics.removed_luminance == other.statistics.removed_luminance);
+                CHECK(reference.statistics.residual_luminance ==
+                      other.statistics.residual_luminance);
             }
 }

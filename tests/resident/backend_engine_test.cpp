@@ -174,6 +174,18 @@ TEST_CASE("A frame with alpha masks has the bits of the host's, by every schedul
     CHECK_FALSE(same_bits(whole.indirect, host.indirect));
 }
 
+TEST_CASE("What the bound removed is not traced back in a backend's memory, and says so") {
+    RenderSettings settings = small_picture();
+    settings.compensate = 1;
+    try {
+        draw_on_backend(lit_room(), settings, {});
+        FAIL("no error");
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::unsupported);
+        CHECK(std::string(e.what()).find("--backend cpu") != std::string::npos);
+    }
+}
+
 TEST_CASE("An engine on a backend says how long its stages took") {
     const RenderResult frame = draw_on_backend(lit_room(), small_picture(), {});
     const mir::StageSeconds& s = frame.statistics.seconds;

@@ -52,6 +52,14 @@ TEST_CASE("chains too short for a second estimate of the luminance are not warne
           }).empty());
 }
 
+TEST_CASE("light that was traced back is not missed") {
+    CHECK(warnings_after([](mir::RenderStatistics& s) {
+              s.indirect_luminance = 0.8;
+              s.removed_luminance = 0.2;
+              s.residual_paths = 1;
+          }).empty());
+}
+
 TEST_CASE("each bad value of a render is one worded warning") {
     using Statistics = mir::RenderStatistics;
     struct Case {

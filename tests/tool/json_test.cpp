@@ -33,6 +33,8 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
         CHECK(all.at(key).get<double>() > 0.0);
     CHECK(all.at("non_lambertian_share") == 0.0);
     CHECK(all.at("removed_share").get<double>() >= 0.0);
+    CHECK(all.at("residual_paths") == 0);
+    CHECK(all.at("residual_luminance") == 0.0);
     CHECK(all.at("peak_memory_bytes").get<double>() > 1e6);
     CHECK(all.at("warnings").is_array());
     CHECK(all.at("normalisation") == "none");
@@ -40,7 +42,8 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
     for (const char* key : {"path_luminance", "states", "dropped_share"})
         CHECK(all.at(key).get<double>() == 0.0);
     const json& seconds = all.at("seconds");
-    for (const char* key : {"upload", "bootstrap", "paths", "visibility", "response", "download"})
+    for (const char* key :
+         {"upload", "bootstrap", "paths", "residual", "visibility", "response", "download"})
         CHECK(seconds.at(key).get<double>() == 0.0);
     double sum = 0.0;
     for (const char* key : {"geometry", "build", "bound", "sampling", "gbuffer", "direct",
@@ -49,7 +52,7 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
         sum += seconds.at(key).get<double>();
     }
     CHECK(seconds.at("total").get<double>() == Approx(sum));
-    CHECK(seconds.size() == 21);
+    CHECK(seconds.size() == 22);
 }
 
 TEST_CASE("normalised VPLs give the image the luminance that the sampler found") {

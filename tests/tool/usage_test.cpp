@@ -54,7 +54,8 @@ TEST_CASE("the help of render names every option") {
                                "--time",
                                "--target-error",
                                "--save-every",
-                               "--resume"})
+                               "--resume",
+                               "--compensate"})
         CHECK(has(help, option));
 }
 
@@ -108,6 +109,7 @@ TEST_CASE("values out of range are refused before any work") {
           Words{"--bound", "0"},          Words{"--bound", "-1"},
           Words{"--bound", "nan"},        Words{"--bound", "inf"},
           Words{"--bound", "large"},      Words{"--passes", "0"},
+          Words{"--compensate", "-1"},    Words{"--compensate", "65537"},
           Words{"--passes", "1000001"},   Words{"--passes", "1.5"},
           Words{"--time", "0"},           Words{"--time", "-1"},
           Words{"--time", "nan"},         Words{"--target-error", "0"},

@@ -176,6 +176,8 @@ void add_sampling(CLI::App& app, RenderOptions& o) {
            "Largest geometry term of a VPL and a luxel, per square metre: auto (default), none, or "
            "a number")
         ->type_name("auto|none|B");
+    add_count(app, "--compensate", s.compensate, 0, 65536,
+              "Paths per pixel that trace back what the bound removed (default 0: none)");
     app.add_option("--seed", s.seed, "Seed of all random numbers (default 0)")
         ->check(seed_number());
 }

@@ -280,6 +280,9 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     if (s.health) out["chains"] = health_of(*s.health);
     out["bound"] = s.bound;
     out["removed_share"] = s.removed_share();
+    out["removed_luminance"] = s.removed_luminance;
+    out["residual_paths"] = s.residual_paths;
+    out["residual_luminance"] = s.residual_luminance;
     out["mean_radiance"] = {{"beauty", mean_of(r.beauty)},
                             {"emission", mean_of(r.emission)},
                             {"direct", mean_of(r.direct)},

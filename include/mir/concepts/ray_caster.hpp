@@ -18,6 +18,13 @@ concept RayCaster = std::copy_constructible<R> && requires(const R r, Ray ray) {
     { r.closest_hit(ray) } -> std::same_as<std::optional<SurfacePoint>>;
 };
 
+/// A RayCaster that stops early: closest_hit(ray, reach) is closest_hit(ray) where that lies within
+/// `reach` metres; of what lies farther it may find nothing. Detected and used where present.
+template <class R>
+concept ShortRayCaster = RayCaster<R> && requires(const R r, Ray ray, float reach) {
+    { r.closest_hit(ray, reach) } -> std::same_as<std::optional<SurfacePoint>>;
+};
+
 /// The face of a RayCaster for kernels, which know no std::optional: find_point() writes what the
 /// ray sees first and says whether that is something.
 ///

@@ -24,7 +24,8 @@ enum class Stream : std::uint32_t {
     surfel_light,   ///< lamps as discs see them
     surfel_gather,  ///< directions in which discs look for discs
     gather,         ///< directions in which luxels look for discs
-    pass            ///< seeds of the passes of a progressive render
+    pass,           ///< seeds of the passes of a progressive render
+    residual        ///< paths that trace back what the bound removed
 };
 
 /// 128 bits as four words; a plain array, because device code cannot index std::array.

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "mir/concepts/ray_caster.hpp"
+#include "mir/reference/bound_split.hpp"
 #include "mir/reference/path_rules.hpp"
 #include "mir/reference/rgb_moments.hpp"
 #include "mir/shading/scene_light.hpp"
 #include "mir/shading/surface_table.hpp"
-#include "mir/shading/vpl_shading.hpp"
 
 #include <limits>
 #include <optional>
@@ -31,8 +31,10 @@ struct PathTracerOptions {
     std::uint8_t max_bounce = 32;    ///< largest number of scattering events, 1..254
     std::uint8_t roulette_from = 3;  ///< first vertex where a path may end by chance; 255: never
     /// Largest geometry term of the first two vertices, m^-2, in paths that are scattered at both:
-    /// what VplShading gives to the light of VPLs. Emission and direct light are not bounded.
+    /// what VplShading gives to the light of VPLs. Emission and other direct light are not bounded.
     float bound = std::numeric_limits<float>::max();
+    BoundPart part = BoundPart::kept;  ///< `removed`: the light that the bound takes, alone
+    bool bound_lamps = false;          ///< direct light of emissive triangles is bounded too
 };
 
 /// Unidirectional path tracer with next-event estimation, the reference that other estimators are
@@ -89,18 +91,22 @@ class PathTracer {
     [[nodiscard]] Rgb sampled_light(const Vertex& at, std::uint8_t bounce, Random& random) const;
     [[nodiscard]] Rgb light_sample(const Vertex& at, std::uint8_t bounce, Random& random) const;
     [[nodiscard]] Rgb found_light(const Walk& walk, const BsdfSample& sample,
-                                  const SurfacePoint& point, Rgb emission) const;
-    [[nodiscard]] float bounded_share(const Vertex& first, const Vertex& second) const;
+                                  const SurfacePoint& point, const Vertex& next) const;
+    [[nodiscard]] std::optional<SurfacePoint> next_point(const Walk& walk, Vec3 direction) const;
     bool advance(Walk& walk, Random& random, std::span<RgbSum> bounces) const;
 
     World world_;
     PathTracerOptions options_;
+    BoundSplit split_;
     DeltaLight<B, V> deltas_;
 };
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions options)
-    : world_(world), options_(options), deltas_(world.lights, world.visibility) {
+    : world_(world),
+      options_(options),
+      split_{options.bound, options.part, options.bound_lamps},
+      deltas_(world.lights, world.visibility) {
     expects(options.light_samples >= 1 && options.light_samples <= 65536,
             "light samples at the first vertex must be 1 to 65536; set LightSearch::directions for "
             "none");
@@ -132,7 +138,7 @@ auto PathTracer<B, R, V, Rules>::first_vertex(const Ray& ray) const -> std::opti
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 void PathTracer<B, R, V, Rules>::trace(const Vertex& first, Random& random,
                                        std::span<RgbSum> bounces) const {
-    bounces[0] += first.surface.emission;
+    bounces[0] += first.surface.emission * split_.unbounded();
     if (B::is_black(first.surface.bsdf)) return;
     bounces[1] += sampled_light(first, 1, random);
     const float share = 1.0f / static_cast<float>(options_.directions);
@@ -143,13 +149,19 @@ void PathTracer<B, R, V, Rules>::trace(const Vertex& first, Random& random,
     }
 }
 
-/// min(G, bound) / G of the first two vertices.
+/// What a path meets next, if that can count.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-float PathTracer<B, R, V, Rules>::bounded_share(const Vertex& first, const Vertex& second) const {
-    const Vec3 d = second.hit.position - first.hit.position;
-    const float inverse = 1.0f / std::sqrt(length_squared(d));
-    const float g = geometry_term(d * inverse, inverse, first.surface.normal, second.hit.normal);
-    return g > options_.bound ? options_.bound / g : 1.0f;
+std::optional<SurfacePoint> PathTracer<B, R, V, Rules>::next_point(const Walk& walk,
+                                                                   Vec3 direction) const {
+    const Ray ray{walk.at.hit.position, direction};
+    if constexpr (ShortRayCaster<R>)
+        if (walk.bounce == 1) {
+            // A little farther, because points are lifted once they are met.
+            const float reach = split_.reach(glm::dot(direction, walk.at.surface.normal));
+            return world_.caster.closest_hit(ray,
+                                             1.001f * reach + 4.0f * world_.geometry.ray_offset());
+        }
+    return world_.caster.closest_hit(ray);
 }
 
 /// One edge further: false when the path is over.
@@ -167,14 +179,16 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
         B::sample(surface.bsdf, surface.normal, surface.wo, uv, random.next());
     walk.throughput = walk.throughput * sample.weight;
     if (is_black(walk.throughput) || !(glm::dot(sample.wi, hit.normal) > 0.0f)) return false;
-    const auto point = world_.caster.closest_hit({hit.position, sample.wi});
+    const auto point = next_point(walk, sample.wi);
     if (!point) return false;
 
     const Vertex next = vertex(*point, sample.wi);
-    const Rgb found = found_light(walk, sample, *point, next.surface.emission);
+    const Rgb found = found_light(walk, sample, *point, next);
     bounces[walk.bounce] += walk.throughput * found * walk.share;
     if (last || B::is_black(next.surface.bsdf)) return false;
-    if (walk.bounce == 1) walk.throughput = walk.throughput * bounded_share(walk.at, next);
+    if (walk.bounce == 1)
+        walk.throughput = walk.throughput * split_.reflected(hit, surface.normal, next.hit);
+    if (is_black(walk.throughput)) return false;
     walk.at = next;
     ++walk.bounce;
     const Rgb light = sampled_light(walk.at, walk.bounce, random);
@@ -204,7 +218,8 @@ Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint8_t bou
     Rgb sum;
     for (std::uint32_t i = 0; i < samples; ++i) sum += light_sample(at, bounce, random);
     if (samples > 1) sum = sum * (1.0f / static_cast<float>(samples));
-    return sum + deltas_(at.hit, at.surface);
+    const bool all = bounce > 1 || split_.unbounded() > 0.0f;
+    return all ? sum + deltas_(at.hit, at.surface) : sum;
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
@@ -221,7 +236,9 @@ Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint8_t boun
     const Vec3 wi = d * (1.0f / std::sqrt(d2));
     const float cosine = -glm::dot(wi, normal);
     if (!(cosine > 0.0f)) return {};
-    const Rgb light = reflected<B>(at.hit, at.surface, wi) * e.radiance;
+    const float share =
+        bounce == 1 ? split_.emitted(at.hit, at.surface.normal, {target, normal}) : 1.0f;
+    const Rgb light = reflected<B>(at.hit, at.surface, wi) * e.radiance * share;
     if (is_black(light) || !world_.visibility.visible(eye, target)) return {};
 
     const float density = Rules::per_steradian(e.pdf_area, d2, cosine);
@@ -234,12 +251,15 @@ Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint8_t boun
 /// Weighted emission of what a direction met, W m^-2 sr^-1.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 Rgb PathTracer<B, R, V, Rules>::found_light(const Walk& walk, const BsdfSample& sample,
-                                            const SurfacePoint& point, Rgb emission) const {
+                                            const SurfacePoint& point, const Vertex& next) const {
+    const auto& [hit, surface] = walk.at;
     const std::uint32_t directions = directions_at(walk.bounce);
+    const float share = walk.bounce == 1 ? split_.emitted(hit, surface.normal, next.hit) : 1.0f;
+    const Rgb emission = next.surface.emission * share;
     if (is_black(emission) || directions == 0) return {};
     const std::uint32_t samples = light_samples_at(walk.bounce);
     if (samples == 0) return emission;
-    const float d2 = length_squared(point.position - walk.at.hit.position);
+    const float d2 = length_squared(point.position - hit.position);
     const float cosine = -glm::dot(sample.wi, point.geometric_normal);
     const float sampled =
         static_cast<float>(samples) *

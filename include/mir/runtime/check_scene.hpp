@@ -122,9 +122,10 @@ inline void add_result_warnings(const RenderResult& result, std::vector<std::str
     if (s.dropped_triangles > 0)
         warnings.push_back(std::to_string(s.dropped_triangles) +
                            " triangles without area were left out");
-    if (s.removed_share() > 0.05)
-        warnings.push_back("the bound removed " + detail::rounded(100.0 * s.removed_share(), 1) +
-                           " % of the indirect light; more VPLs or --bound none lose less");
+    if (s.removed_share() > 0.05 && s.residual_paths == 0)
+        warnings.push_back(
+            "the bound removed " + detail::rounded(100.0 * s.removed_share(), 1) +
+            " % of the indirect light; more VPLs lose less, --compensate 4 traces it back");
     if (s.non_lambertian_share > 0.01f)
         warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.non_lambertian_share), 1) +
                            " % of the VPLs' light comes from glossy surfaces and is spread as if "

@@ -4,7 +4,7 @@
 #include "mir/direct_light.hpp"
 #include "mir/reshade.hpp"
 #include "mir/runtime/film_layers.hpp"
-#include "mir/runtime/render_job.hpp"
+#include "mir/runtime/residual_light.hpp"
 
 namespace mir {
 
@@ -46,6 +46,11 @@ class HostCanvas {
         if (band.visibility)
             return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
         return reconstruct(scheduler, band.gbuffer, vpls, job_.engine.visibility(), shading);
+    }
+
+    /// Adds what `bound` removed, traced back, to the layers of a band, and returns it.
+    Layer add_residual(const Band& band, float bound, std::vector<Layer>& layers) const {
+        return ResidualLight<B, Engine, E>(job_, bound).add_to(layers, band);
     }
 
     /// sum += layer.

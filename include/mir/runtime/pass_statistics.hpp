@@ -47,10 +47,12 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
     all.light_paths += pass.light_paths;
     all.camera_paths += pass.camera_paths;
     all.contributions += pass.contributions;
+    all.residual_paths += pass.residual_paths;
     all.states += pass.states;
     for (double RenderStatistics::*mean :
          {&RenderStatistics::path_luminance, &RenderStatistics::dropped_share,
-          &RenderStatistics::indirect_luminance, &RenderStatistics::removed_luminance})
+          &RenderStatistics::indirect_luminance, &RenderStatistics::removed_luminance,
+          &RenderStatistics::residual_luminance})
         all.*mean = detail::mean_with(all.*mean, pass.*mean, earlier);
     all.non_lambertian_share = static_cast<float>(
         detail::mean_with(static_cast<double>(all.non_lambertian_share),

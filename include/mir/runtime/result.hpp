@@ -31,8 +31,10 @@ struct RenderStatistics {
     std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
     std::string normalisation;          ///< how intensities were made; "none": by the sampler
     float bound = 0.0f;                 ///< largest geometry term, m^-2; 0: none
-    double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' or discs' light
-    double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed
+    double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' or discs' light alone
+    double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed, by the VPLs
+    std::uint64_t residual_paths = 0;   ///< that traced back what the bound removed
+    double residual_luminance = 0.0;    ///< mean over luxels of what they found
     std::string backend;                ///< "cpu" or "cuda"
     std::string device;                 ///< name of the GPU; empty on the processor
     std::string acceleration;           ///< "bvh", "embree", "kdtree" or "kdtree+shafts"

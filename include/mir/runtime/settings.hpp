@@ -115,6 +115,9 @@ struct RenderSettings {
     std::uint32_t direct_samples = 16;  ///< next-event samples per pixel
     std::uint8_t max_bounce = 32;       ///< largest number of scattering events
     BoundPolicy bound;
+    /// Paths per pixel that trace back what the bound removed, shared out among its luxels, at
+    /// least one each; 0: none, so that this light is missing.
+    std::uint32_t compensate = 0;
     Filter filter = default_filter(FilterKind::lanczos);
     std::uint64_t seed = 0;
     unsigned threads = 0;  ///< 0: every core
@@ -140,9 +143,26 @@ struct RenderSettings {
     [[nodiscard]] std::uint32_t direct_samples_per_luxel() const {
         return (direct_samples + luxels_per_pixel - 1) / luxels_per_pixel;
     }
+
+    /// Paths of one luxel that trace back what the bound removed, likewise; 0 for none.
+    [[nodiscard]] std::uint32_t compensate_per_luxel() const {
+        return (compensate + luxels_per_pixel - 1) / luxels_per_pixel;
+    }
 };
 
 namespace detail {
+
+/// There must be light that can be traced back.
+inline void check_compensation(const RenderSettings& s) {
+    if (s.compensate == 0) return;
+    expects(s.compensate <= 65536, "paths per pixel that trace back light must be 0 to 65536");
+    expects(s.integrator == Integrator::vpl,
+            "only the light of VPLs has a bound that removes some of it (there is nothing to trace "
+            "back); leave --compensate out or use --integrator vpl");
+    expects(s.bound.kind != BoundPolicy::Kind::none,
+            "without a bound no light is removed (there is nothing to trace back); leave "
+            "--compensate or --bound none out");
+}
 
 /// A tile may fill the last blocks of the image, but no more.
 inline void check_tile(const std::optional<Extent>& tile, Extent luxels) {
@@ -194,6 +214,7 @@ inline void RenderSettings::validate() const {
     expects(integrator == Integrator::vpl || bound.kind != BoundPolicy::Kind::fixed,
             "only the light of VPLs has a bounded geometry term (the picture would not be the one "
             "asked for); leave --bound out or use --integrator vpl");
+    detail::check_compensation(*this);
     expects(micro.surfels > 0,
             "0 discs were asked for (there would be no indirect light); 16384 are usual");
     check_limit(micro.surfels, limits.surfels, "surfels");

@@ -24,6 +24,7 @@ struct StageSeconds {
     double reconstruction = 0.0;  ///< contributions of the VPLs
     double gather = 0.0;          ///< light from discs
     double ledger = 0.0;          ///< measuring what the bound removed
+    double residual = 0.0;        ///< tracing that back
     double film = 0.0;            ///< filtering
     double guides = 0.0;          ///< albedo, normal, position and depth
     double download = 0.0;        ///< finished pictures from the backend's memory
@@ -43,7 +44,7 @@ struct RenderStage {
 
 /// Every stage in the order in which a frame goes through them; what they take adds up to
 /// StageSeconds::total.
-inline constexpr std::array<RenderStage, 20> render_stages{
+inline constexpr std::array<RenderStage, 21> render_stages{
     {{"geometry", &StageSeconds::geometry},
      {"build", &StageSeconds::build},
      {"upload", &StageSeconds::upload},
@@ -59,6 +60,7 @@ inline constexpr std::array<RenderStage, 20> render_stages{
      {"reconstruction", &StageSeconds::reconstruction},
      {"gather", &StageSeconds::gather},
      {"ledger", &StageSeconds::ledger},
+     {"residual", &StageSeconds::residual},
      {"film", &StageSeconds::film},
      {"guides", &StageSeconds::guides},
      {"download", &StageSeconds::download},

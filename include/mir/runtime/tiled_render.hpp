@@ -40,6 +40,10 @@ class TiledRender {
                 MakeScheduler make_scheduler)
         : job_(scene, settings, geometry, engine, executor, monitor, clock),
           make_scheduler_(make_scheduler) {
+        if (BandEngine<Engine> && settings.compensate > 0)
+            throw Error(ErrorCode::unsupported,
+                        "what the bound removed is traced back on the processor only (this backend "
+                        "keeps its luxels to itself); use --backend cpu or leave --compensate out");
         choose_bound();
     }
 
@@ -69,6 +73,8 @@ class TiledRender {
     void render_band(Canvas& canvas, const Band& band, const VplLight<B>& light);
     void measure_removed(const Canvas& canvas, const Band& band, const VplLight<B>& light,
                          const typename Canvas::Layer& indirect);
+    void add_residual(const Canvas& canvas, const Band& band,
+                      std::vector<typename Canvas::Layer>& layers);
 
     RenderJob<B, Engine, E> job_;
     MakeScheduler make_scheduler_;
@@ -200,6 +206,8 @@ void TiledRender<B, Engine, E, MakeScheduler>::render_band(Canvas& canvas, const
         light.append_layers(canvas, band, job_.monitor, layers);
     }
     measure_removed(canvas, band, light, layers[indirect_layer]);
+    if constexpr (!BandEngine<Engine>)
+        if (job_.settings.compensate > 0) add_residual(canvas, band, layers);
     canvas.put(band, layers);
 }
 
@@ -215,6 +223,17 @@ void TiledRender<B, Engine, E, MakeScheduler>::measure_removed(
     if (job_.settings.bound.kind == BoundPolicy::Kind::none) return;
     for (const double row : canvas.row_luminances(light.removed(canvas, band)))
         s.removed_luminance += row * share;
+}
+
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+void TiledRender<B, Engine, E, MakeScheduler>::add_residual(
+    const Canvas& canvas, const Band& band, std::vector<typename Canvas::Layer>& layers) {
+    RenderStatistics& s = job_.result.statistics;
+    const auto stage = job_.clock.measure(&StageSeconds::residual);
+    const auto light = canvas.add_residual(band, shading_.bound, layers);
+    const double share = 1.0 / static_cast<double>(s.luxels);
+    for (const double row : canvas.row_luminances(light)) s.residual_luminance += row * share;
+    s.residual_paths += band.extent().area() * job_.settings.compensate_per_luxel();
 }
 
 }  // namespace mir

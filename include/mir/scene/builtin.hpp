@@ -5,6 +5,7 @@
 #include "mir/scene/builtin/car_room.hpp"
 #include "mir/scene/builtin/check_rooms.hpp"
 #include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scene/builtin/corner.hpp"
 #include "mir/scene/builtin/door_ajar.hpp"
 #include "mir/scene/builtin/garage.hpp"
 #include "mir/scene/builtin/sphere_room.hpp"
@@ -23,7 +24,7 @@ struct Entry {
 };
 
 /// Every built-in scene, in the order in which help lists them.
-inline constexpr std::array<Entry, 14> scenes{{
+inline constexpr std::array<Entry, 15> scenes{{
     {"cornell-box", "the Cornell box", [] { return cornell_box(Lamp::down); }},
     {"cornell-inverted", "the Cornell box with its lamp turned to the ceiling",
      [] { return cornell_box(Lamp::up); }},
@@ -39,6 +40,7 @@ inline constexpr std::array<Entry, 14> scenes{{
     {"garage", "the paper's garage: the car, lit through a door from the next room",
      [] { return garage(); }},
     {"door-ajar", "all light comes through a door ajar, small", [] { return door_ajar(); }},
+    {"corner", "a floor and a wall that meet, and a lamp", [] { return corner(); }},
     {"furnace", "closed box whose radiance is exactly 1", [] { return furnace_box(); }},
     {"parallel-squares", "form factor 0.199824896", [] { return parallel_squares(); }},
     {"perpendicular-squares", "form factor 0.200043776", [] { return perpendicular_squares(); }},

@@ -15,8 +15,12 @@ using FactRows = std::vector<std::vector<std::string>>;
 std::string bound_text(const mir::RenderSettings& s, const mir::RenderStatistics& statistics) {
     if (s.bound.kind == mir::BoundPolicy::Kind::none) return "none";
     const char* how = s.bound.kind == mir::BoundPolicy::Kind::automatic ? " (automatic)" : "";
+    const std::string traced =
+        s.compensate > 0
+            ? ", traced back by " + std::to_string(s.compensate_per_luxel()) + " paths per luxel"
+            : "";
     return number(statistics.bound) + " per m²" + how + ", removed " +
-           percent(statistics.removed_share()) + " of the VPLs' light";
+           percent(statistics.removed_share()) + " of the VPLs' light" + traced;
 }
 
 void add_vpl_settings(FactRows& rows, const mir::RenderSettings& s,

@@ -86,13 +86,13 @@ class Transfer {
         auto& [triangles, dropped_triangles, luxels, light_paths, camera_paths, vpls, surfels,
                contributions, emitted_power, non_lambertian_share, states, path_luminance,
                dropped_share, health, normalisation, bound, indirect_luminance, removed_luminance,
-               backend, device, acceleration, scheduler, scene_hash, seconds, passes,
-               relative_error, complete] = s;
+               residual_paths, residual_luminance, backend, device, acceleration, scheduler,
+               scene_hash, seconds, passes, relative_error, complete] = s;
         (*this)(triangles, dropped_triangles, luxels, light_paths, camera_paths, vpls, surfels,
                 contributions, emitted_power, non_lambertian_share, states, path_luminance,
                 dropped_share, health, normalisation, bound, indirect_luminance, removed_luminance,
-                backend, device, acceleration, scheduler, scene_hash, seconds, passes,
-                relative_error, complete);
+                residual_paths, residual_luminance, backend, device, acceleration, scheduler,
+                scene_hash, seconds, passes, relative_error, complete);
     }
 };
 

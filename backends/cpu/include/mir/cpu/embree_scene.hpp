@@ -19,15 +19,18 @@
 
 namespace mir::cpu {
 
-/// Finds closest hits through Embree. Model of RayCaster; a handle that the EmbreeScene outlives.
+/// Finds closest hits through Embree. Model of ShortRayCaster; a handle that the EmbreeScene
+/// outlives.
 struct EmbreeRayCaster {
     RTCScene scene = nullptr;
     const WorldGeometry* geometry = nullptr;
 
-    [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const;
+    /// `reach` in metres: nothing farther is found.
+    [[nodiscard]] std::optional<SurfacePoint> closest_hit(
+        Ray ray, float reach = std::numeric_limits<float>::infinity()) const;
 };
 
-static_assert(RayCaster<EmbreeRayCaster>);
+static_assert(ShortRayCaster<EmbreeRayCaster>);
 
 /// Embree device and scene over the triangles of a WorldGeometry, which must outlive it. Move-only
 /// owner; the handles it gives out may be used from any thread.
@@ -84,7 +87,7 @@ class EmbreeScene {
     std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene_;
 };
 
-inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray) const {
+inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray, float reach) const {
     RTCRayHit query{};
     query.ray.org_x = ray.origin.x;
     query.ray.org_y = ray.origin.y;
@@ -92,7 +95,7 @@ inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray) const {
     query.ray.dir_x = ray.direction.x;
     query.ray.dir_y = ray.direction.y;
     query.ray.dir_z = ray.direction.z;
-    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.tfar = reach;
     query.ray.mask = detail::all_rays;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;

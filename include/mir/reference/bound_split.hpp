@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/data/luxel.hpp"
+#include "mir/shading/vpl_shading.hpp"
+
+#include <limits>
+
+namespace mir {
+
+/// Which part of the light on the first edge of a path is wanted.
+enum class BoundPart {
+    kept,    ///< min(G, bound) / G of it: what VplShading gives
+    removed  ///< max(G - bound, 0) / G of it: what RemovedByBound tells
+};
+
+/// How a bound of the geometry term splits the light that reaches the first vertex of a path. The
+/// two parts of one bound add up to all light. Thread-safe.
+struct BoundSplit {
+    float bound = std::numeric_limits<float>::max();  ///< m^-2
+    BoundPart part = BoundPart::kept;
+    bool lamps = false;  ///< the bound holds for the emission of triangles too
+
+    /// Share of the light that `at`, a lifted point with unit shading normal `normal`, gets from
+    /// the reflecting point `from`, also lifted; 0..1.
+    [[nodiscard]] float reflected(const Hit& at, Vec3 normal, const Hit& from) const {
+        const Vec3 d = from.position - at.position;
+        const float inverse = 1.0f / std::sqrt(length_squared(d));
+        const float g = geometry_term(d * inverse, inverse, normal, from.normal);
+        const float kept = g > bound ? bound / g : 1.0f;
+        return part == BoundPart::kept ? kept : 1.0f - kept;
+    }
+
+    /// The same of the emission of `from`.
+    [[nodiscard]] float emitted(const Hit& at, Vec3 normal, const Hit& from) const {
+        return lamps ? reflected(at, normal, from) : unbounded();
+    }
+
+    /// Share of light that no bound holds for: emission seen directly, lights without extent.
+    [[nodiscard]] float unbounded() const { return part == BoundPart::kept ? 1.0f : 0.0f; }
+
+    /// Nothing counts that is farther from a point than this, m, when seen at `cosine` to its
+    /// shading normal: G <= cos / d^2.
+    [[nodiscard]] float reach(float cosine) const {
+        return part == BoundPart::kept ? std::numeric_limits<float>::infinity()
+                                       : std::sqrt(cosine / bound);
+    }
+};
+
+}  // namespace mir
