@@ -10,13 +10,15 @@
 namespace mir {
 
 /// Direct light by next-event estimation: radiance towards the viewer of every luxel,
-/// W m^-2 sr^-1. `samples` points on emissive triangles per luxel, chosen by power; point, spot
-/// and directional lights are summed exactly. Unbiased. Emission is not included.
+/// W m^-2 sr^-1. `samples` points on emissive triangles per luxel, chosen by power, and as many
+/// directions towards the environment; point, spot and directional lights are summed exactly.
+/// Unbiased. Emission is not included.
 template <Bsdf B, TiledGBuffer G, Visibility V, Executor E>
 Image<Rgb> direct_light(const G& gbuffer, const LightTable& lights, const V& visibility,
                         LuxelBand band, std::uint32_t samples, E& executor) {
     Image<Rgb> image(gbuffer.extent());
-    const LuxelLight<B, V> light{{lights, visibility, samples}, {lights, visibility}, band};
+    const LuxelLight<B, V> light{
+        {lights, visibility, samples}, {lights, visibility}, {lights, visibility, samples}, band};
     for_each_luxel(gbuffer, executor,
                    [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
                        const Hit hit = luxels.hit(i);

@@ -122,6 +122,18 @@ TEST_CASE("all techniques agree through a thin lens and with a bounded kernel", 
     CHECK(agreement(lab.world(0.5f), 2, 2200) > 0.01);
 }
 
+// Environments have no surface, so no path runs into them, as into lights without extent.
+TEST_CASE("all techniques agree under a sky, with more lights and gloss below it",
+          "[statistical]") {
+    const PathLab<Lambert> alone(Wedge(WedgeLights::environment).scene());
+    CHECK(agreement(alone.world(), 3, 2600) > 0.01);
+    mir::Scene scene = Wedge(WedgeLights::environment, 1.0f).scene();
+    scene.point_lights = Wedge(WedgeLights::point).scene().point_lights;
+    scene.directional_lights = Wedge(WedgeLights::directional).scene().directional_lights;
+    const PathLab<CookTorrance> mixed(scene);
+    CHECK(agreement(mixed.world(), 3, 2700) > 0.01);
+}
+
 // H0: P_c of k edges is L_e rho^(k - 1). Student's t, 1 % over 7 lengths, seeds 2300 to 2306.
 TEST_CASE("in the furnace every bounce is rho times the one before", "[statistical]") {
     const PathLab<Lambert> lab(mir::builtin::make("furnace"));
@@ -156,6 +168,16 @@ TEST_CASE("a two-sided lamp whose sides are each started with full density is re
         return technique_density(m, t.edges, t.from_light);
     };
     CHECK(agreement(lab.world(), 2, 1100, wrong) < 0.001);
+}
+
+TEST_CASE("light paths from a sky whose disc is forgotten are rejected", "[statistical]") {
+    const PathLab<Lambert> lab(Wedge(WedgeLights::environment).scene());
+    const double disc = mir::pi * lab.lights.radius() * lab.lights.radius();
+    const auto wrong = [&](Technique t, const Path&, PathMeasure m) {
+        m.from_light[t.edges - 1] *= disc;
+        return technique_density(m, t.edges, t.from_light);
+    };
+    CHECK(agreement(lab.world(), 3, 2600, wrong) < 0.001);
 }
 
 TEST_CASE("light samples weighed like starts of light paths are rejected", "[statistical]") {

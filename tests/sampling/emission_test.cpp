@@ -4,6 +4,7 @@
 #include "mir/scene/builtin/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"
+#include "support/test_sky.hpp"
 
 namespace {
 
@@ -19,7 +20,7 @@ using mirtest::Histogram;
 namespace builtin = mir::builtin;
 
 // Every test of a distribution in this file belongs to one family of level 1 %.
-const double level = mirtest::sidak(0.01, 12);
+const double level = mirtest::sidak(0.01, 15);
 constexpr std::uint64_t draws = 40'000;
 constexpr float offset = 1e-3f;
 
@@ -71,11 +72,17 @@ Scene sun() {
     s.directional_lights.push_back({"sun", glm::normalize(Vec3(1, -3, 2)), {2, 2, 1}, 8});
     return s;
 }
+Scene sky() {
+    Scene s = room();
+    s.environment = mirtest::test_sky();
+    return s;
+}
 Scene everything() {
     Scene s = lamp(true);
     s.point_lights = bulb().point_lights;
     s.spot_lights = spot().spot_lights;
     s.directional_lights = sun().directional_lights;
+    s.environment = mirtest::test_sky();
     return s;
 }
 
@@ -100,9 +107,13 @@ double uniform(double /*x*/, double /*y*/) { return 1.0; }
 // H0: emitted power averages to that of the table. Student's t over 40 000 paths, seed 161, family
 // level 1 %; 1e-5 of rounding is allowed. 1.03 times the power must be rejected.
 TEST_CASE("the power of emissions averages to the power of the lights", "[statistical]") {
-    const std::vector<std::pair<const char*, Scene>> scenes{
-        {"lamp", lamp(false)}, {"both sides", lamp(true)},  {"bulb", bulb()}, {"spot", spot()},
-        {"sun", sun()},        {"everything", everything()}};
+    const std::vector<std::pair<const char*, Scene>> scenes{{"lamp", lamp(false)},
+                                                            {"both sides", lamp(true)},
+                                                            {"bulb", bulb()},
+                                                            {"spot", spot()},
+                                                            {"sun", sun()},
+                                                            {"sky", sky()},
+                                                            {"everything", everything()}};
     for (const auto& [name, scene] : scenes) {
         const Lit lit(scene);
         mirtest::Moments power;
@@ -115,7 +126,7 @@ TEST_CASE("the power of emissions averages to the power of the lights", "[statis
     }
 }
 
-// H0 of the next tests: chi-square on 20 x 16 cells, family level 1 %, seeds 162 to 167; wrong
+// H0 of the next tests: chi-square on 20 x 16 cells, family level 1 %, seeds 162 to 168; wrong
 // densities must be rejected.
 TEST_CASE("a lamp emits by the cosine from its front", "[statistical]") {
     const Lit lit(lamp(false));
@@ -160,6 +171,37 @@ TEST_CASE("the sun's rays are parallel and uniform over a disc that covers the s
         h.add((x * x + y * y) * (1 - 1e-5), mirtest::turn(x, y));
     }
     CHECK(h.against(uniform).p_value > level);
+}
+
+TEST_CASE("a sky's rays come by its luminance, uniform over a disc that covers the scene",
+          "[statistical]") {
+    const Lit lit(sky());
+    const auto around = lit.lights.environment().view();
+    const float radius = lit.lights.radius();
+    Histogram disc(20, 16);
+    Histogram direction(24, 24);
+    for (std::uint64_t i = 0; i < draws; ++i) {
+        const Emission e = lit.emission(168, i);
+        const Vec3 w = e.ray.direction;
+        CHECK(e.light_group == 9);
+        const Vec3 p = mir::Frame::around(w).to_local(e.ray.origin - lit.lights.centre()) / radius;
+        CHECK(p.z == Approx(-2.0f).epsilon(1e-5));
+        const auto x = static_cast<double>(p.x);
+        const auto y = static_cast<double>(p.y);
+        disc.add((x * x + y * y) * (1 - 1e-5), mirtest::turn(x, y));
+        direction.add(0.5 + 0.5 * static_cast<double>(w.y),
+                      mirtest::turn(static_cast<double>(-w.x), static_cast<double>(-w.z)));
+    }
+    CHECK(disc.against(uniform).p_value > level);
+    const auto density = [&](double x, double y) {
+        const double cosine = 1 - 2 * x;
+        const double sine = std::sqrt(1 - cosine * cosine);
+        const Vec3 towards(sine * std::cos(2 * mirtest::pi * y), cosine,
+                           sine * std::sin(2 * mirtest::pi * y));
+        return 4 * mirtest::pi * static_cast<double>(around.density(around.radiance(towards)));
+    };
+    CHECK(direction.against(density, 25).p_value > level);
+    CHECK(direction.against(uniform).p_value < level);
 }
 
 TEST_CASE("lamp points are uniform over the lamp", "[statistical]") {

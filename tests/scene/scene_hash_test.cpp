@@ -3,6 +3,7 @@
 
 #include "mir/scene/builtin.hpp"
 #include "support/catch.hpp"
+#include "support/test_sky.hpp"
 
 #include <functional>
 #include <set>
@@ -79,6 +80,27 @@ TEST_CASE("a hash changes with everything that changes the picture") {
          }},
         {"sun irradiance", [](Scene& s) { s.directional_lights[0].irradiance.r = 1; }},
         {"sun group", [](Scene& s) { s.directional_lights[0].light_group = 1; }},
+        {"environment", [](Scene& s) { s.environment = mirtest::test_sky(); }},
+        {"its light",
+         [](Scene& s) {
+             s.environment = mirtest::test_sky();
+             s.environment->radiance(1, 1).b = 7;
+         }},
+        {"its scale",
+         [](Scene& s) {
+             s.environment = mirtest::test_sky();
+             s.environment->scale = 2;
+         }},
+        {"its rotation",
+         [](Scene& s) {
+             s.environment = mirtest::test_sky();
+             s.environment->rotation = 2;
+         }},
+        {"its group",
+         [](Scene& s) {
+             s.environment = mirtest::test_sky();
+             s.environment->light_group = 2;
+         }},
         {"camera position", [](Scene& s) { s.cameras[0].position.x += 1; }},
         {"camera right", [](Scene& s) { s.cameras[0].right = -s.cameras[0].right; }},
         {"camera up", [](Scene& s) { s.cameras[0].up = -s.cameras[0].up; }},

@@ -3,11 +3,12 @@
 
 #include "mir/scene/builtin/shapes.hpp"
 #include "mir/scene/scene.hpp"
+#include "support/test_sky.hpp"
 
 namespace mirtest {
 
 /// What lights a wedge.
-enum class WedgeLights { ceiling, two_sided, point, spot, directional };
+enum class WedgeLights { ceiling, two_sided, point, spot, directional, environment };
 
 /// A floor and a slanted ceiling that do not touch, with a slanted board between them: light always
 /// travels at least 0.2 m, so every way to sample a path has a bounded weight and means of weights
@@ -58,6 +59,7 @@ class Wedge {
         if (lights == WedgeLights::directional)
             scene_.directional_lights.push_back(
                 {"sun", glm::normalize(mir::Vec3(-1, -0.7f, 0.1f)), light});
+        if (lights == WedgeLights::environment) scene_.environment = test_sky();
     }
 
     mir::Scene scene_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/core/math.hpp"
 #include "mir/core/space.hpp"
 
 #include <cstdint>
@@ -51,6 +52,15 @@ struct DiscreteDistributionView {
     [[nodiscard]] MIR_HD float probability(std::uint32_t i) const {
         const double before = i == 0 ? 0.0 : cumulative[i - 1];
         return static_cast<float>((cumulative[i] - before) / total);
+    }
+
+    /// Where `u` lies among the numbers for which sample() picks `i`, in [0, 1): uniform when `u`
+    /// is and i = sample(u).
+    [[nodiscard]] MIR_HD float place_in(std::uint32_t i, float u) const {
+        const double before = i == 0 ? 0.0 : cumulative[i - 1];
+        const double place = (static_cast<double>(u) * total - before) / (cumulative[i] - before);
+        // Rounding may put a number beside its own index.
+        return smaller(larger(static_cast<float>(place), 0.0f), 0x1.fffffep-1f);
     }
 };
 

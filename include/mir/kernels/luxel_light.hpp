@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/film/luxel_grid.hpp"
+#include "mir/shading/environment_light.hpp"
 #include "mir/shading/scene_light.hpp"
 
 namespace mir {
@@ -35,13 +36,16 @@ template <Bsdf B, Visibility V>
 struct LuxelLight {
     EmitterLight<B, V> emitters;
     DeltaLight<B, V> deltas;
+    EnvironmentLight<B, V> environment;
     LuxelBand band;
 
     /// W m^-2 sr^-1 towards the viewer of the luxel at (x, y) of the band, which is not empty.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& surface,
                                         std::uint32_t x, std::uint32_t y) const {
         const SharedSamples shared{band.grid.per_pixel(), band.cell(x, y)};
-        return emitters(hit, surface, shared, band.pixel_numbers(x, y)) + deltas(hit, surface);
+        const Random numbers = band.pixel_numbers(x, y);
+        return emitters(hit, surface, shared, numbers) + deltas(hit, surface) +
+               environment(hit, surface, shared, numbers);
     }
 };
 

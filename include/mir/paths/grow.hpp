@@ -132,7 +132,7 @@ MIR_HD bool extend_from_light(const World& world, Numbers& u, std::uint32_t coun
                 return false;
             continue;
         }
-        const bool far = n == 2 && part.path.light.kind == LightEndKind::directional;
+        const bool far = n == 2 && is_from_outside(part.path.light.kind);
         const PathVertex& before = part.vertex(n - 2);
         const Vec3 wo = far ? -before.normal : glm::normalize(before.position - at.position);
         const std::uint32_t d = path_dimension::light_vertex(n - 1);
@@ -179,8 +179,9 @@ MIR_HD bool end_on_lamp(const World& world, Path& path) {
     return light_end_at(world, path.vertices.back(), path.light);
 }
 
-/// Closes a camera's part with `from_light` vertices from a light: 0, it has run into a lamp; 1, a
-/// light sample; more, a light path. The edge that connects them may be blocked.
+/// Closes a camera's part with `from_light` vertices from a light: 0, it has run into a lamp (never
+/// into an environment, which has no surface); 1, a light sample; more, a light path. The edge that
+/// connects them may be blocked.
 template <class World, class Numbers>
 MIR_HD bool close_path(const World& world, Numbers& u, std::uint32_t from_light, Path& path) {
     if (from_light == 0) return end_on_lamp(world, path);
@@ -195,7 +196,7 @@ MIR_HD bool close_path(const World& world, Numbers& u, std::uint32_t from_light,
 template <class World>
 MIR_HD bool edge_is_free(const World& world, const Path& path, std::uint32_t i) {
     Vec3 to = path.position(i + 1);
-    if (i + 1 == path.edges() && path.light.kind == LightEndKind::directional)
+    if (i + 1 == path.edges() && is_from_outside(path.light.kind))
         to = path.position(i) - 4.0f * world.lights.radius * path.x(i + 1).normal;
     return world.visibility.visible(to, path.position(i));
 }

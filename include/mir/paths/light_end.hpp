@@ -40,6 +40,31 @@ MIR_HD PlacedLightEnd delta_end(const Lights& lights, std::uint32_t light) {
     return placed;
 }
 
+/// `uv` picks the direction. Its density is that for light samples and for light paths: the place
+/// where a light path enters the scene belongs to its first ray.
+template <class Lights>
+MIR_HD PlacedLightEnd environment_end(const Lights& lights, std::uint32_t light, Vec2 uv) {
+    const EnvironmentSample s = lights.environment.sample(uv);
+    const double density =
+        static_cast<double>(lights.light_probability(light)) * static_cast<double>(s.pdf);
+    PlacedLightEnd placed;
+    placed.vertex.normal = -s.direction;
+    placed.end = {LightEndKind::environment,
+                  lights.environment.light_group,
+                  light,
+                  s.radiance,
+                  density,
+                  density};
+    return placed;
+}
+
+/// A light end that is no point of a triangle.
+template <class Lights>
+MIR_HD PlacedLightEnd other_end(const Lights& lights, std::uint32_t light, Vec2 uv) {
+    return lights.is_environment(light) ? environment_end(lights, light, uv)
+                                        : delta_end(lights, light);
+}
+
 }  // namespace detail
 
 /// Light end for the receiver at `from`, the light chosen by power: next-event estimation.
@@ -47,7 +72,7 @@ template <class World>
 MIR_HD PlacedLightEnd sample_light_end(const World& world, float pick, Vec2 uv, Vec3 from) {
     const auto& lights = world.lights;
     const std::uint32_t light = lights.sample_light(pick);
-    if (!lights.is_triangle(light)) return detail::delta_end(lights, light);
+    if (!lights.is_triangle(light)) return detail::other_end(lights, light, uv);
     const EmitterSample s = lights.point_on(world.geometry, light, uv);
     const bool back = s.both_sides && glm::dot(from - s.position, s.normal) < 0.0f;
     return detail::area_end(lights, light, s, back, world.geometry.ray_offset);
@@ -59,7 +84,7 @@ template <class World>
 MIR_HD PlacedLightEnd sample_light_start(const World& world, float pick, Vec2 uv, float side) {
     const auto& lights = world.lights;
     const std::uint32_t light = lights.sample_light(pick);
-    if (!lights.is_triangle(light)) return detail::delta_end(lights, light);
+    if (!lights.is_triangle(light)) return detail::other_end(lights, light, uv);
     const EmitterSample s = lights.point_on(world.geometry, light, uv);
     return detail::area_end(lights, light, s, s.both_sides && side >= 0.5f,
                             world.geometry.ray_offset);
@@ -81,7 +106,8 @@ MIR_HD bool light_end_at(const World& world, const PathVertex& at, LightEnd& end
 }
 
 /// Light that leaves the end along the unit vector `w`, and what it becomes at a receiver with the
-/// squared distance d2: L_e cos / d2, I / d2, or E. The receiver's own cosine is not in it.
+/// squared distance d2: L_e cos / d2, I / d2, E, or L_e of an environment. The receiver's own
+/// cosine is not in it.
 template <class World>
 MIR_HD Rgb light_at_receiver(const World& world, const PathVertex& v, const LightEnd& end, Vec3 w,
                              float d2) {
@@ -103,7 +129,7 @@ template <class World>
 MIR_HD double light_ray_density(const World& world, const PathVertex& v, const LightEnd& end,
                                 Vec3 w, float cos_receiver, float d2) {
     const auto& lights = world.lights;
-    if (end.kind == LightEndKind::directional)
+    if (is_from_outside(end.kind))
         return static_cast<double>(cos_receiver) /
                (static_cast<double>(pi) * lights.radius * lights.radius);
     const double to_area = static_cast<double>(cos_receiver) / static_cast<double>(d2);

@@ -26,9 +26,10 @@ struct LightEnd {
     LightEndKind kind = LightEndKind::area;
     std::uint16_t light_group = 0;
     std::uint32_t light = 0;      ///< as LightTable::sample_light() counts
-    Rgb emission;                 ///< area: L_e; point, spot: intensity; directional: irradiance
-    double pdf_next_event = 0.0;  ///< of choosing this end for a given receiver: m^-2, or a
-                                  ///< probability for lights without extent
+    Rgb emission;                 ///< area, environment: L_e; point, spot: intensity; directional:
+                                  ///< irradiance
+    double pdf_next_event = 0.0;  ///< of choosing this end for a given receiver: m^-2, sr^-1 for
+                                  ///< environments, or a probability for lights without extent
     double pdf_emission = 0.0;    ///< of starting a light path here, same units
 };
 

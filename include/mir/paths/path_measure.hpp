@@ -8,7 +8,7 @@ namespace mir {
 
 /// What a path carries and how likely each of its vertices is from either side. Visibility is not
 /// part of it. Film and lens are measured by their unit squares and x2 .. x_k by area (a light end
-/// without extent by counting), so the camera's own terms are 1.
+/// without extent by counting, an environment by solid angle), so the camera's own terms are 1.
 struct PathMeasure {
     WideRgb contribution;  ///< F: image mean of the radiance that such paths bring, W m^-2 sr^-1
     WideRgb leaving;       ///< R: radiance that leaves x2 towards x1, W m^-2 sr^-1
@@ -25,7 +25,7 @@ namespace detail {
 /// Edge from x_i to x_(i+1), i >= 0.
 struct PathEdge {
     Vec3 w{0};        ///< unit, away from the camera
-    float d2 = 1.0f;  ///< m^2; 1 towards a directional light
+    float d2 = 1.0f;  ///< m^2; 1 towards light from outside
 };
 
 MIR_HD inline PathEdge edge_between(Vec3 from, Vec3 to) {
@@ -43,7 +43,7 @@ class PathMeasurer {
     MIR_HD PathMeasurer(const World& world, const Path& path)
         : world_(world), path_(path), k_(path.edges()) {
         for (std::uint32_t i = 2; i < k_; ++i) edges_[i] = edge(i);
-        if (path.light.kind == LightEndKind::directional) edges_[k_ - 1] = {-end().normal, 1.0f};
+        if (is_from_outside(path.light.kind)) edges_[k_ - 1] = {-end().normal, 1.0f};
     }
 
     /// x2 .. x_k alone. False when no light can leave x2, whatever is visible; `m` is unfinished
@@ -76,7 +76,7 @@ class PathMeasurer {
     [[nodiscard]] MIR_HD Vec3 to_light(std::uint32_t i) const { return edges_[i].w; }
     [[nodiscard]] MIR_HD Vec3 to_eye(std::uint32_t i) const { return -edges_[i - 1].w; }
 
-    /// Lights without extent are no VPLs: they need a reflecting x2.
+    /// Lights without extent and environments are no VPLs: they need a reflecting x2.
     [[nodiscard]] MIR_HD bool is_representable() const {
         return k_ > 2 || (k_ == 2 && path_.light.kind == LightEndKind::area);
     }

@@ -5,6 +5,7 @@
 #include "mir/reference/bound_split.hpp"
 #include "mir/reference/path_rules.hpp"
 #include "mir/reference/rgb_moments.hpp"
+#include "mir/shading/environment_light.hpp"
 #include "mir/shading/scene_light.hpp"
 #include "mir/shading/surface_table.hpp"
 
@@ -14,18 +15,20 @@
 
 namespace mir {
 
-/// How paths find emissive triangles. All three have the same expectation.
+/// How paths find emissive triangles and the environment. All three have the same expectation.
 enum class LightSearch {
     mis,        ///< light samples and scattered directions, weighted by PathRules::mis
-    lamps,      ///< explicit: light samples alone; lamps that directions hit do not count
+    lamps,      ///< explicit: light samples alone; lamps that directions hit do not count, nor does
+                ///< the environment where they escape
     directions  ///< implicit: scattered directions alone
 };
 
 /// How paths are traced; the estimator is described in docs/reference.md.
 struct PathTracerOptions {
     LightSearch light = LightSearch::mis;
-    /// Points on emissive triangles at the first vertex. Every later vertex takes one: the cost is
-    /// linear in `light_samples` and `directions`, not their product.
+    /// Points on emissive triangles, and directions towards the environment, at the first vertex.
+    /// Every later vertex takes one: the cost is linear in `light_samples` and `directions`, not
+    /// their product.
     std::uint32_t light_samples = 1;
     std::uint32_t directions = 1;    ///< paths that go on from the first vertex
     std::uint8_t max_bounce = 32;    ///< largest number of scattering events, 1..254
@@ -40,7 +43,8 @@ struct PathTracerOptions {
 /// Unidirectional path tracer with next-event estimation, the reference that other estimators are
 /// compared with: radiance split by the number b of scattering events, D_0 emission seen directly,
 /// D_1 direct light, D_b what VPLs of bounce b bring. Unbiased up to `max_bounce`. Point, spot and
-/// directional lights are summed exactly at every vertex, since no direction finds them.
+/// directional lights are summed exactly at every vertex, since no direction finds them. Rays that
+/// leave the scene see its environment.
 ///
 /// Conventions are those of docs/method.md, 4: shading normal at the receiver, geometric normal at
 /// the emitter, black where shading and geometric side disagree, points lifted by
@@ -72,6 +76,10 @@ class PathTracer {
     /// What `ray` sees first: the luxel that fill_gbuffer() stores.
     [[nodiscard]] std::optional<Vertex> first_vertex(const Ray& ray) const;
 
+    /// What a camera ray along the unit vector `direction` sees behind the scene: D_0 of luxels
+    /// without first_vertex(), W m^-2 sr^-1.
+    [[nodiscard]] Rgb background(Vec3 direction) const { return environment_.radiance(direction); }
+
     /// Adds one estimate of the radiance that leaves `first` towards the viewer, W m^-2 sr^-1:
     /// D_b is added to element b of `bounces`, which has max_bounce + 1 elements.
     void trace(const Vertex& first, Random& random, std::span<RgbSum> bounces) const;
@@ -93,12 +101,18 @@ class PathTracer {
     [[nodiscard]] Rgb found_light(const Walk& walk, const BsdfSample& sample,
                                   const SurfacePoint& point, const Vertex& next) const;
     [[nodiscard]] std::optional<SurfacePoint> next_point(const Walk& walk, Vec3 direction) const;
+    [[nodiscard]] Rgb environment_sample(const Vertex& at, std::uint8_t bounce,
+                                         Random& random) const;
+    [[nodiscard]] Rgb found_environment(const Walk& walk, const BsdfSample& sample) const;
+    [[nodiscard]] bool is_all_wanted(std::uint8_t bounce) const;
     bool advance(Walk& walk, Random& random, std::span<RgbSum> bounces) const;
 
     World world_;
     PathTracerOptions options_;
     BoundSplit split_;
     DeltaLight<B, V> deltas_;
+    EnvironmentView<Space::host> environment_;
+    EnvironmentLight<B, V> environment_light_;
 };
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
@@ -106,7 +120,9 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
     : world_(world),
       options_(options),
       split_{options.bound, options.part, options.bound_lamps},
-      deltas_(world.lights, world.visibility) {
+      deltas_(world.lights, world.visibility),
+      environment_(world.lights.view().environment),
+      environment_light_(world.lights, world.visibility, 1) {
     expects(options.light_samples >= 1 && options.light_samples <= 65536,
             "light samples at the first vertex must be 1 to 65536; set LightSearch::directions for "
             "none");
@@ -180,7 +196,10 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
     walk.throughput = walk.throughput * sample.weight;
     if (is_black(walk.throughput) || !(glm::dot(sample.wi, hit.normal) > 0.0f)) return false;
     const auto point = next_point(walk, sample.wi);
-    if (!point) return false;
+    if (!point) {
+        bounces[walk.bounce] += walk.throughput * found_environment(walk, sample) * walk.share;
+        return false;
+    }
 
     const Vertex next = vertex(*point, sample.wi);
     const Rgb found = found_light(walk, sample, *point, next);
@@ -196,17 +215,18 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
     return true;
 }
 
-/// Points on emissive triangles that a vertex asks for.
+/// Points on emissive triangles that a vertex asks for, and directions towards the environment.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 std::uint32_t PathTracer<B, R, V, Rules>::light_samples_at(std::uint8_t bounce) const {
-    if (options_.light == LightSearch::directions || !world_.lights.has_emitters()) return 0;
+    if (options_.light == LightSearch::directions) return 0;
     return bounce == 1 ? options_.light_samples : 1;
 }
 
-/// Scattered directions of a vertex that may find emissive triangles.
+/// Scattered directions of a vertex that may find emissive triangles or the environment.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 std::uint32_t PathTracer<B, R, V, Rules>::directions_at(std::uint8_t bounce) const {
-    if (options_.light == LightSearch::lamps || !world_.lights.has_emitters()) return 0;
+    const bool any = world_.lights.has_emitters() || !environment_.empty();
+    if (options_.light == LightSearch::lamps || !any) return 0;
     return bounce == 1 ? options_.directions : 1;
 }
 
@@ -216,10 +236,19 @@ Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint8_t bou
                                               Random& random) const {
     const std::uint32_t samples = light_samples_at(bounce);
     Rgb sum;
-    for (std::uint32_t i = 0; i < samples; ++i) sum += light_sample(at, bounce, random);
+    if (world_.lights.has_emitters())
+        for (std::uint32_t i = 0; i < samples; ++i) sum += light_sample(at, bounce, random);
+    if (!environment_.empty() && is_all_wanted(bounce))
+        for (std::uint32_t i = 0; i < samples; ++i) sum += environment_sample(at, bounce, random);
     if (samples > 1) sum = sum * (1.0f / static_cast<float>(samples));
-    const bool all = bounce > 1 || split_.unbounded() > 0.0f;
-    return all ? sum + deltas_(at.hit, at.surface) : sum;
+    return is_all_wanted(bounce) ? sum + deltas_(at.hit, at.surface) : sum;
+}
+
+/// Whether light that no bound holds for counts at a vertex: lights without extent, the
+/// environment.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+bool PathTracer<B, R, V, Rules>::is_all_wanted(std::uint8_t bounce) const {
+    return bounce > 1 || split_.unbounded() > 0.0f;
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
@@ -246,6 +275,31 @@ Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint8_t boun
     const float found = static_cast<float>(directions_at(bounce)) *
                         B::pdf(at.surface.bsdf, at.surface.normal, wi, at.surface.wo);
     return light * (Rules::mis(sampled, found) / density);
+}
+
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+Rgb PathTracer<B, R, V, Rules>::environment_sample(const Vertex& at, std::uint8_t bounce,
+                                                   Random& random) const {
+    const EnvironmentSample from = environment_.sample(random.next_2d());
+    const Rgb light = environment_light_.unshadowed(at.hit, at.surface, from);
+    const Vec3 target = environment_light_.outside(at.hit.position, from.direction);
+    if (is_black(light) || !world_.visibility.visible(at.hit.position, target)) return {};
+    const float sampled = static_cast<float>(light_samples_at(bounce)) * from.pdf;
+    const float found = static_cast<float>(directions_at(bounce)) *
+                        B::pdf(at.surface.bsdf, at.surface.normal, from.direction, at.surface.wo);
+    return light * Rules::mis(sampled, found);
+}
+
+/// Weighted radiance of the environment that a direction escaped to, W m^-2 sr^-1.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+Rgb PathTracer<B, R, V, Rules>::found_environment(const Walk& walk,
+                                                  const BsdfSample& sample) const {
+    const std::uint32_t directions = directions_at(walk.bounce);
+    if (environment_.empty() || directions == 0 || !is_all_wanted(walk.bounce)) return {};
+    const Rgb radiance = environment_.radiance(sample.wi);
+    const float sampled =
+        static_cast<float>(light_samples_at(walk.bounce)) * environment_.density(radiance);
+    return radiance * Rules::mis(static_cast<float>(directions) * sample.pdf, sampled);
 }
 
 /// Weighted emission of what a direction met, W m^-2 sr^-1.

@@ -64,12 +64,17 @@ class ReferenceRows {
             (std::uint64_t{options_.first_replicate} + replicate) * options_.samples + sample;
         const std::uint64_t luxel = std::uint64_t{y} * image_.extent().width + x;
         Random random(rays_.seed, Stream::reference, round * image_.extent().area() + luxel);
-        if (options_.film == FilmPosition::luxel) {
-            if (seen) tracer_.trace(*seen, random, bounces);
-            return;
-        }
-        const auto first = tracer_.first_vertex(ray_in_pixel(rays_, x, y, random));
-        if (first) tracer_.trace(*first, random, bounces);
+        if (options_.film == FilmPosition::luxel) return add(seen, rays_(x, y), random, bounces);
+        const Ray ray = ray_in_pixel(rays_, x, y, random);
+        add(tracer_.first_vertex(ray), ray, random, bounces);
+    }
+
+    void add(const std::optional<typename Tracer::Vertex>& first, const Ray& ray, Random& random,
+             std::span<RgbSum> bounces) const {
+        if (first)
+            tracer_.trace(*first, random, bounces);
+        else
+            bounces[0] += tracer_.background(ray.direction);
     }
 
     const Tracer& tracer_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/resident/uploaded_environment.hpp"
 #include "mir/resident/uploaded_textures.hpp"
 #include "mir/scene/light_table.hpp"
 
@@ -18,6 +19,7 @@ class UploadedLights {
           cumulative_(backend, queue, lights.by_power().cumulative()),
           cumulative_emitters_(backend, queue, lights.emitters().cumulative()),
           textures_(backend, queue, lights.textures()),
+          environment_(backend, queue, lights.environment()),
           values_(lights.view()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
@@ -31,7 +33,8 @@ class UploadedLights {
                 {cumulative_emitters_.data(), values_.emitters.size, values_.emitters.total},
                 values_.centre,
                 values_.radius,
-                textures_.view()};
+                textures_.view(),
+                environment_.view()};
     }
 
  private:
@@ -41,6 +44,7 @@ class UploadedLights {
     UploadedArray<B, double> cumulative_;
     UploadedArray<B, double> cumulative_emitters_;
     UploadedTextures<B> textures_;
+    UploadedEnvironment<B> environment_;
     LightTableView<Space::host> values_;  ///< of which only the values are used
 };
 

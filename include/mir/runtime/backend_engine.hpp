@@ -119,7 +119,8 @@ class BackendEngine {
     [[nodiscard]] Layer black(const Luxels& luxels) const;
     [[nodiscard]] Layer direct(const Luxels& luxels, const LightTable& lights,
                                const LuxelBand& band, std::uint32_t samples) const;
-    [[nodiscard]] Layer emission(const Luxels& luxels) const;
+    [[nodiscard]] Layer emission(const Luxels& luxels, const EnvironmentTable& around,
+                                 const CameraRays& rays, std::uint32_t first_row) const;
     template <Shading S>
     [[nodiscard]] Layer light(const Luxels& luxels, VplSpan<Space::host> vpls, const S& shading,
                               Monitor* monitor) const;

@@ -3,6 +3,7 @@
 
 // Members of BackendEngine that start kernels: for files that the backend's compiler compiles.
 
+#include "mir/kernels/background_pass.hpp"
 #include "mir/kernels/direct_light_pass.hpp"
 #include "mir/kernels/word_shading.hpp"
 #include "mir/resident/backend_metropolis.hpp"
@@ -184,6 +185,7 @@ auto BackendEngine<B, F, E>::direct(const Luxels& luxels, const LightTable& ligh
         const LuxelLight<F, Sight> light{
             {there.view(), geometry_there_.view(), rays.sight(), samples},
             {there.view(), rays.sight()},
+            {there.view(), rays.sight(), samples},
             band};
         for (TileIndex t = 0; t < luxels.gbuffer.tiles().size(); ++t) {
             const auto view = luxels.gbuffer.view(t);
@@ -196,12 +198,19 @@ auto BackendEngine<B, F, E>::direct(const Luxels& luxels, const LightTable& ligh
 }
 
 template <Backend B, Bsdf F, Executor E>
-auto BackendEngine<B, F, E>::emission(const Luxels& luxels) const -> Layer {
+auto BackendEngine<B, F, E>::emission(const Luxels& luxels, const EnvironmentTable& around,
+                                      const CameraRays& rays, std::uint32_t first_row) const
+    -> Layer {
+    const UploadedEnvironment<B> there(backend_, queue_, around);
     Layer layer(backend_, luxels.gbuffer.grid());
     const WaitAtEnd wait(queue_);
     for (TileIndex t = 0; t < luxels.gbuffer.tiles().size(); ++t) {
         const auto view = luxels.gbuffer.view(t);
         queue_.for_each(view.size(), EmissionPass{view, layer.tile(t)});
+        if (!around.empty())
+            queue_.for_each(view.size(),
+                            BackgroundPass{view, luxels.gbuffer.tiles()[t], first_row,
+                                           rays.luxel_rays(), there.view(), layer.tile(t)});
     }
     queue_.record().sync();
     return layer;

@@ -21,13 +21,15 @@ inline bool is_lambertian(const Scene& scene) {
 inline bool has_light(const Scene& scene) {
     const bool delta = !scene.point_lights.empty() || !scene.spot_lights.empty() ||
                        !scene.directional_lights.empty();
-    return delta || std::any_of(scene.materials.begin(), scene.materials.end(),
-                                [](const Material& m) { return m.emits(); });
+    return delta || scene.environment ||
+           std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& m) { return m.emits(); });
 }
 
 /// Checks that the scene can be rendered with these settings; returns worded warnings.
 /// @throws Error(invalid_input) without camera, triangles or (unless allowed) light, and when the
-///         camera asked for does not exist.
+///         camera asked for does not exist; Error(unsupported) when VPLs are to bring the direct
+///         light of an environment.
 inline std::vector<std::string> check_scene(const Scene& scene, const RenderSettings& settings) {
     std::vector<std::string> warnings;
     if (scene.cameras.empty())
@@ -43,6 +45,11 @@ inline std::vector<std::string> check_scene(const Scene& scene, const RenderSett
         throw Error(ErrorCode::invalid_input,
                     "the scene has no triangles (there is nothing to see); check the file with "
                     "'mir info'");
+    if (scene.environment && settings.integrator == Integrator::vpl &&
+        settings.direct == DirectLight::vpl)
+        throw Error(ErrorCode::unsupported,
+                    "direct light of an environment cannot come from VPLs (they lie on surfaces, "
+                    "and it has none); use --direct separate");
     if (has_light(scene)) return warnings;
     if (!settings.allow_no_light)
         throw Error(

@@ -26,7 +26,8 @@ class EngineCanvas {
                                   {band.first_row, job_.rays.grid, job_.settings.seed}, samples);
     }
     [[nodiscard]] Layer emission(const Band& band) const {
-        return job_.engine.emission(band.luxels);
+        return job_.engine.emission(band.luxels, job_.lights.environment(), job_.rays,
+                                    band.first_row);
     }
     template <Shading F>
     [[nodiscard]] Layer light(const Band& band, VplSpan<Space::host> vpls, const F& shading,

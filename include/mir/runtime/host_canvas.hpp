@@ -35,7 +35,7 @@ class HostCanvas {
                                job_.executor);
     }
 
-    /// What the luxels themselves emit.
+    /// What the luxels themselves emit, and the environment where they see nothing else.
     [[nodiscard]] Layer emission(const Band& band) const;
 
     /// Light of VPLs: from the band's visibility where it is known, by tracing otherwise.
@@ -85,10 +85,14 @@ class HostCanvas {
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 auto HostCanvas<B, Engine, E, MakeScheduler>::emission(const Band& band) const -> Layer {
     Layer image(band.gbuffer.extent());
-    for_each_luxel(band.gbuffer, job_.executor,
-                   [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
-                       image(x, y) = luxels.surface(i).emission;
-                   });
+    const EnvironmentView<Space::host> environment = job_.lights.environment().view();
+    for_each_luxel(
+        band.gbuffer, job_.executor,
+        [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
+            const bool escaped = !environment.empty() && is_empty(luxels.hit(i));
+            image(x, y) = escaped ? environment.radiance(job_.rays(x, band.first_row + y).direction)
+                                  : luxels.surface(i).emission;
+        });
     return image;
 }
 

@@ -20,8 +20,9 @@ struct Emission {
 };
 
 /// Draws a light by power and a ray from it: cosine-distributed from emissive triangles, uniform
-/// from point lights and inside spot cones, parallel from directional lights. Always takes five
-/// numbers. `ray_offset` lifts origins off emitters. The table must not be empty.
+/// from point lights and inside spot cones, parallel from directional lights, by luminance from the
+/// environment. Always takes five numbers. `ray_offset` lifts origins off emitters. The table must
+/// not be empty.
 Emission sample_emission(const LightTable& lights, float ray_offset, PathNumbers& numbers);
 
 namespace detail {
@@ -59,16 +60,25 @@ inline Emission emit_from_spot(const SpotLight& l, float probability, Vec2 uv) {
     return e;
 }
 
-inline Emission emit_from_far(const DirectionalLight& l, const LightTable& lights,
-                              float probability, Vec2 uv) {
+/// Light that travels along `direction` and brings `irradiance`, over the choice's density.
+inline Emission emit_from_far(Vec3 direction, Rgb irradiance, const LightTable& lights, Vec2 uv) {
     Emission e;
     const float radius = lights.radius();
-    const Frame frame = Frame::around(l.direction);
+    const Frame frame = Frame::around(direction);
     const Vec2 disc = radius * square_to_disc(uv);
     const Vec3 on_disc = disc.x * frame.tangent + disc.y * frame.bitangent;
-    e.ray = {lights.centre() + on_disc - 2.0f * radius * l.direction, l.direction};
-    e.power = l.irradiance * (pi * radius * radius / probability);
-    e.light_group = l.light_group;
+    e.ray = {lights.centre() + on_disc - 2.0f * radius * direction, direction};
+    e.power = irradiance * (pi * radius * radius);
+    return e;
+}
+
+inline Emission emit_from_environment(const LightTable& lights, float probability, Vec2 direction,
+                                      Vec2 uv) {
+    const EnvironmentView<Space::host> environment = lights.environment().view();
+    const EnvironmentSample s = environment.sample(direction);
+    Emission e =
+        emit_from_far(-s.direction, s.radiance * (1.0f / (s.pdf * probability)), lights, uv);
+    e.light_group = environment.light_group;
     return e;
 }
 
@@ -90,7 +100,13 @@ inline Emission sample_emission(const LightTable& lights, float ray_offset, Path
     if (light < lights.spot_lights().size())
         return detail::emit_from_spot(lights.spot_lights()[light], probability, uv);
     light -= static_cast<std::uint32_t>(lights.spot_lights().size());
-    return detail::emit_from_far(lights.directional_lights()[light], lights, probability, on_light);
+    if (light == lights.directional_lights().size())
+        return detail::emit_from_environment(lights, probability, on_light, uv);
+    const DirectionalLight& sun = lights.directional_lights()[light];
+    Emission e = detail::emit_from_far(sun.direction, sun.irradiance * (1.0f / probability), lights,
+                                       on_light);
+    e.light_group = sun.light_group;
+    return e;
 }
 
 }  // namespace mir

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/scene/environment_table.hpp"
 #include "mir/scene/light_table_view.hpp"
 #include "mir/scene/texture_table.hpp"
 #include "mir/scene/world_geometry.hpp"
@@ -16,7 +17,8 @@ namespace mir {
 /// the WorldGeometry must outlive it.
 class LightTable {
  public:
-    /// @throws Error(invalid_input) when an emission is negative or not finite.
+    /// @throws Error(invalid_input) when an emission is negative or not finite, and what
+    ///         EnvironmentTable throws.
     LightTable(const Scene& scene, const WorldGeometry& geometry);
 
     [[nodiscard]] bool empty() const { return by_power_.empty(); }
@@ -27,9 +29,9 @@ class LightTable {
     }
     [[nodiscard]] std::span<const std::uint32_t> emissive_triangles() const { return triangles_; }
 
-    /// Luminance of the power emitted by everything, W. Directional lights count what passes the
-    /// bounding sphere of the scene, textured lamps the mean of their image wherever it is seen,
-    /// masked ones what they would emit if they were whole.
+    /// Luminance of the power emitted by everything, W. Directional lights and the environment
+    /// count what passes the bounding sphere of the scene, textured lamps the mean of their image
+    /// wherever it is seen, masked ones what they would emit if they were whole.
     [[nodiscard]] double power() const { return by_power_.total(); }
 
     /// True when emissive triangles exist, so that sample_emitter() may be called.
@@ -44,7 +46,7 @@ class LightTable {
     [[nodiscard]] float emitter_pdf(std::uint32_t triangle) const;
 
     /// Any light by power, as an index: first emissive triangles, then point, spot and directional
-    /// lights. Must not be empty().
+    /// lights, then the environment. Must not be empty().
     [[nodiscard]] std::uint32_t sample_light(float u) const { return view().sample_light(u); }
     [[nodiscard]] float light_probability(std::uint32_t light) const {
         return view().light_probability(light);
@@ -63,7 +65,10 @@ class LightTable {
         return view().point_on(geometry_->view(), index, uv);
     }
 
-    /// Bounding sphere that directional light is sent through.
+    /// Light from all around; empty() where the scene has none or a black one.
+    [[nodiscard]] const EnvironmentTable& environment() const { return environment_; }
+
+    /// Bounding sphere that light from outside is sent through.
     [[nodiscard]] Vec3 centre() const { return geometry_->bounds().centre(); }
     [[nodiscard]] float radius() const { return 0.5f * geometry_->bounds().diagonal(); }
 
@@ -78,7 +83,8 @@ class LightTable {
                 emitters_.view(),
                 centre(),
                 radius(),
-                textures_.view()};
+                textures_.view(),
+                environment_.view()};
     }
     /// The arrays of view().
     [[nodiscard]] std::span<const DeltaSource> delta_sources() const { return delta_sources_; }
@@ -92,10 +98,12 @@ class LightTable {
  private:
     void add_triangles(std::vector<float>& power);
     void add_delta_lights(std::vector<float>& power);
+    void add_environment(std::vector<float>& power) const;
 
     const Scene* scene_;
     const WorldGeometry* geometry_;
     TextureTable textures_;
+    EnvironmentTable environment_;
     std::vector<std::uint32_t> triangles_;
     std::vector<DeltaSource> delta_sources_;
     std::vector<LampEntry> lamps_;
@@ -136,6 +144,7 @@ inline float spot_solid_angle(const SpotLight& s) {
 
 inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     : scene_(&scene), geometry_(&geometry), textures_(detail::lamp_textures(scene)) {
+    if (scene.environment) environment_ = EnvironmentTable(*scene.environment);
     for (const Material& m : scene.materials) {
         detail::check_emission(m.emission, "material", m.name);
         lamps_.push_back({m.emission, m.emits_from_both_sides, m.light_group, m.textures.emission,
@@ -151,6 +160,7 @@ inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     add_triangles(power);
     emitters_ = DiscreteDistribution(power);
     add_delta_lights(power);
+    add_environment(power);
     by_power_ = DiscreteDistribution(power);
 }
 
@@ -183,6 +193,12 @@ inline void LightTable::add_delta_lights(std::vector<float>& power) {
     for (const DirectionalLight& l : scene_->directional_lights)
         add({LightEndKind::directional, l.light_group, l.irradiance, {}, l.direction},
             luminance(l.irradiance) * pi * radius() * radius());
+}
+
+inline void LightTable::add_environment(std::vector<float>& power) const {
+    if (environment_.empty()) return;
+    const double disc = static_cast<double>(pi) * radius() * radius();
+    power.push_back(static_cast<float>(environment_.view().total() * disc));
 }
 
 inline float LightTable::emitter_pdf(std::uint32_t triangle) const {

@@ -4,6 +4,8 @@
 #include "mir/core/discrete_distribution.hpp"
 #include "mir/core/warp.hpp"
 #include "mir/scene/alpha_mask.hpp"
+#include "mir/scene/environment_view.hpp"
+#include "mir/scene/geometry_view.hpp"
 #include "mir/scene/light.hpp"
 
 namespace mir {
@@ -22,11 +24,17 @@ struct EmitterSample {
 
 /// What a light path may end on.
 enum class LightEndKind : std::uint8_t {
-    area,        ///< a point of an emissive triangle
-    point,       ///< a point light
-    spot,        ///< a spot light
-    directional  ///< light from outside the scene: it has a direction, but no place
+    area,         ///< a point of an emissive triangle
+    point,        ///< a point light
+    spot,         ///< a spot light
+    directional,  ///< light from outside the scene: it has a direction, but no place
+    environment   ///< the same, from any direction
 };
+
+/// True for light that comes from outside the scene.
+MIR_HD constexpr bool is_from_outside(LightEndKind kind) {
+    return kind == LightEndKind::directional || kind == LightEndKind::environment;
+}
 
 /// A light without extent: a PointLight, SpotLight or DirectionalLight but for its name.
 struct DeltaSource {
@@ -49,7 +57,7 @@ struct LampEntry {
 };
 
 /// What kernels read of a LightTable. Lights are counted as there: first emissive triangles, then
-/// point, spot and directional lights. A view; thread-safe.
+/// point, spot and directional lights, then the environment if it shines. A view; thread-safe.
 template <Space S>
 struct LightTableView {
     static constexpr Space space = S;
@@ -67,6 +75,7 @@ struct LightTableView {
     Vec3 centre{0};                        ///< of the scene's bounding sphere, metres
     float radius = 0.0f;                   ///< of the scene's bounding sphere, metres
     TextureView<S> textures{};             ///< of the lamps
+    EnvironmentView<S> environment{};      ///< around the scene
 
     [[nodiscard]] MIR_HD bool empty() const { return by_power.empty(); }
     /// Luminance of the power emitted by everything, W.
@@ -81,7 +90,10 @@ struct LightTableView {
     [[nodiscard]] MIR_HD bool is_triangle(std::uint32_t light) const {
         return light < triangle_count;
     }
-    /// A light that is no triangle.
+    [[nodiscard]] MIR_HD bool is_environment(std::uint32_t light) const {
+        return light == triangle_count + delta_count;
+    }
+    /// A light that is neither triangle nor environment.
     [[nodiscard]] MIR_HD const DeltaSource& delta_source(std::uint32_t light) const {
         return delta_sources[light - triangle_count];
     }

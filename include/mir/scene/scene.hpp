@@ -2,11 +2,13 @@
 #pragma once
 
 #include "mir/scene/camera.hpp"
+#include "mir/scene/environment.hpp"
 #include "mir/scene/light.hpp"
 #include "mir/scene/material.hpp"
 #include "mir/scene/mesh.hpp"
 #include "mir/scene/texture_image.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct Scene {
     std::vector<PointLight> point_lights;
     std::vector<SpotLight> spot_lights;
     std::vector<DirectionalLight> directional_lights;
+    std::optional<Environment> environment;  ///< light from all around; none: black
     std::vector<Camera> cameras;
 
     /// Adds a mesh together with one instance of it; returns the index of the mesh.

@@ -42,6 +42,7 @@ class SceneHash {
             add_each(l.position, l.direction, l.intensity, l.cos_inner, l.cos_outer, l.light_group);
         for (const DirectionalLight& l : scene.directional_lights)
             add_each(l.direction, l.irradiance, l.light_group);
+        if (scene.environment) add_environment(*scene.environment);
         for (const Camera& c : scene.cameras)
             add_each(c.position, c.right, c.up, c.back, c.vertical_fov, c.aspect_ratio,
                      c.lens_radius, c.focus_distance);
@@ -86,6 +87,11 @@ class SceneHash {
         }
         if (t.normal.is_set()) add(t.normal_scale);
         if (m.is_masked()) add_each(m.alpha, m.alpha_cutoff);
+    }
+
+    void add_environment(const Environment& e) {
+        add_each(e.radiance.width(), e.radiance.height(), e.scale, e.rotation, e.light_group);
+        add_bytes(e.radiance.pixels().data(), e.radiance.pixels().size_bytes());
     }
 
     std::uint64_t state_ = 0xcbf29ce484222325ull;

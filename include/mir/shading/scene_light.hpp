@@ -1,37 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/bsdf.hpp"
-#include "mir/concepts/visibility.hpp"
 #include "mir/core/random.hpp"
-#include "mir/data/luxel.hpp"
-#include "mir/scene/light_table.hpp"
+#include "mir/shading/sampled_light.hpp"
 
 namespace mir {
-
-/// f cos for light from the unit direction `wi`; black when either side of the surface disagrees.
-template <Bsdf B>
-MIR_HD Rgb reflected(const Hit& hit, const Surface<typename B::Params>& s, Vec3 wi) {
-    const float cosine = glm::dot(wi, s.normal);
-    if (cosine <= 0.0f || glm::dot(wi, hit.normal) <= 0.0f) return {};
-    return B::eval(s.bsdf, s.normal, wi, s.wo) * cosine;
-}
-
-/// Memory that lights lie in for a visibility to be asked about them.
-template <Visibility V>
-inline constexpr Space space_of_lights = V::space == Space::device ? Space::device : Space::host;
-
-/// How the luxels of a pixel share one well-spread set of samples.
-struct SharedSamples {
-    std::uint32_t shares = 1;  ///< luxels of the pixel
-    std::uint32_t share = 0;   ///< which of them asks
-};
 
 /// Light of the emissive triangles at a luxel, estimated from `samples` points chosen by power:
 /// f L_e cos cos / (d^2 p) averaged over the samples. The samples of all luxels of a pixel are one
 /// Kronecker sequence with a random shift per pixel: each point is uniform, so the estimate is
-/// unbiased, and together they are spread evenly over the lamps. Source of the sequence: Roberts,
-/// "The unreasonable effectiveness of quasirandom sequences", 2018. Host and device.
+/// unbiased, and together they are spread evenly over the lamps. Host and device.
 template <Bsdf B, Visibility V>
 class EmitterLight {
  public:
@@ -48,12 +26,15 @@ class EmitterLight {
     /// Safe to call from any thread.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
                                         SharedSamples shared, Random random) const {
-        Rgb sum;
-        if (!lights_.has_emitters() || samples_ == 0) return sum;
+        if (!lights_.has_emitters() || samples_ == 0) return {};
         const Shift shift{random.next(), random.next_2d()};
-        for (std::uint32_t first = 0; first < samples_; first += PointPacket::width)
-            sum += packet(hit, s, shift, shared, first);
-        return sum * (1.0f / static_cast<float>(samples_));
+        return mean_of_samples(hit.position, visibility_, samples_,
+                               [&](std::uint32_t k, PacketOfLight& packet, std::uint32_t place) {
+                                   Vec3 target{0};
+                                   const Rgb light =
+                                       unshadowed(hit, s, sample(shift, shared, k), target);
+                                   packet.set(place, target, light);
+                               });
     }
 
  private:
@@ -67,27 +48,8 @@ class EmitterLight {
                                               std::uint32_t k) const {
         const auto i = static_cast<float>(k * shared.shares + shared.share);
         const auto n = static_cast<float>(samples_ * shared.shares);
-        const Vec2 uv = glm::fract(shift.uv + i * Vec2(0.7548776662f, 0.5698402910f));
-        return lights_.sample_emitter(geometry_, smaller((i + shift.pick) / n, 0x1.fffffep-1f), uv);
-    }
-
-    [[nodiscard]] MIR_HD Rgb packet(const Hit& hit, const Surface<typename B::Params>& s,
-                                    Shift shift, SharedSamples shared, std::uint32_t first) const {
-        PointPacket points{};
-        Rgb light[PointPacket::width];
-        std::uint32_t active = 0;
-        const std::uint32_t rest = samples_ - first;
-        const std::uint32_t count = rest < PointPacket::width ? rest : PointPacket::width;
-        for (std::uint32_t k = 0; k < count; ++k) {
-            Vec3 target{0};
-            light[k] = unshadowed(hit, s, sample(shift, shared, first + k), target);
-            if (is_black(light[k])) continue;
-            points.x[k] = target.x;
-            points.y[k] = target.y;
-            points.z[k] = target.z;
-            active |= 1u << k;
-        }
-        return sum_of_visible(hit.position, points, light, active);
+        return lights_.sample_emitter(geometry_, smaller((i + shift.pick) / n, 0x1.fffffep-1f),
+                                      kronecker_point(shift.uv, i));
     }
 
     [[nodiscard]] MIR_HD Rgb unshadowed(const Hit& hit, const Surface<typename B::Params>& s,
@@ -101,23 +63,6 @@ class EmitterLight {
         const float cosine = -glm::dot(wi, normal);
         if (!(cosine > 0.0f)) return {};
         return reflected<B>(hit, s, wi) * e.radiance * (cosine / (d2 * e.pdf_area));
-    }
-
-    [[nodiscard]] MIR_HD Rgb sum_of_visible(Vec3 origin, const PointPacket& points,
-                                            const Rgb* light, std::uint32_t active) const {
-        std::uint32_t seen = active;
-        if constexpr (PacketVisibility<V>) {
-            if (active != 0) seen = visibility_.visible_packet(origin, points, active);
-        } else {
-            for (std::uint32_t k = 0; k < PointPacket::width; ++k)
-                if ((active >> k & 1u) != 0 &&
-                    !visibility_.visible(origin, {points.x[k], points.y[k], points.z[k]}))
-                    seen &= ~(1u << k);
-        }
-        Rgb sum;
-        for (std::uint32_t k = 0; k < PointPacket::width; ++k)
-            if ((seen >> k & 1u) != 0) sum += light[k];
-        return sum;
     }
 
     LightTableView<space> lights_;

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/discrete_distribution_2d.hpp"
+#include "mir/core/rgb.hpp"
+#include "mir/core/unit_circle.hpp"
+
+namespace mir {
+
+/// A direction towards an environment.
+struct EnvironmentSample {
+    Vec3 direction{0, 1, 0};  ///< unit, away from the scene
+    Rgb radiance;             ///< W m^-2 sr^-1
+    float pdf = 0.0f;         ///< of this direction, sr^-1
+};
+
+/// What kernels read of an EnvironmentTable. A view; thread-safe.
+///
+/// Directions are drawn in proportion to the luminance of their texel and uniformly inside it, so
+/// their density is luminance / total per steradian, exactly, where total = int luminance dw: an
+/// importance table whose weights are luminance times solid angle. Source: Pharr, Jakob, Humphreys,
+/// "Physically Based Rendering", 3rd edition, section 14.2.4, but for the place inside the texel.
+template <Space S>
+struct EnvironmentView {
+    static constexpr Space space = S;
+
+    const Rgb* texels = nullptr;  ///< scaled, rows from the top
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    float turns = 0.0f;  ///< rotation about +y in whole turns, [0, 1)
+    std::uint16_t light_group = 0;
+    DiscreteDistribution2dView<S> by_luminance;
+
+    /// True when no light comes from it: there is none, or it is black.
+    [[nodiscard]] MIR_HD bool empty() const { return by_luminance.empty(); }
+
+    /// int luminance dw over all directions, W m^-2.
+    [[nodiscard]] MIR_HD double total() const { return by_luminance.rows.total; }
+
+    /// Direction for `u` in [0, 1)^2. Must not be empty().
+    [[nodiscard]] MIR_HD EnvironmentSample sample(Vec2 u) const {
+        const GridCell cell = by_luminance.sample(u);
+        const Rgb light = texels[static_cast<std::size_t>(cell.y) * width + cell.x];
+        return {direction(cell), light, density(light)};
+    }
+
+    /// What comes from the unit direction `w`, W m^-2 sr^-1.
+    [[nodiscard]] MIR_HD Rgb radiance(Vec3 w) const {
+        return width == 0 ? Rgb{} : texels[texel_of(w)];
+    }
+
+    /// Density with which sample() draws the direction of something with this radiance, sr^-1.
+    [[nodiscard]] MIR_HD float density(Rgb light) const {
+        return static_cast<float>(static_cast<double>(luminance(light)) / total());
+    }
+
+ private:
+    /// Cosine and sine of half the angle between +y and the upper edge of row `y`. Of the half
+    /// angle, because texels at the poles would drown in the rounding of a cosine next to 1.
+    [[nodiscard]] MIR_HD Vec2 edge(std::uint32_t y) const {
+        return unit_circle(static_cast<float>(y) / (4.0f * static_cast<float>(height)));
+    }
+
+    /// Uniform by solid angle inside the cell: sin^2 of the half angle is.
+    [[nodiscard]] MIR_HD Vec3 direction(const GridCell& cell) const {
+        const Vec2 above = edge(cell.y);
+        const Vec2 below = edge(cell.y + 1);
+        const float t = cell.inside.y;
+        const float c2 = (1.0f - t) * above.x * above.x + t * below.x * below.x;
+        const float s2 = (1.0f - t) * above.y * above.y + t * below.y * below.y;
+        const float sine = 2.0f * sqrtf(c2 * s2);
+        const float column =
+            (static_cast<float>(cell.x) + cell.inside.x) / static_cast<float>(width);
+        const Vec2 around = unit_circle(column - 0.5f - turns);
+        return {sine * around.x, c2 - s2, sine * around.y};
+    }
+
+    [[nodiscard]] MIR_HD std::size_t texel_of(Vec3 w) const {
+        const float azimuth = atan2f(w.z, w.x) * (0.5f * inv_pi) + 0.5f + turns;
+        const float column = azimuth - floorf(azimuth);
+        const float row = atan2f(sqrtf(w.x * w.x + w.z * w.z), w.y) * inv_pi;
+        return static_cast<std::size_t>(index(row, height)) * width + index(column, width);
+    }
+    MIR_HD static std::uint32_t index(float place, std::uint32_t count) {
+        const auto i = static_cast<std::uint32_t>(place * static_cast<float>(count));
+        return i < count ? i : count - 1;
+    }
+};
+
+}  // namespace mir

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/random.hpp"
+#include "mir/shading/sampled_light.hpp"
+
+namespace mir {
+
+/// Light of the environment at a luxel, estimated from `samples` directions drawn by luminance:
+/// f L_e cos / p averaged over the samples, with shadow rays to outside the scene. The samples of
+/// all luxels of a pixel are one Kronecker sequence with a random shift per pixel, as those of
+/// EmitterLight. Unbiased. Host and device.
+template <Bsdf B, Visibility V>
+class EnvironmentLight {
+ public:
+    static constexpr Space space = space_of_lights<V>;
+
+    EnvironmentLight(const LightTableView<space>& lights, V visibility, std::uint32_t samples)
+        : environment_(lights.environment),
+          reach_(4.0f * lights.radius),
+          visibility_(visibility),
+          samples_(samples) {}
+    EnvironmentLight(const LightTable& lights, V visibility,
+                     std::uint32_t samples) requires(space == Space::host)
+        : EnvironmentLight(lights.view(), visibility, samples) {}
+
+    /// W m^-2 sr^-1 towards the viewer. `random` must be the same for all luxels that share; of
+    /// its numbers the fourth and fifth are used, which EmitterLight leaves. Safe to call from any
+    /// thread.
+    [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
+                                        SharedSamples shared, const Random& random) const {
+        if (environment_.empty() || samples_ == 0) return {};
+        const Vec2 shift(random.at(3), random.at(4));
+        return mean_of_samples(
+            hit.position, visibility_, samples_,
+            [&](std::uint32_t k, PacketOfLight& packet, std::uint32_t place) {
+                const auto i = static_cast<float>(k * shared.shares + shared.share);
+                const EnvironmentSample from = environment_.sample(kronecker_point(shift, i));
+                packet.set(place, outside(hit.position, from.direction), unshadowed(hit, s, from));
+            });
+    }
+
+    /// What one sample brings if nothing is in its way, W m^-2 sr^-1.
+    [[nodiscard]] MIR_HD Rgb unshadowed(const Hit& hit, const Surface<typename B::Params>& s,
+                                        const EnvironmentSample& from) const {
+        return reflected<B>(hit, s, from.direction) * from.radiance * (1.0f / from.pdf);
+    }
+
+    /// A point outside the scene in the unit direction `w`.
+    [[nodiscard]] MIR_HD Vec3 outside(Vec3 from, Vec3 w) const { return from + reach_ * w; }
+
+ private:
+    EnvironmentView<space> environment_;
+    float reach_;
+    V visibility_;
+    std::uint32_t samples_;
+};
+
+}  // namespace mir
