@@ -78,7 +78,9 @@ class PathTracer {
 
     /// What a camera ray along the unit vector `direction` sees behind the scene: D_0 of luxels
     /// without first_vertex(), W m^-2 sr^-1.
-    [[nodiscard]] Rgb background(Vec3 direction) const { return environment_.radiance(direction); }
+    [[nodiscard]] Rgb background(Vec3 direction) const {
+        return environment_.radiance(direction) * split_.unbounded();
+    }
 
     /// Adds one estimate of the radiance that leaves `first` towards the viewer, W m^-2 sr^-1:
     /// D_b is added to element b of `bounces`, which has max_bounce + 1 elements.
