@@ -157,6 +157,8 @@ MIR_HD bool is_solid(const Mask& mask, std::uint32_t triangle, PlaneCrossing c) 
 template <class Mask>
 [[nodiscard]] MIR_HD bool hits_segment(const TriangleRows& rows, Vec3 from, Vec3 to,
                                        std::uint32_t triangle, const Mask& mask) {
+    // Not by way of what follows, of which a device's compiler makes other instructions.
+    if constexpr (std::is_same_v<Mask, Opaque>) return hits_segment(rows, from, to);
     const float s_from = row_at(rows.s, from);
     const float s_to = row_at(rows.s, to);
     if (!detail::opposite(s_from, s_to)) return false;
