@@ -3,6 +3,7 @@
 // VPLs under a bound and the light that is traced back: together the light of an unbounded path
 // tracer, bounce by bounce, and by themselves what the VPLs say was removed.
 #include "bounce_means.hpp"
+#include "mir/runtime/pass_sums.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;
@@ -182,4 +183,45 @@ TEST_CASE("settings under which nothing is removed refuse to trace it back") {
     s.integrator = mir::Integrator::vpl;
     s.compensate = 65537;
     CHECK_THROWS_AS(s.validate(), mir::Error);
+    s.compensate = 0;
+    s.removed_layer = true;
+    CHECK_NOTHROW(s.validate());
+    s.integrator = mir::Integrator::micro;
+    CHECK_THROWS_AS(s.validate(), mir::Error);
+}
+
+TEST_CASE("a layer shows what the bound removed, which is missing in all others") {
+    const mir::Scene scene = mir::builtin::make("corner");
+    mir::RenderSettings s = bounded(SamplerKind::instant_radiosity);
+    const mir::RenderResult usual = render(scene, s);
+    CHECK(usual.removed.pixels().empty());
+    s.removed_layer = true;
+    const mir::RenderResult r = render(scene, s);
+    CHECK(same_bits(r.beauty, usual.beauty));
+    REQUIRE(r.bounces.size() == usual.bounces.size());
+    CHECK(same_bits(r.bounces.back(), usual.bounces.back()));
+    CHECK(mean_luminance(r.removed) == Approx(r.statistics.removed_luminance).epsilon(1e-6));
+
+    s.bound.kind = mir::BoundPolicy::Kind::none;
+    const mir::RenderResult unbounded = render(scene, s);
+    CHECK(mean_luminance(unbounded.removed) == 0.0);
+    mir::Image<mir::Rgb> sum = r.indirect;
+    for (std::size_t i = 0; i < sum.pixels().size(); ++i) sum.pixels()[i] += r.removed.pixels()[i];
+    CHECK(relative_difference(unbounded.indirect, sum) < 1e-5);
+    CHECK(relative_difference(unbounded.indirect, r.indirect) > 0.1);
+}
+
+TEST_CASE("the layer of what was removed is a mean over passes, as others are") {
+    const mir::Scene scene = mir::builtin::make("corner");
+    mir::RenderSettings s = bounded(SamplerKind::instant_radiosity);
+    s.removed_layer = true;
+    mir::PassSums sums;
+    mir::Image<mir::Rgb> mean(s.image);
+    for (s.seed = 0; s.seed < 2; ++s.seed) {
+        mir::RenderResult pass = render(scene, s);
+        for (std::size_t i = 0; i < mean.pixels().size(); ++i)
+            mean.pixels()[i] += 0.5f * pass.removed.pixels()[i];
+        sums.add(std::move(pass));
+    }
+    CHECK(relative_difference(sums.result().removed, mean) < 1e-6);
 }

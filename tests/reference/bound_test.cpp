@@ -82,6 +82,17 @@ TEST_CASE("what a bound removes is the rest of that light, and nothing else") {
     for (const mir::RgbSum& b : nothing) CHECK(b.channel == mir::RgbSum{}.channel);
 }
 
+TEST_CASE("light across an edge nearer than points are lifted is what no VPL brings") {
+    // A floor's point beside a wall at x = 0, both lifted by 1e-3: the wall's lies behind.
+    const mir::Hit at{{0.5e-3f, 1e-3f, 0}, {0, 1, 0}};
+    const mir::Hit from{{1e-3f, 0.1f, 0}, {1, 0, 0}};
+    const mir::BoundSplit kept{5.0f};
+    const mir::BoundSplit removed{5.0f, mir::BoundPart::removed};
+    CHECK(kept.reflected(at, at.normal, from) == 0.0f);
+    CHECK(removed.reflected(at, at.normal, from) == 1.0f);
+    CHECK(mir::BoundSplit{}.reflected(at, at.normal, from) == 1.0f);
+}
+
 namespace {
 
 /// Mean luminance of D_1 .. D_3 over 16 replicates of the corner whose wall shines too.

@@ -77,6 +77,7 @@ void check_same(const RenderResult& a, const RenderResult& b) {
     CHECK(same_bits(a.emission, b.emission));
     CHECK(same_bits(a.direct, b.direct));
     CHECK(same_bits(a.indirect, b.indirect));
+    CHECK(same_bits(a.removed, b.removed));
     REQUIRE(a.bounces.size() == b.bounces.size());
     for (std::size_t i = 0; i < a.bounces.size(); ++i) CHECK(same_bits(a.bounces[i], b.bounces[i]));
     CHECK(same_bits(a.guides.albedo, b.guides.albedo));
@@ -121,9 +122,11 @@ TEST_CASE("A frame in a backend's memory has the bits of the host's, whatever it
     const Scene scene = lit_room();
     RenderSettings settings = small_picture();
     settings.bounce_layers = GENERATE(false, true);
+    settings.removed_layer = true;
     const RenderResult host = draw_on_host(scene, settings);
     CHECK(host.statistics.removed_luminance > 0.0);
     CHECK(host.statistics.indirect_luminance > 0.0);
+    CHECK(host.removed.extent() == settings.image);
     for (const BackendEngineOptions& options :
          {BackendEngineOptions{BackendScheduler::rcvp, true, false},
           BackendEngineOptions{BackendScheduler::rcvp, true, true},

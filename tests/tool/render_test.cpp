@@ -109,6 +109,8 @@ TEST_CASE("the file holds the layers asked for") {
     CHECK(layers_of(path) == Names{""});
     render(small_render(path) + Words{"--aov", "depth,albedo"});
     CHECK(layers_of(path) == Names{"", "albedo", "depth"});
+    render(small_render(path) + Words{"--aov", "removed"});
+    CHECK(layers_of(path) == Names{"", "removed"});
     render(small_render(path) + Words{"--aov", "bounces", "--bounces", "3"});
     CHECK(layers_of(path) == Names{"", "bounce1", "bounce2", "bounce3"});
 }

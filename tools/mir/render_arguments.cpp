@@ -8,8 +8,8 @@
 namespace mirtool {
 namespace {
 
-const std::vector<std::string> layer_names{"albedo",   "normal",   "position", "depth", "direct",
-                                           "indirect", "emission", "bounces",  "none"};
+const std::vector<std::string> layer_names{"albedo",   "normal",   "position", "depth",   "direct",
+                                           "indirect", "emission", "bounces",  "removed", "none"};
 
 /// Reads "WIDTHxHEIGHT" or "SIDE".
 mir::Extent read_tile(const std::string& text) {
@@ -226,7 +226,8 @@ void add_output(CLI::App& app, RenderOptions& o) {
         ->check(between(-100, 100, "-100 to 100"));
     app.add_option("--aov", o.layers,
                    "Layers of the EXR: albedo, normal, position, depth, direct, indirect, "
-                   "emission, bounces, or none (default: all but bounces)")
+                   "emission, bounces, removed (by the bound), or none (default: all but the two "
+                   "before)")
         ->delimiter(',')
         ->check(CLI::IsMember(layer_names))
         ->each([&o](const std::string& name) { o.no_layers |= name == "none"; });

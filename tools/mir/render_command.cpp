@@ -91,8 +91,11 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
         loaded.scene.cameras.push_back(mir::frame_bounds(loaded.report.bounds, aspect));
         o.settings.camera = static_cast<std::uint32_t>(loaded.scene.cameras.size() - 1);
     }
-    o.settings.bounce_layers =
-        std::find(o.layers.begin(), o.layers.end(), "bounces") != o.layers.end();
+    const auto wants = [&o](const char* layer) {
+        return std::find(o.layers.begin(), o.layers.end(), layer) != o.layers.end();
+    };
+    o.settings.bounce_layers = wants("bounces");
+    o.settings.removed_layer = wants("removed");
     // Before the remarks, so that a scene that cannot be rendered is answered in one line.
     mir::check_scene(loaded.scene, o.settings);
     if (o.quiet) return;

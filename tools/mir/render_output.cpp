@@ -36,6 +36,7 @@ std::vector<mir::ExrLayer> layers_of(const mir::RenderResult& r, const RenderOpt
     if (wants(o, "direct")) layers.push_back({"direct", &r.direct});
     if (wants(o, "indirect")) layers.push_back({"indirect", &r.indirect});
     if (wants(o, "emission")) layers.push_back({"emission", &r.emission});
+    if (wants(o, "removed")) layers.push_back({"removed", &r.removed});
     for (std::size_t i = 0; i < r.bounces.size(); ++i)
         layers.push_back({"bounce" + std::to_string(i + 1), &r.bounces[i]});
     return layers;

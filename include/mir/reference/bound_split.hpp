@@ -4,6 +4,7 @@
 #include "mir/data/luxel.hpp"
 #include "mir/shading/vpl_shading.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace mir {
@@ -22,12 +23,15 @@ struct BoundSplit {
     bool lamps = false;  ///< the bound holds for the emission of triangles too
 
     /// Share of the light that `at`, a lifted point with unit shading normal `normal`, gets from
-    /// the reflecting point `from`, also lifted; 0..1.
+    /// the reflecting point `from`, also lifted, when the two see each other; 0..1. Nearer to an
+    /// edge than points are lifted they may not face each other: no VPL there lights `at`.
     [[nodiscard]] float reflected(const Hit& at, Vec3 normal, const Hit& from) const {
         const Vec3 d = from.position - at.position;
-        const float inverse = 1.0f / std::sqrt(length_squared(d));
+        const float d2 = length_squared(d);
+        const float inverse = 1.0f / std::sqrt(d2);
         const float g = geometry_term(d * inverse, inverse, normal, from.normal);
-        const float kept = g > bound ? bound / g : 1.0f;
+        const bool is_near = d2 * bound < glm::dot(d * inverse, normal);
+        const float kept = g > bound ? bound / g : is_near && !(g > 0.0f) ? 0.0f : 1.0f;
         return part == BoundPart::kept ? kept : 1.0f - kept;
     }
 

@@ -60,14 +60,8 @@ class EngineCanvas {
 
     void finish() {
         const auto stage = job_.clock.measure(&StageSeconds::film);
-        std::vector<Image<Rgb>> images = job_.engine.develop(*picture_);
-        RenderResult& result = job_.result;
-        result.direct = std::move(images[direct_layer]);
-        result.emission = std::move(images[emission_layer]);
-        result.indirect = std::move(images[indirect_layer]);
-        for (std::size_t l = first_bounce_layer; l < images.size(); ++l)
-            result.bounces.push_back(std::move(images[l]));
-        add_up_layers(result, job_.executor);
+        take_layers(job_.engine.develop(*picture_), job_.settings.removed_layer, job_.result,
+                    job_.executor);
     }
 
  private:

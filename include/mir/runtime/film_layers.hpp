@@ -6,7 +6,8 @@
 
 namespace mir {
 
-/// Layers of the film of a render; those of the bounces, if there are any, come last.
+/// Layers of the film of a render. Those of the bounces, if there are any, come next, then what
+/// the bound removed, if that is wanted.
 enum FilmLayer : std::size_t { direct_layer, emission_layer, indirect_layer, first_bounce_layer };
 
 /// Makes the beauty of a result: emission + direct + indirect.
@@ -21,17 +22,31 @@ void add_up_layers(RenderResult& result, E& executor) {
     });
 }
 
+/// Moves the images of all layers of a film to their places in a result.
+template <Executor E>
+void take_layers(std::vector<Image<Rgb>> layers, bool removed_layer, RenderResult& result,
+                 E& executor) {
+    if (removed_layer) {
+        result.removed = std::move(layers.back());
+        layers.pop_back();
+    }
+    result.direct = std::move(layers[direct_layer]);
+    result.emission = std::move(layers[emission_layer]);
+    result.indirect = std::move(layers[indirect_layer]);
+    for (std::size_t l = first_bounce_layer; l < layers.size(); ++l)
+        result.bounces.push_back(std::move(layers[l]));
+    add_up_layers(result, executor);
+}
+
 /// Turns the film of a render into its images.
 template <Bsdf B, class Engine, Executor E>
 void develop_layers(const Film& film, const RenderContext<B, Engine, E>& context,
                     RenderResult& result) {
     const auto stage = context.clock.measure(&StageSeconds::film);
-    result.direct = film.develop(context.executor, direct_layer);
-    result.emission = film.develop(context.executor, emission_layer);
-    result.indirect = film.develop(context.executor, indirect_layer);
-    for (std::size_t l = first_bounce_layer; l < film.layers(); ++l)
-        result.bounces.push_back(film.develop(context.executor, l));
-    add_up_layers(result, context.executor);
+    std::vector<Image<Rgb>> layers;
+    for (std::size_t l = 0; l < film.layers(); ++l)
+        layers.push_back(film.develop(context.executor, l));
+    take_layers(std::move(layers), context.settings.removed_layer, result, context.executor);
 }
 
 }  // namespace mir

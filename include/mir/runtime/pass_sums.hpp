@@ -18,8 +18,8 @@ namespace mir {
 
 /// What independent renders of one scene, which differ in their seeds alone, amount to together.
 /// Added in a fixed order they give the same bits whatever happens between. Takes 24 bytes for each
-/// pixel and layer (direct, emission, indirect, albedo, normal, bounces) and 32 more for each
-/// pixel. One thread at a time.
+/// pixel and layer (direct, emission, indirect, removed, albedo, normal, bounces) and 32 more for
+/// each pixel. One thread at a time.
 class PassSums {
  public:
     /// Adds one more render, of the size of those before.
@@ -33,6 +33,7 @@ class PassSums {
         direct_.add(pass.direct);
         emission_.add(pass.emission);
         indirect_.add(pass.indirect);
+        removed_.add(pass.removed);
         albedo_.add(pass.guides.albedo);
         normal_.add(pass.guides.normal);
         add_bounces(pass);
@@ -60,8 +61,8 @@ class PassSums {
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
         archive(self.statistics_, self.remarks_, self.position_, self.depth_, self.spread_,
-                self.direct_, self.emission_, self.indirect_, self.albedo_, self.normal_,
-                self.bounces_);
+                self.direct_, self.emission_, self.indirect_, self.removed_, self.albedo_,
+                self.normal_, self.bounces_);
     }
 
  private:
@@ -94,6 +95,7 @@ class PassSums {
     LayerSum<Rgb> direct_;
     LayerSum<Rgb> emission_;
     LayerSum<Rgb> indirect_;
+    LayerSum<Rgb> removed_;  ///< empty where no pass has that layer
     LayerSum<Rgb> albedo_;
     LayerSum<Vec3> normal_;
     std::vector<LayerSum<Rgb>> bounces_;
@@ -112,6 +114,7 @@ inline RenderResult PassSums::result(bool complete) const {
     mean.emission = emission_.mean(n);
     mean.direct = direct_.mean(n);
     mean.indirect = indirect_.mean(n);
+    mean.removed = removed_.mean(n);
     for (const LayerSum<Rgb>& bounce : bounces_) mean.bounces.push_back(bounce.mean(n));
     InlineExecutor executor;
     add_up_layers(mean, executor);

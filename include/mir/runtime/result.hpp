@@ -63,6 +63,9 @@ struct RenderResult {
     VplList vpls;
     RenderStatistics statistics;
     std::vector<std::string> warnings;  ///< sentences
+    /// What the bound removed from the VPLs' light, as the VPLs tell it: in no other layer; empty
+    /// unless asked for.
+    Image<Rgb> removed{};
 };
 
 }  // namespace mir

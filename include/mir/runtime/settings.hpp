@@ -128,6 +128,7 @@ struct RenderSettings {
     /// of luxels rounded likewise; none: the backend's choice.
     std::optional<Extent> tile;
     bool bounce_layers = false;   ///< one image per bounce besides the sum
+    bool removed_layer = false;   ///< an image of the light that the bound removed
     bool allow_no_light = false;  ///< a scene without light gives black, not an error
     Limits limits;
 
@@ -152,8 +153,11 @@ struct RenderSettings {
 
 namespace detail {
 
-/// There must be light that can be traced back.
-inline void check_compensation(const RenderSettings& s) {
+/// There must be light that can be shown, or traced back.
+inline void check_removed(const RenderSettings& s) {
+    expects(!s.removed_layer || s.integrator == Integrator::vpl,
+            "only the light of VPLs has a bound that removes some of it (there is none to show); "
+            "leave the layer out or use --integrator vpl");
     if (s.compensate == 0) return;
     expects(s.compensate <= 65536, "paths per pixel that trace back light must be 0 to 65536");
     expects(s.integrator == Integrator::vpl,
@@ -214,7 +218,7 @@ inline void RenderSettings::validate() const {
     expects(integrator == Integrator::vpl || bound.kind != BoundPolicy::Kind::fixed,
             "only the light of VPLs has a bounded geometry term (the picture would not be the one "
             "asked for); leave --bound out or use --integrator vpl");
-    detail::check_compensation(*this);
+    detail::check_removed(*this);
     expects(micro.surfels > 0,
             "0 discs were asked for (there would be no indirect light); 16384 are usual");
     check_limit(micro.surfels, limits.surfels, "surfels");

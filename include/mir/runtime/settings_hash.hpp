@@ -18,13 +18,14 @@ class SettingsHash {
         const auto& [image, luxels, camera, integrator, path, micro, vpls, sampler, normalisation,
                      prepass, metropolis, roulette, termination, sequence, direct, direct_samples,
                      max_bounce, bound, compensate, filter, seed, threads, backend, acceleration,
-                     scheduler, tile, bounce_layers, allow_no_light, limits] = settings;
+                     scheduler, tile, bounce_layers, removed_layer, allow_no_light, limits] =
+            settings;
         static_cast<void>(threads), static_cast<void>(scheduler), static_cast<void>(tile);
         static_cast<void>(limits);
         add(image.width, image.height, luxels, camera, integrator, vpls, sampler, normalisation,
             prepass, roulette, termination, sequence, direct, direct_samples, max_bounce,
             bound.kind, bound.value, compensate, filter.kind, filter.half_width, filter.tau, seed,
-            backend, acceleration, bounce_layers, allow_no_light);
+            backend, acceleration, bounce_layers, removed_layer, allow_no_light);
         add_path(path);
         add_micro(micro);
         add_metropolis(metropolis);

@@ -62,6 +62,7 @@ class TiledRender {
     using Bands = ImageBands<B, Engine, E>;
     using Band = typename Bands::Band;
     using Canvas = CanvasOf<B, Engine, E, MakeScheduler>;
+    using Layer = typename Canvas::Layer;
 
     void choose_bound();
     [[nodiscard]] double seen_area() const;
@@ -71,10 +72,10 @@ class TiledRender {
     void plan_progress(bool stored, bool kept);
     std::vector<Band> normalise_vpls(const Bands& bands, const VplRecords& records);
     void render_band(Canvas& canvas, const Band& band, const VplLight<B>& light);
-    void measure_removed(const Canvas& canvas, const Band& band, const VplLight<B>& light,
-                         const typename Canvas::Layer& indirect);
-    void add_residual(const Canvas& canvas, const Band& band,
-                      std::vector<typename Canvas::Layer>& layers);
+    [[nodiscard]] Layer removed_light(const Canvas& canvas, const Band& band,
+                                      const VplLight<B>& light);
+    void add_residual(const Canvas& canvas, const Band& band, std::vector<Layer>& layers);
+    void add_mean(const Canvas& canvas, const Layer& layer, double RenderStatistics::*mean);
 
     RenderJob<B, Engine, E> job_;
     MakeScheduler make_scheduler_;
@@ -159,7 +160,9 @@ void TiledRender<B, Engine, E, MakeScheduler>::render(const VplRecords& records,
     std::vector<Band> kept;
     if (normalises) kept = normalise_vpls(bands, records);
     const VplLight<B> light(job_.settings, shading_, job_.result.vpls);
-    Canvas canvas(job_, make_scheduler_, std::size_t{first_bounce_layer} + light.bounces());
+    Canvas canvas(
+        job_, make_scheduler_,
+        std::size_t{first_bounce_layer} + light.bounces() + (job_.settings.removed_layer ? 1 : 0));
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
         Band band = kept.empty() ? bands.make(i) : std::move(kept[i]);
         if (stores && !band.knows_visibility()) bands.find_visible(band, job_.result.vpls.span());
@@ -193,7 +196,7 @@ auto TiledRender<B, Engine, E, MakeScheduler>::normalise_vpls(const Bands& bands
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 void TiledRender<B, Engine, E, MakeScheduler>::render_band(Canvas& canvas, const Band& band,
                                                            const VplLight<B>& light) {
-    std::vector<typename Canvas::Layer> layers;
+    std::vector<Layer> layers;
     {
         const auto stage = job_.clock.measure(&StageSeconds::direct);
         const bool sampled = job_.settings.direct == DirectLight::separate;
@@ -205,35 +208,46 @@ void TiledRender<B, Engine, E, MakeScheduler>::render_band(Canvas& canvas, const
         const auto stage = job_.clock.measure(&StageSeconds::reconstruction);
         light.append_layers(canvas, band, job_.monitor, layers);
     }
-    measure_removed(canvas, band, light, layers[indirect_layer]);
+    {
+        const auto stage = job_.clock.measure(&StageSeconds::ledger);
+        add_mean(canvas, layers[indirect_layer], &RenderStatistics::indirect_luminance);
+    }
+    Layer removed = removed_light(canvas, band, light);
     if constexpr (!BandEngine<Engine>)
         if (job_.settings.compensate > 0) add_residual(canvas, band, layers);
+    if (job_.settings.removed_layer) layers.push_back(std::move(removed));
     canvas.put(band, layers);
 }
 
+/// The light that the bound removed from a band, by the VPLs.
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-void TiledRender<B, Engine, E, MakeScheduler>::measure_removed(
-    const Canvas& canvas, const Band& band, const VplLight<B>& light,
-    const typename Canvas::Layer& indirect) {
-    RenderStatistics& s = job_.result.statistics;
+auto TiledRender<B, Engine, E, MakeScheduler>::removed_light(const Canvas& canvas, const Band& band,
+                                                             const VplLight<B>& light) -> Layer {
     const auto stage = job_.clock.measure(&StageSeconds::ledger);
-    // Row by row, so that bands change nothing.
-    const double share = 1.0 / static_cast<double>(s.luxels);
-    for (const double row : canvas.row_luminances(indirect)) s.indirect_luminance += row * share;
-    if (job_.settings.bound.kind == BoundPolicy::Kind::none) return;
-    for (const double row : canvas.row_luminances(light.removed(canvas, band)))
-        s.removed_luminance += row * share;
+    if (job_.settings.bound.kind == BoundPolicy::Kind::none) return canvas.black(band);
+    Layer removed = light.removed(canvas, band);
+    add_mean(canvas, removed, &RenderStatistics::removed_luminance);
+    return removed;
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-void TiledRender<B, Engine, E, MakeScheduler>::add_residual(
-    const Canvas& canvas, const Band& band, std::vector<typename Canvas::Layer>& layers) {
-    RenderStatistics& s = job_.result.statistics;
+void TiledRender<B, Engine, E, MakeScheduler>::add_residual(const Canvas& canvas, const Band& band,
+                                                            std::vector<Layer>& layers) {
     const auto stage = job_.clock.measure(&StageSeconds::residual);
-    const auto light = canvas.add_residual(band, shading_.bound, layers);
+    add_mean(canvas, canvas.add_residual(band, shading_.bound, layers),
+             &RenderStatistics::residual_luminance);
+    job_.result.statistics.residual_paths +=
+        band.extent().area() * job_.settings.compensate_per_luxel();
+}
+
+/// Adds what a band brings to a mean luminance over the image: row by row, so that bands change
+/// nothing.
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+void TiledRender<B, Engine, E, MakeScheduler>::add_mean(const Canvas& canvas, const Layer& layer,
+                                                        double RenderStatistics::*mean) {
+    RenderStatistics& s = job_.result.statistics;
     const double share = 1.0 / static_cast<double>(s.luxels);
-    for (const double row : canvas.row_luminances(light)) s.residual_luminance += row * share;
-    s.residual_paths += band.extent().area() * job_.settings.compensate_per_luxel();
+    for (const double row : canvas.row_luminances(layer)) s.*mean += row * share;
 }
 
 }  // namespace mir
