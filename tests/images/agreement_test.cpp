@@ -8,6 +8,7 @@
 #include "self_normalised.hpp"
 #include "support/catch.hpp"
 #include "support/shared_scenes.hpp"
+#include "support/test_sky.hpp"
 
 using namespace mirtest;
 using mir::Lambert;
@@ -155,6 +156,23 @@ TEST_CASE("IR, BIR and MIR bring the light of the path tracer to Veach's room", 
     CHECK(trial.p_of(instant_radiosity(trial.settings, 4096)) > level);
     CHECK(trial.p_of(bidirectional(trial.settings)) > level);
     CHECK(trial.p_of(metropolis(trial.settings)) > level);
+}
+
+// H0 and test as above, 3 samplers and chains of Veach's mutations, in a Cornell box that a sky
+// lights through its open front, next to its lamp.
+TEST_CASE("IR, BIR and MIR bring the light of the path tracer under a sky", "[statistical]") {
+    const double level = sidak(0.01, 4);
+    mir::Scene scene = mir::builtin::make("cornell-box");
+    for (mir::Material& m : scene.materials) m.emission = m.emission * 0.1f;
+    scene.environment = test_sky();
+    scene.environment->scale = 2.0f;
+    const Trial trial(scene, 64);
+    CHECK(trial.p_of(instant_radiosity(trial.settings, 2048)) > level);
+    CHECK(trial.p_of(bidirectional(trial.settings)) > level);
+    mir::RenderSettings chains = metropolis(trial.settings);
+    CHECK(trial.p_of(chains) > level);
+    chains.metropolis.chain.mutation = mir::Mutation::bidirectional;
+    CHECK(trial.p_of(chains) > level);
 }
 
 namespace {

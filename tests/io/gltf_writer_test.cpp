@@ -194,6 +194,17 @@ TEST_CASE("a scene that cannot be written leaves no file and says why") {
     CHECK(folder.files() == 0);
 }
 
+TEST_CASE("a scene whose environment glTF would lose is not written") {
+    const TemporaryFolder folder("gltf_environment");
+    mir::Scene scene;
+    scene.environment.emplace();
+    mir::ErrorCode code{};
+    const auto write = [&] { mir::write_glb(scene, folder / "scene.glb"); };
+    CHECK(message_of(write, &code).find("environment") != std::string::npos);
+    CHECK(code == mir::ErrorCode::unsupported);
+    CHECK(folder.files() == 0);
+}
+
 TEST_CASE("every shared scene survives being read, written and read again") {
     const auto shared = shared_scenes();
     if (!shared) {

@@ -11,6 +11,7 @@
 #include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
 #include "support/masked_scene.hpp"
+#include "support/test_sky.hpp"
 
 #include <cstring>
 
@@ -144,6 +145,18 @@ TEST_CASE("Bands and luxels per pixel change nothing between backend and host") 
     // Visibility of one row of blocks: several bands.
     settings.limits.visibility_bytes = std::uint64_t{2400} * settings.luxels_per_pixel;
     check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
+}
+
+TEST_CASE("A sky has the same bits in a backend's memory, behind the scene and in its light") {
+    Scene scene = lit_room();
+    scene.environment = mirtest::test_sky();
+    scene.environment->rotation = 10.0f;  // no black texel ahead
+    // From outside, where the walls do not fill the picture.
+    scene.cameras[0].position += 3.0f * scene.cameras[0].back;
+    RenderSettings settings = small_picture();
+    const RenderResult host = draw_on_host(scene, settings);
+    CHECK(host.emission(0, 0).g > 0.0f);
+    check_same(host, draw_on_backend(scene, settings, {}));
 }
 
 TEST_CASE("Light of VPLs that are no states is traced by every scheduler, with the same bits") {

@@ -61,6 +61,7 @@ Parsed parse(int argc, char** argv) {
 
     CLI::App* i = app.add_subcommand("info", "Tell what a scene holds and what is not supported");
     i->add_option("scene", info.scene, scene)->required();
+    add_environment(*i, info.environment);
     i->add_flag("--accel", info.accel, "Build the kd-tree and tell its size, cost and build time");
     i->add_flag("--json", info.json, "JSON on stdout");
 

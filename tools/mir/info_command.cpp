@@ -4,12 +4,14 @@
 #include "load_scene.hpp"
 #include "mir/accel/kd_build.hpp"
 #include "mir/cpu/tbb_executor.hpp"
+#include "mir/scene/environment_table.hpp"
 #include "mir/scene/scene_hash.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <numbers>
 
 namespace mirtool {
 namespace {
@@ -27,7 +29,8 @@ Json counts_of(const mir::SceneReport& r) {
             {"emitting_triangles", r.emitting_triangles},
             {"point_lights", r.point_lights},
             {"spot_lights", r.spot_lights},
-            {"directional_lights", r.directional_lights}};
+            {"directional_lights", r.directional_lights},
+            {"environments", r.environments}};
 }
 
 Json cameras_of(const mir::SceneReport& r) {
@@ -42,6 +45,23 @@ Json cameras_of(const mir::SceneReport& r) {
 }
 
 Json vector_of(mir::Vec3 v) { return {v.x, v.y, v.z}; }
+
+/// Size of the image around the scene, and mean radiance over all directions.
+Json environment_of(const mir::Environment& e) {
+    const mir::Extent size = e.radiance.extent();
+    double sum[3] = {};
+    for (std::uint32_t y = 0; y < size.height; ++y) {
+        const double share = mir::detail::texel_solid_angle(size, y) / (4.0 * std::numbers::pi);
+        for (std::uint32_t x = 0; x < size.width; ++x) {
+            const mir::Rgb light = e.radiance(x, y) * e.scale;
+            const float channels[3] = {light.r, light.g, light.b};
+            for (int k = 0; k < 3; ++k) sum[k] += share * static_cast<double>(channels[k]);
+        }
+    }
+    return {{"file", e.name},         {"width", size.width},
+            {"height", size.height},  {"scale", e.scale},
+            {"rotation", e.rotation}, {"mean_radiance", {sum[0], sum[1], sum[2]}}};
+}
 
 /// What the kd-tree of the scene looks like; takes as long as building it.
 Json kd_tree_of(const mir::Scene& scene) {
@@ -71,6 +91,7 @@ void print_json(const std::string& name, const SceneAndReport& loaded, bool acce
     if (!r.bounds.empty())
         out["bounds"] = {{"low", vector_of(r.bounds.low)}, {"high", vector_of(r.bounds.high)}};
     out["cameras"] = cameras_of(r);
+    if (loaded.scene.environment) out["environment"] = environment_of(*loaded.scene.environment);
     out["ignored"] = r.ignored;
     out["notes"] = r.notes;
     if (accel) out["kd_tree"] = kd_tree_of(loaded.scene);
@@ -98,6 +119,13 @@ void print_text(const std::string& name, const SceneAndReport& loaded, bool acce
         std::printf("  %-24s (%g, %g, %g) to (%g, %g, %g) m\n", "bounds", r.bounds.low.x,
                     r.bounds.low.y, r.bounds.low.z, r.bounds.high.x, r.bounds.high.y,
                     r.bounds.high.z);
+    if (loaded.scene.environment) {
+        const Json e = environment_of(*loaded.scene.environment);
+        const Json& mean = e["mean_radiance"];
+        std::printf("  %-24s %u x %u, mean radiance %.4g, %.4g, %.4g W/(m2 sr)\n", "environment",
+                    e["width"].get<unsigned>(), e["height"].get<unsigned>(), mean[0].get<double>(),
+                    mean[1].get<double>(), mean[2].get<double>());
+    }
     for (const mir::CameraReport& c : r.cameras) {
         std::printf("  camera '%s': %s", c.name.c_str(), c.kind.c_str());
         if (c.width > 0) std::printf(", %u x %u", c.width, c.height);
@@ -114,7 +142,7 @@ void print_text(const std::string& name, const SceneAndReport& loaded, bool acce
 }  // namespace
 
 int run(const InfoOptions& options) {
-    const SceneAndReport loaded = load_scene(options.scene);
+    const SceneAndReport loaded = load_scene(options.scene, {}, options.environment);
     if (options.json)
         print_json(options.scene, loaded, options.accel);
     else

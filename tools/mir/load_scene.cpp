@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "load_scene.hpp"
 
+#include "mir/io/exr.hpp"
 #include "mir/io/scene_reader.hpp"
 #include "mir/scene/builtin.hpp"
+#include "mir/scene/environment_table.hpp"
 
 #include <filesystem>
 
@@ -25,13 +27,28 @@ SceneAndReport load_file(const std::string& name, const mir::Limits& limits) {
     return {std::move(loaded.scene), std::move(loaded.report)};
 }
 
+/// What is to be around the scene, checked as long as the file's name is known.
+mir::Environment read_environment(const EnvironmentOptions& o, const mir::Limits& limits) {
+    mir::Environment environment;
+    environment.name = o.file;
+    environment.radiance = mir::read_exr(o.file, "", limits).image;
+    environment.scale = o.scale;
+    environment.rotation = o.rotation;
+    static_cast<void>(mir::EnvironmentTable(environment));
+    return environment;
+}
+
 }  // namespace
 
-SceneAndReport load_scene(const std::string& name, const mir::Limits& limits) {
+SceneAndReport load_scene(const std::string& name, const mir::Limits& limits,
+                          const EnvironmentOptions& environment) {
     try {
-        if (name.starts_with(builtin_prefix))
-            return load_builtin(name.substr(builtin_prefix.size()));
-        return load_file(name, limits);
+        SceneAndReport loaded = name.starts_with(builtin_prefix)
+                                    ? load_builtin(name.substr(builtin_prefix.size()))
+                                    : load_file(name, limits);
+        if (!environment.file.empty())
+            mir::put_around(loaded.scene, read_environment(environment, limits), loaded.report);
+        return loaded;
     } catch (const mir::Error& e) {
         // Whatever a scene does wrong is the input's fault here, not that of the command line.
         if (e.code() == mir::ErrorCode::limit_exceeded ||

@@ -3,6 +3,7 @@
 
 #include "mir/core/limits.hpp"
 #include "mir/io/scene_report.hpp"
+#include "options.hpp"
 
 #include <string>
 
@@ -14,9 +15,11 @@ struct SceneAndReport {
     mir::SceneReport report;
 };
 
-/// Loads `builtin:NAME` or a file of one of the formats that read_scene() knows.
-/// @throws mir::Error(invalid_input) for whatever is wrong with it, limits included.
-SceneAndReport load_scene(const std::string& name, const mir::Limits& limits = {});
+/// Loads `builtin:NAME` or a file of one of the formats that read_scene() knows, and what is to be
+/// around it.
+/// @throws mir::Error(invalid_input) for whatever is wrong with either, limits included.
+SceneAndReport load_scene(const std::string& name, const mir::Limits& limits = {},
+                          const EnvironmentOptions& environment = {});
 
 /// The name without folder and extension, for default output names.
 std::string stem_of(const std::string& name);

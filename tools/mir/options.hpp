@@ -31,9 +31,17 @@ struct AddedScene {
     float fov = 45.0f;                 ///< vertical, degrees
 };
 
+/// Light from all around that the command line puts around a scene.
+struct EnvironmentOptions {
+    std::string file;  ///< EXR; empty: none
+    float scale = 1.0f;
+    float rotation = 0.0f;  ///< degrees
+};
+
 /// `mir render`.
 struct RenderOptions {
     std::string scene;
+    EnvironmentOptions environment;
     std::string output;            ///< EXR; empty: named after the scene
     std::string preview;           ///< PNG; empty: beside the EXR
     std::string report;            ///< HTML; empty: none
@@ -58,6 +66,7 @@ struct RenderOptions {
 /// `mir info`.
 struct InfoOptions {
     std::string scene;
+    EnvironmentOptions environment;
     bool accel = false;  ///< build the kd-tree and tell about it
     bool json = false;
 };

@@ -141,7 +141,7 @@ int run(const RenderOptions& options) {
     std::optional<tbb::global_control> threads;
     if (o.settings.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, o.settings.threads);
-    SceneAndReport loaded = load_scene(o.scene, o.settings.limits);
+    SceneAndReport loaded = load_scene(o.scene, o.settings.limits, o.environment);
     blaming(o.scene, [&] { prepare(o, loaded); });
     check_report_reference(o, reference);
     // Also while files are written, since a signal that ended the program there would leave halves.

@@ -205,8 +205,8 @@ OutputPaths choose_outputs(const RenderOptions& o) {
     mir::expects(o.vpls_out.empty() || o.settings.integrator == mir::Integrator::vpl,
                  "this integrator places no VPLs (there would be none to write); leave --vpls-out "
                  "out or use --integrator vpl");
-    check_output_places({o.scene, o.report_reference}, {paths.exr, paths.png, o.report, o.vpls_out},
-                        "render");
+    check_output_places({o.scene, o.environment.file, o.report_reference},
+                        {paths.exr, paths.png, o.report, o.vpls_out}, "render");
     return paths;
 }
 
@@ -250,6 +250,10 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     if (!paths.png.empty()) out["preview"] = paths.png;
     if (!o.report.empty()) out["report"] = o.report;
     if (!o.vpls_out.empty()) out["vpl_file"] = o.vpls_out;
+    if (!o.environment.file.empty())
+        out["environment"] = {{"file", o.environment.file},
+                              {"scale", o.environment.scale},
+                              {"rotation", o.environment.rotation}};
     out["width"] = r.beauty.width();
     out["height"] = r.beauty.height();
     out["seed"] = o.settings.seed;

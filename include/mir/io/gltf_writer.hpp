@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/error.hpp"
 #include "mir/io/detail/gltf_build.hpp"
 #include "mir/io/detail/write_glb_model.hpp"
 #include "mir/scene/scene.hpp"
@@ -17,10 +18,15 @@ namespace mir {
 /// textures do so up to rounding. The file appears complete or not at all; equal scenes give equal
 /// bytes. Thread-safe for different files.
 /// @throws Error(io) when the file cannot be written; Error(invalid_input) when the scene breaks
-///         its own rules (WorldGeometry); Error(invalid_argument) for a mesh without triangles, a
-///         texture that is sheared or a name that is not UTF-8; Error(limit_exceeded) when it
-///         exceeds the 4 GiB of the format.
+///         its own rules (WorldGeometry); Error(unsupported) when it has an environment;
+///         Error(invalid_argument) for a mesh without triangles, a texture that is sheared or a
+///         name that is not UTF-8; Error(limit_exceeded) when it exceeds the 4 GiB of the format.
 inline void write_glb(const Scene& scene, const std::filesystem::path& path) {
+    if (scene.environment)
+        throw Error(ErrorCode::unsupported,
+                    path.string() +
+                        ": the scene cannot be written (glTF has no environment, and "
+                        "the scene would lose its light); take it out of the scene");
     detail::write_glb_model(detail::GltfBuilder().build(scene), path);
 }
 

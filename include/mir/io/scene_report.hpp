@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mir {
@@ -34,6 +35,7 @@ struct SceneReport {
     std::uint64_t point_lights = 0;
     std::uint64_t spot_lights = 0;
     std::uint64_t directional_lights = 0;
+    std::uint64_t environments = 0;  ///< 0 or 1
     std::vector<CameraReport> cameras;
     Bounds bounds;  ///< of all instances, metres
 
@@ -44,11 +46,17 @@ struct SceneReport {
 
     /// True when nothing in the scene shines.
     [[nodiscard]] bool is_dark() const {
-        return emitting_triangles + point_lights + spot_lights + directional_lights == 0;
+        return emitting_triangles + point_lights + spot_lights + directional_lights +
+                   environments ==
+               0;
     }
 };
 
 namespace detail {
+
+/// Note on a scene that is_dark().
+inline constexpr const char* no_light_note =
+    "no light: no material emits and there is no light source";
 
 inline void count_instance(const Scene& scene, const Instance& instance, SceneReport& report) {
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -60,8 +68,7 @@ inline void count_instance(const Scene& scene, const Instance& instance, SceneRe
 
 inline void note_absences(const Scene& scene, SceneReport& report) {
     if (report.triangles == 0) report.notes.emplace_back("no triangles: there is nothing to see");
-    if (report.is_dark())
-        report.notes.emplace_back("no light: no material emits and there is no light source");
+    if (report.is_dark()) report.notes.emplace_back(no_light_note);
     if (scene.cameras.empty())
         report.notes.emplace_back("no usable camera: the bounding box can be framed instead");
 }
@@ -78,12 +85,21 @@ inline void count_scene(const Scene& scene, SceneReport& report) {
     report.point_lights = scene.point_lights.size();
     report.spot_lights = scene.spot_lights.size();
     report.directional_lights = scene.directional_lights.size();
+    report.environments = scene.environment ? 1 : 0;
     for (const Mesh& mesh : scene.meshes) report.stored_triangles += mesh.triangles.size();
     for (const Material& material : scene.materials)
         if (material.emits()) ++report.emitting_materials;
     for (const Instance& instance : scene.instances)
         detail::count_instance(scene, instance, report);
     detail::note_absences(scene, report);
+}
+
+/// Gives a counted scene the light of `environment`, which no file format of read_scene() holds: in
+/// place of what it had, and of the note that it is dark.
+inline void put_around(Scene& scene, Environment environment, SceneReport& report) {
+    scene.environment = std::move(environment);
+    report.environments = 1;
+    std::erase(report.notes, detail::no_light_note);
 }
 
 }  // namespace mir

@@ -88,7 +88,10 @@ std::string scene_section(const ReportInput& in) {
         {"materials", std::to_string(r.materials) + ", " + std::to_string(r.emitting_materials) +
                           " of them emit"},
         {"lights", std::to_string(r.point_lights) + " points, " + std::to_string(r.spot_lights) +
-                       " spots, " + std::to_string(r.directional_lights) + " directional"},
+                       " spots, " + std::to_string(r.directional_lights) + " directional" +
+                       (in.options.environment.file.empty()
+                            ? ""
+                            : ", around them " + in.options.environment.file)},
         {"emitted power", number(s.emitted_power) + " W (luminance)"}};
     for (const auto& [what, times] : r.ignored)
         rows.push_back({"ignored", what + " (" + std::to_string(times) + ")"});
