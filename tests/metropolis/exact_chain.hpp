@@ -51,23 +51,23 @@ inline std::vector<double> after_step(const std::vector<double>& from, const Tra
 /// Largest |pi_i P_ij - pi_j P_ji|: 0 when the chain is in detailed balance with `target`, of any
 /// scale. A negative probability counts as an imbalance of 1.
 inline double imbalance(const std::vector<double>& target, const TransitionMatrix& p) {
-    const std::vector<double> pi = normalised(target);
+    const std::vector<double> wanted = normalised(target);
     double worst = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i)
         for (std::size_t j = 0; j < p.size(); ++j) {
             if (p[i][j] < -1e-14) return 1.0;
-            worst = std::max(worst, std::fabs(pi[i] * p[i][j] - pi[j] * p[j][i]));
+            worst = std::max(worst, std::fabs(wanted[i] * p[i][j] - wanted[j] * p[j][i]));
         }
     return worst;
 }
 
 /// Total variation distance between `target` and what the chain converges to from it.
 inline double stationary_error(const std::vector<double>& target, const TransitionMatrix& p) {
-    const std::vector<double> pi = normalised(target);
-    std::vector<double> now = pi;
+    const std::vector<double> wanted = normalised(target);
+    std::vector<double> now = wanted;
     for (int step = 0; step < 10'000; ++step) now = after_step(now, p);
     double distance = 0.0;
-    for (std::size_t i = 0; i < pi.size(); ++i) distance += 0.5 * std::fabs(now[i] - pi[i]);
+    for (std::size_t i = 0; i < wanted.size(); ++i) distance += 0.5 * std::fabs(now[i] - wanted[i]);
     return distance;
 }
 
