@@ -33,8 +33,8 @@ endif()
 
 # mir_add_test(NAME source... [LIBRARIES target...] [LABELS label...])
 #
-# One test program. Each TEST_CASE becomes a test "NAME: <its sentence>"; those tagged [statistical]
-# get that label besides LABELS. Two labels say which sanitizers are not worth their time: all
+# One test program. Each TEST_CASE becomes a test "NAME: <its sentence>"; those tagged [statistical],
+# or [extended] for tests that ./test.sh leaves to .ci/run, get that label besides LABELS. Two labels say which sanitizers are not worth their time: all
 # programs but those labelled `slow` are built by the target memory_tests, those labelled `threads`
 # by threaded_tests.
 function(mir_add_test name)
@@ -52,17 +52,26 @@ function(mir_add_test name)
         add_dependencies(memory_tests ${name})
     endif()
 
-    set(has_statistical)
-    foreach(source IN LISTS arg_UNPARSED_ARGUMENTS)
-        file(STRINGS ${source} tags REGEX "\\[statistical\\]" LIMIT_COUNT 1)
-        list(APPEND has_statistical ${tags})
+    set(others)
+    foreach(tag IN ITEMS extended statistical)
+        mir_has_tag(found ${tag} ${arg_UNPARSED_ARGUMENTS})
+        if(found)
+            mir_discover_tests(${name} "${others}[${tag}]" "${arg_LABELS};${tag}")
+            string(APPEND others "~[${tag}]")
+        endif()
     endforeach()
-    if(has_statistical)
-        mir_discover_tests(${name} "~[statistical]" "${arg_LABELS}")
-        mir_discover_tests(${name} "[statistical]" "${arg_LABELS};statistical")
-    else()
-        mir_discover_tests(${name} "" "${arg_LABELS}")
-    endif()
+    mir_discover_tests(${name} "${others}" "${arg_LABELS}")
+endfunction()
+
+# Sets `result` to true when a TEST_CASE of the sources has the tag.
+function(mir_has_tag result tag)
+    set(${result} FALSE PARENT_SCOPE)
+    foreach(source IN LISTS ARGN)
+        file(STRINGS ${source} lines REGEX "\\[${tag}\\]" LIMIT_COUNT 1)
+        if(lines)
+            set(${result} TRUE PARENT_SCOPE)
+        endif()
+    endforeach()
 endfunction()
 
 # The labels become one word, because catch_discover_tests() takes a list of labels apart; CTest

@@ -3,15 +3,11 @@
 // operator new of the whole program.
 #include "faults/failing_new.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdlib>
-
-#ifdef MIRTEST_FINDS_LEAKS
-/// What Embree does not give back when memory fails while it builds. In this program alone:
-/// elsewhere such memory would be that of a scene or device which we do not release.
-// NOLINTNEXTLINE(bugprone-reserved-identifier, readability-identifier-naming): the sanitizer's name
-extern "C" const char* __lsan_default_suppressions() { return "leak:libembree"; }
-#endif
+#include <cstring>
 
 // NOLINTBEGIN(*-no-malloc, *-avoid-non-const-global-variables): there is nothing below it.
 namespace {
@@ -20,9 +16,15 @@ thread_local std::uint64_t calls_left = 0;  // until one fails; 0: none does
 thread_local bool has_struck = false;
 thread_local std::size_t largest = 0;
 
-void* allocate(std::size_t size, std::size_t alignment) {
+bool is_in_embree(const void* code) {
+    Dl_info info{};
+    return dladdr(code, &info) != 0 && info.dli_fname != nullptr &&
+           std::strstr(info.dli_fname, "libembree") != nullptr;
+}
+
+void* allocate(std::size_t size, std::size_t alignment, const void* caller) {
     largest = std::max(largest, size);
-    if (calls_left > 0 && --calls_left == 0) {
+    if (calls_left > 0 && !is_in_embree(caller) && --calls_left == 0) {
         has_struck = true;
         throw std::bad_alloc();
     }
@@ -35,9 +37,9 @@ void* allocate(std::size_t size, std::size_t alignment) {
     return memory;
 }
 
-void* allocate_or_null(std::size_t size, std::size_t alignment) noexcept {
+void* allocate_or_null(std::size_t size, std::size_t alignment, const void* caller) noexcept {
     try {
-        return allocate(size, alignment);
+        return allocate(size, alignment, caller);
     } catch (const std::bad_alloc&) {
         return nullptr;
     }
@@ -45,20 +47,20 @@ void* allocate_or_null(std::size_t size, std::size_t alignment) noexcept {
 
 }  // namespace
 
-void* operator new(std::size_t size) { return allocate(size, 1); }
-void* operator new[](std::size_t size) { return allocate(size, 1); }
+void* operator new(std::size_t size) { return allocate(size, 1, __builtin_return_address(0)); }
+void* operator new[](std::size_t size) { return allocate(size, 1, __builtin_return_address(0)); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
-    return allocate(size, static_cast<std::size_t>(alignment));
+    return allocate(size, static_cast<std::size_t>(alignment), __builtin_return_address(0));
 }
 void* operator new[](std::size_t size, std::align_val_t alignment) {
-    return allocate(size, static_cast<std::size_t>(alignment));
+    return allocate(size, static_cast<std::size_t>(alignment), __builtin_return_address(0));
 }
 // The address sanitizer has these of its own, and would miss its own delete.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    return allocate_or_null(size, 1);
+    return allocate_or_null(size, 1, __builtin_return_address(0));
 }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
-    return allocate_or_null(size, 1);
+    return allocate_or_null(size, 1, __builtin_return_address(0));
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }

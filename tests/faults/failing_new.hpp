@@ -26,7 +26,9 @@ class LeaksOfOthers {
 
 /// While it exists, the `n`-th call of operator new in this thread, counted from 1, throws
 /// std::bad_alloc: once, as later ones may succeed where memory is scarce. One at a time in a
-/// thread. What libraries get from malloc() is not concerned.
+/// thread. What libraries get from malloc() is not concerned, nor is what Embree 3.13 asks for:
+/// where its build runs out of memory, a later build may write into memory that is no longer its
+/// own.
 class AllocationFault {
  public:
     explicit AllocationFault(std::uint64_t n);

@@ -104,7 +104,8 @@ TEST_CASE("IR, BIR and MIR bring the light of the path tracer", "[statistical]")
 }
 
 // H0 and test as above, over the ways to run the chains on two scenes.
-TEST_CASE("MIR brings the light of the path tracer however its chains run", "[statistical]") {
+TEST_CASE("MIR brings the light of the path tracer however its chains run",
+          "[statistical][extended]") {
     constexpr auto variants = 7;
     const double level = sidak(0.01, 2 * variants);
     for (const char* name : {"cornell-inverted", "sphere-indirect"}) {
@@ -145,7 +146,8 @@ TEST_CASE("IR, BIR and MIR bring the light of the path tracer to the room behind
 }
 
 // H0 and test as above, 3 samplers.
-TEST_CASE("IR, BIR and MIR bring the light of the path tracer to Veach's room", "[statistical]") {
+TEST_CASE("IR, BIR and MIR bring the light of the path tracer to Veach's room",
+          "[statistical][extended]") {
     const auto scenes = shared_scenes();
     if (!scenes) {
         WARN("skipped: the shared scenes are not on this machine");
@@ -266,7 +268,7 @@ double p_of_renders(const Trial& trial, const mir::RenderSettings& s, Render mak
 // The same hypothesis and test, level 1 % over both scenes: true for the first, rejected for the
 // others. The bound is low, so that it matters who knows it.
 TEST_CASE("MIR that is normalised wrongly does not bring the light of the path tracer",
-          "[statistical]") {
+          "[statistical][extended]") {
     const double level = sidak(0.01, 2);
     for (const char* name : {"cornell-box", "sphere"}) {
         const Trial trial(mir::builtin::make(name), 32, 32);

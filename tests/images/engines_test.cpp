@@ -99,7 +99,8 @@ bool is_explained(float x, float y, float open, float all, std::size_t n) {
 
 }  // namespace
 
-TEST_CASE("Pictures by Embree and by the kd-tree differ by the pairs that the two disagree about") {
+TEST_CASE("Pictures by Embree and by the kd-tree differ by the pairs that the two disagree about",
+          "[extended]") {
     std::uint64_t rays = 0;
     std::uint64_t different = 0;
     for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {

@@ -4,22 +4,26 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mirtool {
 
-/// Number of insertions, deletions and replacements that turn one word into the other
-/// (Levenshtein distance).
+/// Number of insertions, deletions, replacements and swaps of neighbours that turn one word into
+/// the other, none of them touched twice (Damerau 1964, "optimal string alignment").
 inline std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> before;  // the row of a prefix that is two letters shorter
+    std::vector<std::size_t> above;
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
+        before = std::exchange(above, row);
         row[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+            const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
         }
     }
     return row[b.size()];
