@@ -80,7 +80,7 @@ class EmbreeScene {
     static bool account(void* budget, ssize_t bytes, bool after);
 
     const WorldGeometry* geometry_;
-    std::unique_ptr<const AlphaMaskView<Space::host>> mask_;  ///< read by Embree's filters
+    std::unique_ptr<AlphaMaskView<Space::host>> mask_;  ///< read by Embree's filters
     std::unique_ptr<DeviceErrors> errors_ = std::make_unique<DeviceErrors>();
     std::unique_ptr<MemoryBudget> budget_ = std::make_unique<MemoryBudget>();
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device_;
@@ -107,7 +107,7 @@ inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray, float r
 inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
     : geometry_(&geometry),
       mask_(geometry.is_masked()
-                ? std::make_unique<const AlphaMaskView<Space::host>>(geometry.alpha_masks())
+                ? std::make_unique<AlphaMaskView<Space::host>>(geometry.alpha_masks())
                 : nullptr),
       device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr) {

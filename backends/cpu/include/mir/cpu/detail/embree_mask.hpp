@@ -19,8 +19,8 @@ inline void reject_holes(const RTCFilterFunctionNArguments* args) {
 }
 
 /// Makes Embree ask `mask`, which must outlive the geometry, about each hit of it.
-inline void filter_by(RTCGeometry geometry, const AlphaMaskView<Space::host>& mask) {
-    rtcSetGeometryUserData(geometry, const_cast<AlphaMaskView<Space::host>*>(&mask));
+inline void filter_by(RTCGeometry geometry, AlphaMaskView<Space::host>& mask) {
+    rtcSetGeometryUserData(geometry, &mask);
     rtcSetGeometryIntersectFilterFunction(geometry, &reject_holes);
     rtcSetGeometryOccludedFilterFunction(geometry, &reject_holes);
 }
