@@ -26,7 +26,7 @@ mir::RenderResult render(const mir::Scene& scene, mir::Acceleration acceleration
 
 }  // namespace
 
-TEST_CASE("The kd-tree and the wide hierarchy with shafts draw the same bits") {
+TEST_CASE("The kd-tree and the wide hierarchy with shafts draw the same bits", "[extended]") {
     for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {
         const auto scene = mirtest::load_scene(named.name, named.file);
         if (!scene) {

@@ -119,7 +119,7 @@ TEST_CASE("D_1 is the direct light of the sphere scenes", "[statistical]") {
 
 // H0: equal means of every tile and bounce. Welch's test over 16 replicates each, seed 511, level
 // 1 % over two scenes, four bounces and 16 tiles.
-TEST_CASE("D_2 to D_5 are the light of VPLs of that bounce", "[statistical]") {
+TEST_CASE("D_2 to D_5 are the light of VPLs of that bounce", "[statistical][extended]") {
     const double level = sidak(0.01, 2 * (last - 1) * tiles);
     for (Lamp lamp : {Lamp::down, Lamp::up}) {
         const Studio<Lambert> studio(mir::builtin::cornell_box(lamp));

@@ -4,7 +4,7 @@
 
 using namespace mirtest;
 
-TEST_CASE("the example made of headers draws what the program draws, in every bit") {
+TEST_CASE("the example made of headers draws what the program draws, in every bit", "[extended]") {
     const TemporaryFolder folder("tool_example");
     RunningProgram example({MIR_COMPILE_TIME_EXAMPLE}, folder / "");
     REQUIRE(example.wait().exit_code == 0);

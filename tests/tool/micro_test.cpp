@@ -33,7 +33,8 @@ Words small_micro(const std::filesystem::path& output) {
 
 }  // namespace
 
-TEST_CASE("every option of micro-rendering changes its picture, its default does not") {
+TEST_CASE("every option of micro-rendering changes its picture, its default does not",
+          "[extended]") {
     const TemporaryFolder folder("tool_micro");
     const auto picture = [&](const Words& choice) {
         const Outcome outcome = run_mir(small_micro(folder / "a.exr") + choice);

@@ -115,7 +115,8 @@ TEST_CASE("a summary tells passes and error, and so does a report") {
     CHECK(has(file_bytes(folder / "a.html"), "relative error, from their spread"));
 }
 
-TEST_CASE("killed at any moment, a render resumes to the bytes of one that never stopped") {
+TEST_CASE("killed at any moment, a render resumes to the bytes of one that never stopped",
+          "[extended]") {
     const TemporaryFolder whole("passes_whole");
     const Words resumed{"--passes", "4", "--resume", "--save-every", "0"};
     const auto begin = std::chrono::steady_clock::now();

@@ -171,7 +171,7 @@ TEST_CASE("the header tells how the picture was made") {
     CHECK(std::stof(attribute_of(path, "mir:dropped_share")) >= 0.0f);
 }
 
-TEST_CASE("every choice is accepted and changes the picture") {
+TEST_CASE("every choice is accepted and changes the picture", "[extended]") {
     const TemporaryFolder folder("render_choices");
     const auto picture = [&](const Words& choice) {
         // Chains that record twice, so that mutations matter.
