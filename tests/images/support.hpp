@@ -60,7 +60,8 @@ inline double mean_luminance(const mir::Image<mir::Rgb>& image) {
 /// True when two pictures are equal in every bit.
 inline bool same_bits(const mir::Image<mir::Rgb>& a, const mir::Image<mir::Rgb>& b) {
     return a.extent() == b.extent() &&
-           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+           (a.pixels().empty() ||
+            std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0);
 }
 
 /// Root mean square difference over the root mean square of `a`.
