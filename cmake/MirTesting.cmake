@@ -34,9 +34,10 @@ endif()
 # mir_add_test(NAME source... [LIBRARIES target...] [LABELS label...])
 #
 # One test program. Each TEST_CASE becomes a test "NAME: <its sentence>"; those tagged [statistical],
-# or [extended] for tests that ./test.sh leaves to .ci/run, get that label besides LABELS. Two labels say which sanitizers are not worth their time: all
-# programs but those labelled `slow` are built by the target memory_tests, those labelled `threads`
-# by threaded_tests.
+# [extended] for tests that ./test.sh leaves to .ci/run, or [slow] for those that take half a minute
+# under the address sanitizer, which leaves them out, get that label besides LABELS. Two labels say
+# which sanitizers are not worth their time: all programs but those labelled `slow` are built by the
+# target memory_tests, those labelled `threads` by threaded_tests.
 function(mir_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;LABELS")
     mir_batches(sources ${name} ${arg_UNPARSED_ARGUMENTS})
@@ -53,7 +54,7 @@ function(mir_add_test name)
     endif()
 
     set(others)
-    foreach(tag IN ITEMS extended statistical)
+    foreach(tag IN ITEMS extended statistical slow)
         mir_has_tag(found ${tag} ${arg_UNPARSED_ARGUMENTS})
         if(found)
             mir_discover_tests(${name} "${others}[${tag}]" "${arg_LABELS};${tag}")

@@ -47,6 +47,11 @@ def includes_of(source: pathlib.Path) -> list[str]:
     return includes
 
 
+def place_in_unit(source: pathlib.Path) -> tuple[bool, pathlib.Path]:
+    """Templates are declared `extern` before the source that instantiates them."""
+    return "\nextern template " not in source.read_text(), source
+
+
 def unit_of(sources: list[pathlib.Path]) -> str:
     lines = []
     for source in filter(is_independent, sources):
@@ -76,7 +81,8 @@ def main() -> None:
     listed = [e for path, e in entries.items() if stays_alone(path)]
     folders = sorted({path.parent for path in entries if not stays_alone(path)})
     for folder in folders:
-        sources = sorted(p for p in entries if p.parent == folder and not stays_alone(p))
+        sources = sorted((p for p in entries if p.parent == folder and not stays_alone(p)),
+                         key=place_in_unit)
         unit = out / folder.relative_to(root) / "unit.cpp"
         unit.parent.mkdir(parents=True, exist_ok=True)
         unit.write_text(unit_of(sources))

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// What a bound of the geometry term costs, and what tracing back the light that it removes costs:
-// bias and noise of the indirect light with, without and beside a bound (docs/method.md, 4.4).
+// What a bound of the geometry term costs, and what tracing back the light that it removes, or
+// spreading it over spheres, costs: bias and noise of the indirect light with, without and beside a
+// bound (docs/method.md, 4.4 and 4.5); and what VPLs lose that spread the lobe of their surface
+// (4.6).
 #include "mir/compare/comparable.hpp"
 #include "mir/cpu/register.hpp"
+#include "mir/runtime/check_scene.hpp"
 #include "reference.hpp"
 #include "tools/mir/load_scene.hpp"
 
@@ -12,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 namespace mirconvergence {
 namespace {
@@ -20,11 +24,15 @@ struct BoundOptions {
     std::vector<std::string> scenes;
     std::uint32_t width = 64;
     std::uint32_t height = 48;
-    std::uint32_t vpls = 256;
-    bool light_paths = false;  ///< instant radiosity, else Metropolis sampling
+    std::vector<std::uint32_t> vpls{256};
+    std::optional<float> roughness;  ///< of all that reflects, with an interface; else the scene's
+    float metallic = 0.0f;           ///< of all that reflects, with `roughness`
+    bool light_paths = false;        ///< instant radiosity, else Metropolis sampling
     std::uint32_t seeds = 32;
     std::uint32_t samples = 16384;
     std::vector<std::uint32_t> compensate{1, 4, 16};
+    std::vector<float> vsl{1.0f};  ///< scales of the spheres' radii
+    std::vector<float> glossy;     ///< least roughnesses of lobes that VPLs keep
     std::string cache;
 };
 
@@ -33,6 +41,8 @@ struct Treatment {
     std::string name;
     mir::BoundPolicy::Kind bound = mir::BoundPolicy::Kind::automatic;
     std::uint32_t compensate = 0;
+    float vsl = 0.0f;             ///< scale of the spheres' radii; 0: points
+    std::optional<float> glossy;  ///< least roughness of the lobes; none: Lambertian VPLs
 };
 
 std::vector<Treatment> treatments(const BoundOptions& o) {
@@ -40,6 +50,12 @@ std::vector<Treatment> treatments(const BoundOptions& o) {
     for (const std::uint32_t paths : o.compensate)
         all.push_back(
             {"compensate " + std::to_string(paths), mir::BoundPolicy::Kind::automatic, paths});
+    for (const float scale : o.vsl)
+        all.push_back({"spheres " + mir::detail::rounded(double(scale), 2),
+                       mir::BoundPolicy::Kind::automatic, 0, scale});
+    for (const float roughness : o.glossy)
+        all.push_back({"lobes from " + mir::detail::rounded(double(roughness), 2),
+                       mir::BoundPolicy::Kind::automatic, 0, 0.0f, roughness});
     all.push_back({"unbounded", mir::BoundPolicy::Kind::none});
     return all;
 }
@@ -64,7 +80,7 @@ class Renders {
     /// reference adds to its square taken off. Noise: RMS of the standard deviation of one render.
     /// Both over the mean of the reference.
     void print(const std::string& scene, const Treatment& t, const BoundOptions& o,
-               const Reference& reference) const {
+               std::uint32_t vpls, const Reference& reference) const {
         double squares = 0.0;
         double variance = 0.0;
         double mean = 0.0;
@@ -80,8 +96,9 @@ class Renders {
         }
         const auto n = static_cast<double>(moments_.pixels().size());
         mean /= n;
-        std::printf("%s,%s,%s,%u,%u,%.4f,%.4f,%.4f,%.4f,%.3f\n", scene.c_str(),
-                    o.light_paths ? "ir" : "mir", t.name.c_str(), o.vpls, count_,
+        std::printf("%s,%s,%s,%s,%u,%u,%.4f,%.4f,%.4f,%.4f,%.3f\n", scene.c_str(),
+                    o.roughness ? mir::detail::rounded(double(*o.roughness), 2).c_str() : "",
+                    o.light_paths ? "ir" : "mir", t.name.c_str(), vpls, count_,
                     std::sqrt(std::max(squares, 0.0) / n) / mean, std::sqrt(variance / n) / mean,
                     std::sqrt(std::max(squares + variance, 0.0) / n) / mean, removed_ / count_,
                     seconds_ / count_);
@@ -95,30 +112,50 @@ class Renders {
     double seconds_ = 0.0;
 };
 
-void study(const std::string& name, const BoundOptions& o) {
+mir::RenderSettings settings_of(const Treatment& t, const BoundOptions& o) {
+    mir::RenderSettings s;
+    s.image = {o.width, o.height};
+    s.filter = mir::default_filter(mir::FilterKind::box);
+    if (o.light_paths) s.sampler = mir::SamplerKind::instant_radiosity;
+    s.direct_samples = 1;  // direct light is not looked at
+    s.bound.kind = t.bound;
+    s.compensate = t.compensate;
+    s.vsl.enabled = t.vsl > 0.0f;
+    if (s.vsl.enabled) s.vsl.scale = t.vsl;
+    s.glossy.enabled = t.glossy.has_value();
+    if (t.glossy) s.glossy.least_roughness = *t.glossy;
+    return s;
+}
+
+mir::Scene scene_of(const std::string& name, const BoundOptions& o) {
     mir::Scene scene = mirtool::load_scene(name).scene;
     scene.name = mirtool::stem_of(name);
+    if (o.roughness)
+        for (mir::Material& m : scene.materials)
+            if (!m.emits()) {
+                m.specular = 1.0f;
+                m.roughness = *o.roughness;
+                m.metallic = o.metallic;
+            }
+    return scene;
+}
+
+void study(const std::string& name, const BoundOptions& o) {
+    const mir::Scene scene = scene_of(name, o);
     const mir::Extent size{o.width, o.height};
     const Reference reference = cached_reference(scene, {size, o.samples, 0}, o.cache);
     mir::Registry registry;
     mir::cpu::add_to(registry);
-    for (const Treatment& t : treatments(o)) {
-        mir::RenderSettings s;
-        s.image = size;
-        s.filter = mir::default_filter(mir::FilterKind::box);
-        s.vpls = o.vpls;
-        if (o.light_paths) s.sampler = mir::SamplerKind::instant_radiosity;
-        s.direct_samples = 1;  // direct light is not looked at
-        s.bound.kind = t.bound;
-        s.compensate = t.compensate;
-        Renders renders(size);
-        for (s.seed = 0; s.seed < o.seeds; ++s.seed) {
-            std::fprintf(stderr, "%s: %s, seed %llu\n", scene.name.c_str(), t.name.c_str(),
-                         static_cast<unsigned long long>(s.seed));
-            renders.add(registry.make(s.backend, s.scheduler)->render(scene, s, nullptr));
+    for (const std::uint32_t vpls : o.vpls)
+        for (const Treatment& t : treatments(o)) {
+            mir::RenderSettings s = settings_of(t, o);
+            s.vpls = vpls;
+            Renders renders(size);
+            std::fprintf(stderr, "%s: %s, %u VPLs\n", scene.name.c_str(), t.name.c_str(), vpls);
+            for (s.seed = 0; s.seed < o.seeds; ++s.seed)
+                renders.add(registry.make(s.backend, s.scheduler)->render(scene, s, nullptr));
+            renders.print(scene.name, t, o, vpls, reference);
         }
-        renders.print(scene.name, t, o, reference);
-    }
 }
 
 /// Reads the command line; an exit code, or -1 to go on.
@@ -128,7 +165,14 @@ int parse(int argc, char** argv, BoundOptions& o) {
         ->required();
     app.add_option("--width", o.width, "Pixels across (default 64)")->check(CLI::Range(1, 65536));
     app.add_option("--height", o.height, "Pixels down (default 48)")->check(CLI::Range(1, 65536));
-    app.add_option("--vpls", o.vpls, "VPLs (default 256)")->check(CLI::Range(1, 4000000));
+    app.add_option("--vpls", o.vpls, "Numbers of VPLs (default 256)")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 4000000));
+    app.add_option("--roughness", o.roughness,
+                   "Gives all that reflects an interface of this roughness")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--metallic", o.metallic, "Makes it a metal by this share (default 0)")
+        ->check(CLI::Range(0.0, 1.0));
     app.add_flag("--light-paths", o.light_paths,
                  "VPLs of instant radiosity, not of Metropolis sampling");
     app.add_option("--seeds", o.seeds, "Renders of each kind (default 32)")
@@ -138,6 +182,12 @@ int parse(int argc, char** argv, BoundOptions& o) {
     app.add_option("--compensate", o.compensate, "Numbers of paths per pixel (default 1,4,16)")
         ->delimiter(',')
         ->check(CLI::Range(1, 65536));
+    app.add_option("--vsl", o.vsl, "Scales of the radii of spherical lights (default 1)")
+        ->delimiter(',')
+        ->check(CLI::Range(1e-3, 1e3));
+    app.add_option("--glossy", o.glossy, "Least roughnesses of lobes that VPLs keep (default none)")
+        ->delimiter(',')
+        ->check(CLI::Range(0.0, 1.0));
     app.add_option("--cache", o.cache, "Folder that keeps references for the next run");
     try {
         app.parse(argc, argv);
@@ -155,7 +205,8 @@ int main(int argc, char** argv) {
         mirconvergence::BoundOptions options;
         const int exit_code = mirconvergence::parse(argc, argv, options);
         if (exit_code >= 0) return exit_code;
-        std::puts("scene,sampler,treatment,vpls,seeds,bias,noise,rmse,removed_share,seconds");
+        std::puts(
+            "scene,roughness,sampler,treatment,vpls,seeds,bias,noise,rmse,removed_share,seconds");
         for (const std::string& scene : options.scenes) mirconvergence::study(scene, options);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "bound_study: %s\n", e.what());

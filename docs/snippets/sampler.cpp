@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Quoted by docs/extending.md: a sampler of a user's own.
-#include "mir/concepts/sampler.hpp"
+#include "mir/validation/sampler.hpp"
 
-#include "conformance/brute_force.hpp"
-#include "conformance/sampler_suite.hpp"
-#include "conformance/worlds.hpp"
-#include "mir/data/gbuffer.hpp"
 #include "mir/sampling/emission.hpp"
 #include "mir/sampling/light_path.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
 #include "support/catch.hpp"
 
 // region: sampler
@@ -55,21 +50,34 @@ class LampSampler {
 static_assert(mir::Sampler<LampSampler>);
 // endregion: sampler
 
-TEST_CASE("The sampler of the documentation keeps the axioms of Sampler") {
-    const mirtest::World world(mir::builtin::cornell_box(mir::builtin::Lamp::down));
-    const mir::LightTable lights(world.scene, world.geometry);
+// H0, level and seeds: see check_sampler_light().
+TEST_CASE("The sampler of the documentation keeps the axioms of Sampler", "[statistical]") {
     // region: axioms
+    const mir::validation::KnownLight room = mir::validation::known_squares();
+    const mir::LightTable lights(room.scene(), room.geometry());
     const auto make = [&](std::uint64_t seed) {
-        return LampSampler(lights, world.geometry.ray_offset(), 64, seed);
+        return LampSampler(lights, room.geometry().ray_offset(), 256, seed);
     };
-    mirtest::sampler_suite(make);
+    mir::archetype::Executor backwards{mir::archetype::make};
+    // Direct light is all that it brings: bounces 1 to 1.
+    const auto report = mir::validation::check_sampler(make, room, {1, 1}, backwards);
+    INFO(report.text());
+    CHECK(report.passed());
     // endregion: axioms
-    // The intensities times pi add up to the emitted power, whatever the points: each VPL of the
-    // only lamp has the same.
-    mir::InlineExecutor executor;
-    const mir::VplRecords found = make(3).sample(executor);
-    double power = 0.0;
-    for (const mir::VplRecord& r : found.records)
-        power += static_cast<double>(mir::pi * luminance(r.vpl.intensity));
-    CHECK(power == mirtest::Approx(lights.power()).epsilon(1e-4));
+}
+
+TEST_CASE("The sampler of the documentation brings a furnace its direct light, and no more") {
+    const mir::validation::KnownLight room = mir::validation::known_furnace();
+    const mir::LightTable lights(room.scene(), room.geometry());
+    const auto check = [&](std::uint8_t last) {
+        return mir::validation::check_sampler_light(
+            [&](std::uint64_t seed) {
+                return LampSampler(lights, room.geometry().ray_offset(), 512, seed);
+            },
+            room, {1, last});
+    };
+    const auto direct = check(1);
+    INFO(direct.text());
+    CHECK(direct.passed());
+    CHECK_FALSE(check(2).passed());
 }

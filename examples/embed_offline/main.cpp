@@ -168,6 +168,7 @@ int main(int argc, char** argv) {
     try {
         pass(check_embree(offline::World(furnace())), "visibility");
         pass(offline::check_reflection(), "reflection");
+        pass(offline::check_shading(), "shading");
         check_furnace();
         const auto picture = preview(render(offline::World(lit_room()), 512));
         if (argc > 1) mir::write_png(argv[1], picture, mir::auto_exposure(picture));

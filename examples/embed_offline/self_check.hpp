@@ -3,6 +3,7 @@
 // mir's checks, run on the renderer's own types.
 #pragma once
 
+#include "mir_adapter.hpp"
 #include "spectral_renderer.hpp"
 
 #include <mir/concepts/bsdf.hpp>
@@ -11,6 +12,7 @@
 #include <mir/cpu/embree_visibility.hpp>
 #include <mir/validation/bsdf.hpp>
 #include <mir/validation/bsdf_samples.hpp>
+#include <mir/validation/shading.hpp>
 #include <mir/validation/visibility.hpp>
 
 namespace offline {
@@ -46,6 +48,21 @@ inline mir::validation::Report check_reflection() {
                mir::validation::check_bsdf_samples<ThreeWavelengths>(materials[1], 0.5f));
     return report;
 }
+
+// region: shading
+/// What a light adds to a surface against J f cos cos / d^2, three wavelengths at a time.
+inline mir::validation::Report check_shading() {
+    const Material material{{0.2f, 0.5f, 1.0f, 0.9f, 0.4f, 0.1f}, -1.5f};
+    return mir::validation::check_shading(
+        SpectralShading{0},
+        [&](mir::Vec3 normal, mir::Vec3 wo) {
+            return SpectralShading::Surface{normal, wo, {}, {material.reflectance, material.lobe}};
+        },
+        [&](mir::Vec3 normal, mir::Vec3 wi, mir::Vec3 wo) {
+            return ThreeWavelengths::eval(material, normal, wi, wo);
+        });
+}
+// endregion: shading
 
 /// Embree's answers against brute force over the triangles of the quads.
 inline mir::validation::Report check_embree(const World& world) {

@@ -6,19 +6,23 @@
 #include "mir/data/image.hpp"
 #include "mir/for_each_luxel.hpp"
 #include "mir/kernels/luxel_light.hpp"
+#include "mir/shading/direct_samples.hpp"
 
 namespace mir {
 
 /// Direct light by next-event estimation: radiance towards the viewer of every luxel,
-/// W m^-2 sr^-1. `samples` points on emissive triangles per luxel, chosen by power, and as many
-/// directions towards the environment; point, spot and directional lights are summed exactly.
-/// Unbiased. Emission is not included.
+/// W m^-2 sr^-1. `samples` per luxel: points on emissive triangles, chosen by power, and directions
+/// towards the environment; point, spot and directional lights are summed exactly. Unbiased.
+/// Emission is not included.
 template <Bsdf B, TiledGBuffer G, Visibility V, Executor E>
 Image<Rgb> direct_light(const G& gbuffer, const LightTable& lights, const V& visibility,
-                        LuxelBand band, std::uint32_t samples, E& executor) {
+                        LuxelBand band, DirectSamples samples, E& executor) {
     Image<Rgb> image(gbuffer.extent());
-    const LuxelLight<B, V> light{
-        {lights, visibility, samples}, {lights, visibility}, {lights, visibility, samples}, band};
+    const LuxelLight<B, V> light{{lights, visibility, samples.emitters},
+                                 {lights, visibility},
+                                 {lights, visibility, samples.environment},
+                                 band,
+                                 samples.distant_vpls};
     for_each_luxel(gbuffer, executor,
                    [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
                        const Hit hit = luxels.hit(i);

@@ -12,9 +12,9 @@ namespace mir {
 
 /// The camera rays of an image: one per luxel, a pure function of its place and the seed.
 struct CameraRays {
-    Camera camera;
-    LuxelGrid grid;
-    std::uint64_t seed = 0;
+    Camera camera;           ///< its own aspect_ratio is not used: the grid's is
+    LuxelGrid grid;          ///< which luxels there are
+    std::uint64_t seed = 0;  ///< of the luxels' places and of the points of the lens
 
     /// The same for kernels.
     [[nodiscard]] LuxelRays luxel_rays() const { return {camera.optics(), grid, seed}; }

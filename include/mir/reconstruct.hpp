@@ -13,10 +13,10 @@ namespace mir {
 /// before.
 template <TiledGBuffer G, VplSet P, VisibilitySource V, Shading F>
 struct Inputs {
-    const G& gbuffer;
-    P vpls;
-    V visibility;
-    F shading;
+    const G& gbuffer;  ///< must outlive the pipeline
+    P vpls;            ///< that light every luxel
+    V visibility;      ///< where it was found before: of these luxels and these VPLs
+    F shading;         ///< reads the surfaces that `gbuffer` holds
 };
 
 /// Algorithm 3 of the paper: radiance that the VPLs send to the viewer through each luxel,

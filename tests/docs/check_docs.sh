@@ -145,13 +145,6 @@ check_options() {
             complain "options of '$title' (<) and docs/command_line.md (>) differ:
 $(grep '^[<>]' "$work/diff")"
     done
-    # Options in examples, wherever they stand.
-    "$mir" render --help | grep -oE -e '--[a-z][a-z-]*' | sort -u >"$work/help"
-    grep -hE '^ .*(mir render|render\.sh)|^        --' README.md docs/*.md |
-        grep -oE -e ' --[a-z][a-z-]*' | tr -d ' ' | sort -u | while read -r option; do
-            grep -qxF -e "$option" "$work/help" ||
-                complain "an example uses $option, which mir render does not know"
-        done
 }
 
 # Names that the program writes or accepts, against the page that lists them.
@@ -180,27 +173,10 @@ check_names() {
     listed docs/scene_files.md "built-in scene" <"$work/scenes"
 }
 
-# What a newcomer types works as it is written, beside the example's files.
-check_commands() {
-    cp examples/first_render/room.* "$work"
-    awk '/^    mir / { on = 1 }
-         on { line = $0; more = sub(/\\$/, "", line); printf "%s", line; if (!more) { print ""; on = 0 } }
-        ' docs/getting_started.md >"$work/commands"
-    [ -s "$work/commands" ] || complain "docs/getting_started.md has no command"
-    while read -r command; do
-        # shellcheck disable=SC2086
-        (cd "$work" && PATH=$(dirname "$mir"):$PATH $command >said 2>&1) ||
-            complain "docs/getting_started.md: $command: $(tail -n 1 "$work/said")"
-    done <"$work/commands"
-    for made in room.exr room.png better.exr reference.exr mir.html comparison.html; do
-        [ -s "$work/$made" ] || complain "docs/getting_started.md: there is no $made"
-    done
-}
-
 case $check in
-code | links | paths | options | names | commands) "check_$check" ;;
+code | links | paths | options | names) "check_$check" ;;
 *)
-    echo "usage: check_docs.sh code|links|paths|options|names|commands ROOT [MIR]" >&2
+    echo "usage: check_docs.sh code|links|paths|options|names ROOT [MIR]" >&2
     exit 2
     ;;
 esac

@@ -2,14 +2,21 @@
 #include "fuzz/input_file.hpp"
 #include "mir/io/obj_reader.hpp"
 
-/// An OBJ file; what follows a line "%" is its material library, a.mtl.
+#include <algorithm>
+
+/// An OBJ file; what follows a line "%" is its material library, a.mtl, and what follows another
+/// one an image, a.png.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    constexpr std::string_view border = "\n%\n";
-    const std::string_view all = mirfuzz::text_of(data, size);
-    const std::size_t cut = std::min(all.find(border), all.size());
-    const std::size_t rest = std::min(cut + border.size(), all.size());
-    const auto path = mirfuzz::input_file("a.obj", all.substr(0, cut));
-    mirfuzz::input_file("a.mtl", all.substr(rest));
+    std::string_view all = mirfuzz::text_of(data, size);
+    const auto next_part = [&] {
+        constexpr std::string_view border = "\n%\n";
+        const std::string_view part = all.substr(0, all.find(border));
+        all.remove_prefix(std::min(part.size() + border.size(), all.size()));
+        return part;
+    };
+    const auto path = mirfuzz::input_file("a.obj", next_part());
+    mirfuzz::input_file("a.mtl", next_part());
+    mirfuzz::input_file("a.png", all);
     mirfuzz::read_and_place([&] { return mir::read_obj(path).scene; });
     return 0;
 }

@@ -41,7 +41,7 @@ const std::vector<Expected>& readable() {
         {"obj-features/concave_polygon.obj", 64, 0, 1, {}},
         {"obj-features/cube_usemtl.obj", 12, 0, 3, {{"use of a material that no library has", 2}}},
         {"obj-features/cube_with_vertexcolors.obj", 12, 0, 1, {}},
-        {"obj-features/mtl_different_folder.obj", 12, 0, 1, {{"MTL 'map_Kd'", 1}}},
+        {"obj-features/mtl_different_folder.obj", 12, 0, 1, {{"image 'image.jpg' (not found)", 1}}},
         {"obj-features/number_formats.obj", 1, 0, 1, {{"characters behind a number", 6}}},
         {"ply-features/cube.ply", 12, 0, 1, {}},
         {"ply-features/cube_binary.ply", 12, 0, 1, {}},

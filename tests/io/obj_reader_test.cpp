@@ -120,13 +120,14 @@ TEST_CASE("what an OBJ file asks for and does not get is counted") {
         read("mtllib my scene.mtl\nmtllib other.mtl\n" + corners +
                  "v 0 0 1e+2 # not used\nv 3.1+e2 0 0\nvt 0 0\ns 1\nusemtl a\nf 1/1 2/1 3/1\n"
                  "usemtl none\nf 1 2 3\nf 1 2\nl 1 2\np 1\ncurv 0 1 2\n",
-             "newmtl a\nd .5\nKs 1 0 0\nsharpness 3\nmap_Kd x.png\n");
+             "newmtl a\nd .5\nKs 1 0 0\nsharpness 3\nmap_Kd x.png\nmap_Bump y.png\n");
     for (const auto& [what, times] : loaded.report.ignored) UNSCOPED_INFO(what << ": " << times);
-    CHECK(loaded.report.ignored == Ignored{{"MTL 'map_Kd'", 1},
+    CHECK(loaded.report.ignored == Ignored{{"MTL 'map_Bump'", 1},
                                            {"characters behind a number", 1},
                                            {"colour of Ks (its mean is used)", 1},
                                            {"face of fewer than three corners", 1},
                                            {"lines", 1},
+                                           {"image 'x.png' (not found)", 1},
                                            {"material library 'other.mtl' (not found)", 1},
                                            {"points", 1},
                                            {"smoothing groups without normals (shaded flat)", 1},
@@ -167,6 +168,8 @@ TEST_CASE("damage in an OBJ file is refused with its line and a remedy") {
         {corners + "f 1/1/1/1 2 3\n", "line 5: a corner of a face is none", ""},
         {corners + "f 1 2 4294967297\n", "line 5: a corner of a face is none", ""},
         {std::string("v 0 0 0\n\0", 9), "byte 8: it is zero", ""},
+        {"vt x\n", "line 1: a texture coordinate is no number", ""},
+        {"vt\n", "line 1: a texture coordinate has 0 numbers instead of 1", ""},
         {lib, "my scene.mtl, line 2: Kd is no number ('red')", "newmtl a\nKd red\n"},
         {lib, "my scene.mtl, line 2: Kd has an exponent of many digits ('1e-2147483648')",
          "newmtl a\nKd 1 1 1e-2147483648\n"},

@@ -100,6 +100,8 @@ TEST_CASE("a journal belongs to its scene and settings") {
           }),
           Change([](mir::RenderSettings& s) { s.filter.half_width = 2.0f; }),
           Change([](mir::RenderSettings& s) { s.compensate = 1; }),
+          Change([](mir::RenderSettings& s) { s.vsl.enabled = true; }),
+          Change([](mir::RenderSettings& s) { s.vsl.scale = 0.5f; }),
           Change([](mir::RenderSettings& s) { s.removed_layer = true; }),
           Change([](mir::RenderSettings& s) { s.bounce_layers = true; }),
           Change([](mir::RenderSettings& s) { s.path.samples = 3; }),

@@ -116,6 +116,18 @@ TEST_CASE("in the furnace chains over light paths bring every bounce its light",
     mirtest::check_furnace(light_of(lab, 2400), 0.1);
 }
 
+// H0, level and seeds: see mir::validation::check_sampler_light().
+TEST_CASE("chains over light paths bring a known furnace its light", "[statistical]") {
+    const mir::validation::KnownLight room = mir::validation::known_furnace();
+    const PathLab<Lambert> lab(room.scene());
+    const auto probe = probe_of(lab);
+    mirtest::passes(mir::validation::check_sampler(
+        [&](std::uint64_t seed) {
+            return ProposalSampler(lab.world(), probe, small_options(seed));
+        },
+        room, {1, 32}));
+}
+
 TEMPLATE_TEST_CASE("ProposalSampler is a Sampler whose records are the same on any executor", "",
                    Lambert, CookTorrance) {
     const PathLab<TestType> lab(mir::builtin::make("sphere-indirect"));

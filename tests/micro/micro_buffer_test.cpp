@@ -32,7 +32,8 @@ std::uint32_t wrong_texels(const Buffer& buffer, const SurfelTree& tree, mir::Su
 
 }  // namespace
 
-TEST_CASE("A texel holds the nearest of all nodes that its direction meets, in every bit") {
+TEST_CASE("A texel holds the nearest of all nodes that its direction meets, in every bit",
+          "[slow]") {
     const World worlds[] = {sphere_in_box(), triangle_soup(60, 980)};
     const std::uint32_t side = GENERATE(1u, 8u, 24u);
     const float threshold = GENERATE(0.0f, 0.2f, 4.0f);

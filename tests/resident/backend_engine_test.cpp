@@ -158,6 +158,8 @@ TEST_CASE("A sky has the same bits in a backend's memory, behind the scene and i
     const RenderResult host = draw_on_host(scene, settings);
     CHECK(host.emission(0, 0).g > 0.0f);
     check_same(host, draw_on_backend(scene, settings, {}));
+    settings.direct = mir::DirectLight::vpl;
+    check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
 }
 
 TEST_CASE("Light of VPLs that are no states is traced by every scheduler, with the same bits") {
@@ -194,6 +196,20 @@ TEST_CASE("A frame with alpha masks has the bits of the host's, by every schedul
 TEST_CASE("What the bound removed is not traced back in a backend's memory, and says so") {
     RenderSettings settings = small_picture();
     settings.compensate = 1;
+    try {
+        draw_on_backend(lit_room(), settings, {});
+        FAIL("no error");
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::unsupported);
+        CHECK(std::string(e.what()).find("--backend cpu") != std::string::npos);
+    }
+}
+
+TEST_CASE("Spheres and lobes do not light luxels in a backend's memory, and it says so") {
+    RenderSettings settings = small_picture();
+    settings.sampler = mir::SamplerKind::instant_radiosity;
+    settings.vsl.enabled = GENERATE(true, false);
+    settings.glossy.enabled = !settings.vsl.enabled;
     try {
         draw_on_backend(lit_room(), settings, {});
         FAIL("no error");

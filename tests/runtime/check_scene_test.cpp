@@ -87,6 +87,7 @@ TEST_CASE("each bad value of a render is one worded warning") {
              s.removed_luminance = 0.2;
          }},
         {"glossy surfaces", [](Statistics& s) { s.non_lambertian_share = 0.02f; }},
+        {"through lobes of that roughness", [](Statistics& s) { s.widened_share = 0.02f; }},
         {"no VPL was placed",
          [](Statistics& s) {
              s.health.reset();

@@ -165,6 +165,34 @@ TEST_CASE("VPLs on the lamp carry L / pdf and appear only when asked for") {
     }
 }
 
+TEST_CASE("light arrives at every VPL with the power that its intensity is made of") {
+    Scene bent = coloured_furnace();
+    for (mir::Mesh& mesh : bent.meshes) {
+        mesh.normals = mesh.positions;  // of a room around the origin: towards its middle
+        for (mir::Vec3& n : mesh.normals) n = -glm::normalize(n);
+    }
+    const Stage stage(bent);
+    InstantRadiosityOptions options;
+    options.termination = GENERATE(Termination::roulette, Termination::levels);
+    options.emitter_vpls = GENERATE(false, true);
+    CHECK(stage.sample(options).arrivals.empty());
+    options.arrivals = true;
+    const VplRecords from = stage.sample(options);
+    REQUIRE(from.arrivals.size() == from.records.size());
+    std::size_t slanted = 0;
+    for (std::size_t i = 0; i < from.records.size(); ++i) {
+        const VplRecord& r = from.records[i];
+        if (r.bounce == 1) continue;
+        const mir::VplArrival& a = from.arrivals[i];
+        const Rgb j = a.power * bent.materials[a.material].base_color * mir::inv_pi;
+        CHECK(r.vpl.intensity.r == Approx(j.r).epsilon(1e-5));
+        CHECK(r.vpl.intensity.b == Approx(j.b).epsilon(1e-5));
+        CHECK(glm::dot(a.towards_light, a.shading_normal) > 0.0f);
+        slanted += glm::dot(a.shading_normal, r.vpl.normal) < 0.99f ? 1 : 0;
+    }
+    CHECK(slanted > from.records.size() / 4);
+}
+
 TEST_CASE("records of a seed are the same every time and differ from another's") {
     const Stage stage(coloured_furnace());
     InstantRadiosityOptions options;

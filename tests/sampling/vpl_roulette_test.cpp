@@ -315,6 +315,35 @@ TEST_CASE("the sampler keeps the axioms of Sampler") {
         two);
 }
 
+// H0, level and seeds: see mir::validation::check_sampler_light().
+TEST_CASE("VPLs that roulette keeps bring a known furnace its light", "[statistical]") {
+    const mir::validation::KnownLight room = mir::validation::known_furnace();
+    const Stage stage(room.scene());
+    const Probe probe = stage.probe(1);
+    mirtest::passes(mir::validation::check_sampler(
+        [&](std::uint64_t seed) {
+            mir::InstantRadiosityOptions options;
+            options.seed = seed;
+            return Sampler(stage.world(), options, probe, {.pilot_vpls = 500});
+        },
+        room));
+}
+
+TEST_CASE("arrivals stay with their VPLs, and their power is divided by the same odds") {
+    const Stage stage(mir::builtin::make("door-ajar"));
+    const Probe probe = stage.probe(1);
+    const VplRecords kept =
+        Sampler(stage.world(), {.vpls = 512, .arrivals = true}, probe).sample(stage.executor);
+    REQUIRE(kept.arrivals.size() == kept.records.size());
+    CHECK(kept.records.size() > 100);
+    for (std::size_t i = 0; i < kept.records.size(); ++i) {
+        const mir::VplArrival& a = kept.arrivals[i];
+        const float rho = stage.scene.materials[a.material].base_color.g;
+        CHECK(kept.records[i].vpl.intensity.g ==
+              Approx(a.power.g * rho * mir::inv_pi).epsilon(1e-5));
+    }
+}
+
 TEST_CASE("where the pilot lights nothing, every VPL is kept as it is") {
     mir::Scene scene = mir::builtin::make("door-ajar");
     scene.cameras[0] = mir::Camera::look_at({0, 9, 0}, {0, 20, 0}, {0, 0, 1}, 0.8f);

@@ -129,6 +129,17 @@ TEST_CASE("many samples of one luxel vary less than independent ones") {
           0.5 * irradiance(lit, at, up, 129, 1).variance() / 16);
 }
 
+TEST_CASE("late points of a Kronecker sequence are as exact as early ones") {
+    for (const std::uint32_t i : {1u, 1000u, 65'535u, 4'000'000u}) {
+        const mir::Vec2 p = mir::kronecker_point({0.25f, 0.5f}, i);
+        const auto distance = [](double a, double b) {
+            return std::fabs(std::remainder(a - b, 1.0));
+        };
+        CHECK(distance(p.x, 0.25 + i * 0.7548776662466927) < 2e-3 / 4e6 * i + 2e-7);
+        CHECK(distance(p.y, 0.50 + i * 0.5698402909980532) < 2e-3 / 4e6 * i + 2e-7);
+    }
+}
+
 TEST_CASE("light from below the surface or without samples or lamps is black") {
     const Lit lit(square_lamp());
     mir::Random random(1, mir::Stream::test, 0);

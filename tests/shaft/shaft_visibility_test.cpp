@@ -8,7 +8,7 @@
 #include "mir/host/shaft_scene.hpp"
 #include "support/catch.hpp"
 
-TEST_CASE("Visibility by shafts keeps the axioms of every face") {
+TEST_CASE("Visibility by shafts keeps the axioms of every face", "[slow]") {
     mirtest::visibility_suite<mir::ShaftScene>();
     mirtest::packet_suite<mir::ShaftScene>(300);
     mirtest::block_suite<mir::ShaftScene>();

@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/sampling/vpl_record.hpp"
-
-#include <algorithm>
-#include <array>
-#include <bit>
+#include "mir/validation/detail/same_records.hpp"
 
 namespace mirtest {
 
-inline auto bits_of(const mir::Vpl& v) { return std::bit_cast<std::array<std::uint32_t, 9>>(v); }
-
-/// Whether two records agree in every bit of every member.
-inline bool same_record(const mir::VplRecord& a, const mir::VplRecord& b) {
-    return bits_of(a.vpl) == bits_of(b.vpl) && mir::same_place(a.origin, b.origin) &&
-           a.origin.multiplicity == b.origin.multiplicity && a.bounce == b.bounce &&
-           a.light_group == b.light_group && a.weight == b.weight && a.lambertian == b.lambertian;
-}
-
-/// Whether two samplers' results are the same in every bit, health left aside.
-inline bool same_records(const mir::VplRecords& a, const mir::VplRecords& b) {
-    return std::equal(a.records.begin(), a.records.end(), b.records.begin(), b.records.end(),
-                      same_record) &&
-           a.paths == b.paths && a.emitted_power == b.emitted_power &&
-           a.non_lambertian_share == b.non_lambertian_share &&
-           a.path_luminance == b.path_luminance && a.states == b.states;
-}
+using mir::validation::detail::bits_of;
+using mir::validation::detail::same_record;
+using mir::validation::detail::same_records;
 
 inline bool same(const mir::PathLuminance& a, const mir::PathLuminance& b) {
     return a.mean == b.mean && a.standard_error == b.standard_error && a.paths == b.paths &&

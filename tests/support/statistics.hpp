@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/validation/detail/moments.hpp"
 #include "support/quadrature.hpp"
 #include "support/special_functions.hpp"
 
@@ -19,29 +20,8 @@ inline double sidak(double family, std::size_t tests) {
     return -std::expm1(std::log1p(-family) / static_cast<double>(tests));
 }
 
-/// Count, mean and variance of a stream of numbers (Welford).
-class Moments {
- public:
-    void add(double x) {
-        ++count_;
-        const double delta = x - mean_;
-        mean_ += delta / static_cast<double>(count_);
-        squares_ += delta * (x - mean_);
-    }
-    [[nodiscard]] std::uint64_t count() const { return count_; }
-    [[nodiscard]] double mean() const { return mean_; }
-    /// Of one number, unbiased; needs two numbers.
-    [[nodiscard]] double variance() const { return squares_ / static_cast<double>(count_ - 1); }
-    /// Standard deviation of the mean.
-    [[nodiscard]] double standard_error() const {
-        return std::sqrt(variance() / static_cast<double>(count_));
-    }
-
- private:
-    std::uint64_t count_ = 0;
-    double mean_ = 0.0;
-    double squares_ = 0.0;
-};
+/// Those of the installed checks, of a type that brings the functions below along.
+class Moments : public mir::validation::detail::Moments {};
 
 /// p-value of "the mean of what was added is `expected`", two-sided, Student's t. `rounding` is an
 /// error of the mean that single precision explains; it is added to the standard error.

@@ -32,7 +32,10 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
     for (const char* key : {"contributions_per_second", "emitted_power", "bound"})
         CHECK(all.at(key).get<double>() > 0.0);
     CHECK(all.at("non_lambertian_share") == 0.0);
+    CHECK(all.at("widened_share") == 0.0);
     CHECK(all.at("removed_share").get<double>() >= 0.0);
+    CHECK_FALSE(all.contains("removed_tiles"));
+    CHECK(all.at("vsl_radius") == 0.0);
     CHECK(all.at("residual_paths") == 0);
     CHECK(all.at("residual_luminance") == 0.0);
     CHECK(all.at("peak_memory_bytes").get<double>() > 1e6);
@@ -53,6 +56,24 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
     }
     CHECK(seconds.at("total").get<double>() == Approx(sum));
     CHECK(seconds.size() == 22);
+}
+
+TEST_CASE("what the bound removed is told by tiles beside its layer") {
+    const TemporaryFolder folder("removed_tiles");
+    const Outcome outcome = run_mir(small_render(folder / "a.exr") +
+                                    Words{"--sampler", "ir", "--aov", "removed", "--filter", "box",
+                                          "--json", "--bound", "0.5"});
+    REQUIRE(outcome.exit_code == 0);
+    const json all = json::parse(outcome.out);
+    const json& tiles = all.at("removed_tiles");
+    CHECK(tiles.at("side") == 8);
+    REQUIRE(tiles.at("columns") == 3);
+    REQUIRE(tiles.at("rows") == 3);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 9; ++i)  // 24 x 18 pixels: the lowest tiles have two rows
+        sum += tiles.at("luminance").at(i).get<double>() * 8.0 * (i < 6 ? 8.0 : 2.0);
+    CHECK(sum / (24.0 * 18.0) == Approx(all.at("removed_luminance").get<double>()).epsilon(1e-4));
+    CHECK(sum > 0.0);
 }
 
 TEST_CASE("normalised VPLs give the image the luminance that the sampler found") {

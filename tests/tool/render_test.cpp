@@ -57,6 +57,23 @@ TEST_CASE("a render tells on standard error what it did, unless it shall be quie
     CHECK(has(run_mir(loud + Words{"--chains", "2"}).err, ", R-hat "));
 }
 
+TEST_CASE("a render names the stages that took time, and VPLs where there are some") {
+    const TemporaryFolder folder("render_stages");
+    const auto said = [&](const Words& more) {
+        Words words = small_render(folder / "a.exr", "builtin:cornell-box", 64, 48);
+        words.pop_back();
+        return run_mir(words + more).err;
+    };
+    const std::string vpls = said({});
+    CHECK(has(vpls, " luxels, 16 VPLs from "));
+    CHECK(has(vpls, " M contributions/s"));
+    const std::string paths = said({"--integrator", "path", "--samples", "64", "--threads", "1"});
+    CHECK(has(paths, "paths "));
+    CHECK_FALSE(has(paths, "VPLs"));
+    CHECK_FALSE(has(paths, "contributions"));
+    CHECK_FALSE(has(paths, " 0.00,"));
+}
+
 TEST_CASE("pictures are named after the scene and written here when no name is given") {
     const TemporaryFolder folder("render_name");
     const Outcome outcome =

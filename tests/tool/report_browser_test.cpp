@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "tool/browser.hpp"
 #include "tool/report_file.hpp"
 
 #include <png.h>
 
 #include <array>
-#include <cstdlib>
-#include <sstream>
 
 using namespace mirtest;
 
 namespace {
-
-/// A headless browser of Chromium's family on the path; empty when there is none.
-std::string browser() {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');)
-        for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
-            if (std::filesystem::exists(folder + "/" + name)) return folder + "/" + name;
-    return "";
-}
 
 /// Pixels of a PNG file, 8-bit sRGB.
 struct Screenshot {
@@ -46,17 +35,6 @@ struct Screenshot {
         return n;
     }
 };
-
-/// Opens a page and returns what the browser says; `more` tells what to do with it.
-Outcome open_page(const std::filesystem::path& page, const TemporaryFolder& folder,
-                  const Words& more) {
-    return RunningProgram(Words{browser(), "--headless", "--no-sandbox", "--disable-gpu",
-                                "--disable-dev-shm-usage", "--enable-logging=stderr",
-                                "--user-data-dir=" + (folder / "profile").string(),
-                                "--window-size=800,900", "--virtual-time-budget=5000"} +
-                          more + Words{"file://" + page.string()})
-        .wait();
-}
 
 }  // namespace
 

@@ -239,7 +239,8 @@ TEST_CASE("renders without VPLs have reports without them, dark ones too") {
     CHECK(has(file_bytes(report), "</html>"));
 }
 
-TEST_CASE("a report of 1600x1200 pixels stays below 5 MB, even of noise, which it shrinks") {
+TEST_CASE("a report of 1600x1200 pixels stays below 5 MB, even of noise, which it shrinks",
+          "[slow]") {
     const TemporaryFolder folder("report_size");
     const std::string report = (folder / "r.html").string();
     const Words noise{

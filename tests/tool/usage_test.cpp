@@ -55,7 +55,12 @@ TEST_CASE("the help of render names every option") {
                                "--target-error",
                                "--save-every",
                                "--resume",
-                               "--compensate"})
+                               "--compensate",
+                               "--vsl",
+                               "--vsl-samples",
+                               "--vsl-scale",
+                               "--glossy",
+                               "--glossy-roughness"})
         CHECK(has(help, option));
 }
 
@@ -95,26 +100,47 @@ TEST_CASE("no layers and a layer contradict each other") {
 }
 
 TEST_CASE("values out of range are refused before any work") {
-    for (const Words& wrong :
-         {Words{"--vpls", "0"},           Words{"--vpls", "1000000000"},
-          Words{"--vpls", "-3"},          Words{"--vpls", "many"},
-          Words{"--vpls", "nan"},         Words{"--width", "0"},
-          Words{"--height", "0"},         Words{"--width", "65537"},
-          Words{"--luxels", "0"},         Words{"--luxels", "65"},
-          Words{"--direct-samples", "0"}, Words{"--direct-samples", "65537"},
-          Words{"--bounces", "0"},        Words{"--bounces", "255"},
-          Words{"--threads", "1025"},     Words{"--threads", "-1"},
-          Words{"--seed", "-1"},          Words{"--seed", "18446744073709551616"},
-          Words{"--exposure", "bright"},  Words{"--exposure", "nan"},
-          Words{"--bound", "0"},          Words{"--bound", "-1"},
-          Words{"--bound", "nan"},        Words{"--bound", "inf"},
-          Words{"--bound", "large"},      Words{"--passes", "0"},
-          Words{"--compensate", "-1"},    Words{"--compensate", "65537"},
-          Words{"--passes", "1000001"},   Words{"--passes", "1.5"},
-          Words{"--time", "0"},           Words{"--time", "-1"},
-          Words{"--time", "nan"},         Words{"--target-error", "0"},
-          Words{"--target-error", "2"},   Words{"--target-error", "small"},
-          Words{"--save-every", "-1"}}) {
+    for (const Words& wrong : {Words{"--vpls", "0"},
+                               Words{"--vpls", "1000000000"},
+                               Words{"--vpls", "-3"},
+                               Words{"--vpls", "many"},
+                               Words{"--vpls", "nan"},
+                               Words{"--width", "0"},
+                               Words{"--height", "0"},
+                               Words{"--width", "65537"},
+                               Words{"--luxels", "0"},
+                               Words{"--luxels", "65"},
+                               Words{"--direct-samples", "0"},
+                               Words{"--direct-samples", "65537"},
+                               Words{"--bounces", "0"},
+                               Words{"--bounces", "255"},
+                               Words{"--threads", "1025"},
+                               Words{"--threads", "-1"},
+                               Words{"--seed", "-1"},
+                               Words{"--seed", "18446744073709551616"},
+                               Words{"--exposure", "bright"},
+                               Words{"--exposure", "nan"},
+                               Words{"--bound", "0"},
+                               Words{"--bound", "-1"},
+                               Words{"--bound", "nan"},
+                               Words{"--bound", "inf"},
+                               Words{"--bound", "large"},
+                               Words{"--passes", "0"},
+                               Words{"--vsl-samples", "0"},
+                               Words{"--vsl-scale", "0"},
+                               Words{"--glossy-roughness", "2"},
+                               Words{"--glossy-roughness", "-1"},
+                               Words{"--compensate", "-1"},
+                               Words{"--compensate", "65537"},
+                               Words{"--passes", "1000001"},
+                               Words{"--passes", "1.5"},
+                               Words{"--time", "0"},
+                               Words{"--time", "-1"},
+                               Words{"--time", "nan"},
+                               Words{"--target-error", "0"},
+                               Words{"--target-error", "2"},
+                               Words{"--target-error", "small"},
+                               Words{"--save-every", "-1"}}) {
         INFO(wrong[0] << " " << wrong[1]);
         check_failing_render(Words{"builtin:sphere"} + wrong, 2, wrong[0]);
     }

@@ -156,7 +156,9 @@ void add_sampling(CLI::App& app, RenderOptions& o) {
     add_choice<mir::DirectLight>(
         app, "--direct", s.direct,
         {{"separate", mir::DirectLight::separate}, {"vpl", mir::DirectLight::vpl}},
-        "Direct light by samples of the lamps (default) or by VPLs on them");
+        "Direct light by samples of the lamps (default) or by VPLs on them and, of an environment, "
+        "at "
+        "infinity");
     app.add_option("--direct-samples", s.direct_samples, "Lamp samples per pixel (default 16)")
         ->check(between(1, 65536, "1 to 65536"));
     add_count(app, "--bounces", s.max_bounce, 1, 254,
@@ -178,6 +180,22 @@ void add_sampling(CLI::App& app, RenderOptions& o) {
         ->type_name("auto|none|B");
     add_count(app, "--compensate", s.compensate, 0, 65536,
               "Paths per pixel that trace back what the bound removed (default 0: none)");
+    CLI::Option* vsl = app.add_flag("--vsl", s.vsl.enabled,
+                                    "Virtual spherical lights: VPLs light as spheres, which spread "
+                                    "light where a bound would remove it");
+    add_count(app, "--vsl-samples", s.vsl.samples, 1, 1024,
+              "Directions in which a luxel sees a sphere, and of its BSDF (default 8)")
+        ->needs(vsl);
+    app.add_option("--vsl-scale", s.vsl.scale, "Factor of the spheres' radii (default 1)")
+        ->check(between(1e-3, 1e3, "0.001 to 1000"))
+        ->needs(vsl);
+    CLI::Option* glossy = app.add_flag("--glossy", s.glossy.enabled,
+                                       "VPLs on glossy surfaces send out the lobe of their surface "
+                                       "(--sampler ir or keller)");
+    app.add_option("--glossy-roughness", s.glossy.least_roughness,
+                   "Smoother surfaces send out lobes of this roughness (default 0.5)")
+        ->check(between(0.0, 1.0, "0 to 1"))
+        ->needs(glossy);
     app.add_option("--seed", s.seed, "Seed of all random numbers (default 0)")
         ->check(seed_number());
 }

@@ -2,6 +2,7 @@
 #include "render_output.hpp"
 
 #include "load_scene.hpp"
+#include "mir/compare/tile_luminances.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
 #include "mir/io/vpl_glb.hpp"
@@ -169,6 +170,27 @@ void print_health(const mir::ChainHealth& h) {
     std::fprintf(stderr, "\n");
 }
 
+/// Where the bound removed light: 256 tiles at most.
+Json tiles_of(const mir::Image<mir::Rgb>& removed) {
+    const mir::TileLuminances t = mir::tile_luminances(removed, 16);
+    return {{"side", t.side},
+            {"columns", t.tiles.width},
+            {"rows", t.tiles.height},
+            {"luminance", t.mean}};
+}
+
+/// "sampling 0.28, gbuffer 0.37": the stages that can be seen in hundredths of a second.
+std::string stages_of(const mir::StageSeconds& seconds) {
+    std::string text;
+    for (const mir::RenderStage& stage : mir::render_stages) {
+        if (seconds.*stage.seconds < 0.005) continue;
+        char took[32];
+        std::snprintf(took, sizeof took, " %.2f", seconds.*stage.seconds);
+        text += (text.empty() ? "" : ", ") + std::string(stage.name) + took;
+    }
+    return text.empty() ? "no stage took 0.01 s" : text;
+}
+
 }  // namespace
 
 const char* sampler_name(const mir::RenderSettings& s) {
@@ -224,17 +246,16 @@ void print_summary(const mir::RenderResult& r) {
     if (s.relative_error)
         std::fprintf(stderr, "mir: %u passes, relative error %.2g %%\n", s.passes,
                      100.0 * *s.relative_error);
-    std::fprintf(
-        stderr,
-        "mir: %llu triangles, %llu luxels, %u VPLs from %llu light paths, %s\n"
-        "mir: %.2f s (VPLs %.2f, camera rays %.2f, direct %.2f, visibility %.2f, response "
-        "%.2f, reconstruction %.2f, ledger %.2f, film %.2f), "
-        "%.1f M contributions/s\n",
-        static_cast<unsigned long long>(s.triangles), static_cast<unsigned long long>(s.luxels),
-        s.vpls, static_cast<unsigned long long>(s.light_paths), s.scheduler.c_str(),
-        s.seconds.total, s.seconds.bootstrap + s.seconds.sampling, s.seconds.gbuffer,
-        s.seconds.direct, s.seconds.visibility, s.seconds.response, s.seconds.reconstruction,
-        s.seconds.ledger, s.seconds.film, 1e-6 * contributions_per_second(s));
+    std::fprintf(stderr, "mir: %llu triangles, %llu luxels",
+                 static_cast<unsigned long long>(s.triangles),
+                 static_cast<unsigned long long>(s.luxels));
+    if (s.vpls > 0)
+        std::fprintf(stderr, ", %u VPLs from %llu light paths, %s", s.vpls,
+                     static_cast<unsigned long long>(s.light_paths), s.scheduler.c_str());
+    std::fprintf(stderr, "\nmir: %.2f s (%s)", s.seconds.total, stages_of(s.seconds).c_str());
+    if (s.vpls > 0)
+        std::fprintf(stderr, ", %.1f M contributions/s", 1e-6 * contributions_per_second(s));
+    std::fputc('\n', stderr);
     if (s.health) print_health(*s.health);
     for (const std::string& warning : r.warnings)
         std::fprintf(stderr, "mir: warning: %s\n", warning.c_str());
@@ -277,6 +298,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["contributions_per_second"] = contributions_per_second(s);
     out["emitted_power"] = s.emitted_power;
     out["non_lambertian_share"] = s.non_lambertian_share;
+    out["widened_share"] = s.widened_share;
     out["normalisation"] = s.normalisation;
     out["path_luminance"] = s.path_luminance;
     out["states"] = s.states;
@@ -286,6 +308,8 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["bound"] = s.bound;
     out["removed_share"] = s.removed_share();
     out["removed_luminance"] = s.removed_luminance;
+    if (!r.removed.pixels().empty()) out["removed_tiles"] = tiles_of(r.removed);
+    out["vsl_radius"] = s.vsl_radius;
     out["residual_paths"] = s.residual_paths;
     out["residual_luminance"] = s.residual_luminance;
     out["mean_radiance"] = {{"beauty", mean_of(r.beauty)},

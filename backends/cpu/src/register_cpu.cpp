@@ -1,18 +1,32 @@
 // SPDX-License-Identifier: MIT
+#include "host_render.hpp"
 #include "mir/accel/kd_tree_scene.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/register.hpp"
 #include "mir/host/shaft_scene.hpp"
 #include "mir/runtime/check_scene.hpp"
-#include "render_on_host.hpp"
+#include "mir/scene/scene_hash.hpp"
 
 namespace mir::cpu {
 
-extern template RenderResult render_any(const HostRender&, const EmbreeScene&);
-extern template RenderResult render_any(const HostRender&, const KdTreeScene&);
-extern template RenderResult render_any(const HostRender&, const ShaftScene&);
+extern template class HostEngineOf<EmbreeScene>;
+extern template class HostEngineOf<KdTreeScene>;
+extern template class HostEngineOf<ShaftScene>;
 
 namespace {
+
+template <Bsdf B>
+RenderResult render_with(const HostRender& r, const HostEngine& engine) {
+    switch (r.settings.integrator) {
+        case Integrator::path:
+            return render_by_paths<B>(r, engine.any());
+        case Integrator::micro:
+            return render_from_discs<B>(r, engine.any());
+        case Integrator::vpl:
+            break;
+    }
+    return render_by_vpls<B>(r, engine);
+}
 
 class CpuRenderer : public Renderer {
  public:
@@ -65,16 +79,19 @@ class CpuRenderer : public Renderer {
         return trace_by<EmbreeScene>("embree", render);
     }
 
-    /// Builds the engine, and renders with it.
-    template <class Engine, class... Options>
+    /// Builds what rays are traced through, and renders with it.
+    template <class TracedScene, class... Options>
     static RenderResult trace_by(const char* name, const HostRender& render, Options&... options) {
-        std::optional<Engine> engine;
+        std::optional<TracedScene> traced;
         {
             const auto stage = render.clock.measure(&StageSeconds::build);
-            engine.emplace(render.geometry, options...);
+            traced.emplace(render.geometry, options...);
         }
         if (render.monitor != nullptr) render.monitor->check();
-        RenderResult result = render_any(render, *engine);
+        const HostEngineOf<TracedScene> engine(*traced);
+        RenderResult result = is_lambertian(render.scene)
+                                  ? render_with<Lambert>(render, engine)
+                                  : render_with<CookTorrance>(render, engine);
         result.statistics.acceleration = name;
         return result;
     }

@@ -13,13 +13,14 @@ namespace mir {
 template <RayFinder F>
 class FinderRayCaster {
  public:
-    static constexpr Space space = F::space;
-    using Mask = typename F::Mask;
+    static constexpr Space space = F::space;  ///< of the finder and the geometry
+    using Mask = typename F::Mask;            ///< of the finder
 
     /// `view` is what the finder reads: a tree; `mask` says which points of triangles are there.
     MIR_HD FinderRayCaster(const GeometryView<space>& geometry, const typename F::View& view,
                            const Mask& mask = {})
         : geometry_(geometry), finder_{view, mask} {}
+    /// The same of the geometry of a scene, which must outlive it.
     FinderRayCaster(const WorldGeometry& geometry, const typename F::View& view,
                     const Mask& mask = {}) requires(space == Space::host)
         : FinderRayCaster(geometry.view(), view, mask) {}
@@ -31,6 +32,7 @@ class FinderRayCaster {
         point = geometry_.surface_point(hit.triangle, hit.barycentrics, ray.direction);
         return true;
     }
+    /// The first surface along the ray; none when it leaves the scene. The bits of find_point().
     [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const
         requires(space == Space::host) {
         SurfacePoint point;

@@ -34,11 +34,17 @@ class alignas(8) KdNode {
         return n;
     }
 
+    /// What the node is, and so which of the members below mean something.
     [[nodiscard]] MIR_HD constexpr bool is_leaf() const { return (word_ & 3u) == leaf_tag; }
+    /// Of an inner node: 0 for x, 1 for y, 2 for z.
     [[nodiscard]] MIR_HD constexpr std::uint32_t axis() const { return word_ & 3u; }
+    /// Of an inner node: where the plane lies on its axis, metres.
     [[nodiscard]] MIR_HD constexpr float split() const { return split_; }
+    /// Of an inner node: index of the child below; the one above follows it.
     [[nodiscard]] MIR_HD constexpr std::uint32_t below() const { return word_ >> 2; }
+    /// Of a leaf: place of its first reference.
     [[nodiscard]] MIR_HD constexpr std::uint32_t first() const { return first_; }
+    /// Of a leaf: number of its references, 0 for an empty one.
     [[nodiscard]] MIR_HD constexpr std::uint32_t count() const { return word_ >> 2; }
 
  private:
@@ -56,8 +62,8 @@ static_assert(sizeof(KdNode) == 8);
 /// Both children of an inner node as they lie in memory, so that one fetch of 16 bytes can begin
 /// before it is known which child comes next.
 struct alignas(16) KdChildren {
-    KdNode below;
-    KdNode above;
+    KdNode below;  ///< the child on the side of smaller coordinates
+    KdNode above;  ///< the other
 };
 
 }  // namespace mir

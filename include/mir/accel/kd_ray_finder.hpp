@@ -10,13 +10,14 @@ namespace mir {
 /// host and device. `M` as for KdTreeVisibility. What it reads must outlive it. Thread-safe.
 template <Space S, class M = UsualMask<S>>
 struct KdRayFinder {
-    static constexpr Space space = S;
-    using View = KdTreeView<S>;
-    using Mask = M;
+    static constexpr Space space = S;  ///< of the tree
+    using View = KdTreeView<S>;        ///< what the tree is read by
+    using Mask = M;                    ///< an Opaque or an AlphaMaskView
 
-    View tree;
-    [[no_unique_address]] Mask mask{};
+    View tree;    ///< of the scene
+    Mask mask{};  ///< which points of triangles are there
 
+    /// The first triangle along the ray, t in metres: first_hit().
     [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray) const {
         return first_hit(tree, ray, mask);
     }

@@ -7,7 +7,7 @@ namespace mir {
 
 /// What a kd-tree looks like and what it took to build it.
 struct KdTreeStatistics {
-    std::uint64_t triangles = 0;
+    std::uint64_t triangles = 0;     ///< of the scene, without those that have no area
     std::uint64_t nodes = 0;         ///< inner nodes and leaves
     std::uint64_t leaves = 0;        ///< empty ones included
     std::uint64_t empty_leaves = 0;  ///< without a triangle
@@ -26,11 +26,13 @@ struct KdTreeStatistics {
     [[nodiscard]] double seconds() const {
         return prepare_seconds + top_seconds + subtrees_seconds + assemble_seconds;
     }
+    /// Leaves that list a triangle, on average; 0 for a scene without triangles.
     [[nodiscard]] double references_per_triangle() const { return ratio(references, triangles); }
     /// Mean number of triangles of leaves that have some.
     [[nodiscard]] double triangles_per_leaf() const {
         return ratio(references, leaves - empty_leaves);
     }
+    /// Memory held per triangle; 0 for a scene without triangles.
     [[nodiscard]] double bytes_per_triangle() const { return ratio(bytes, triangles); }
 
  private:

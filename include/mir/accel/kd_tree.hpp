@@ -32,14 +32,19 @@ class KdTree {
     template <Executor E>
     KdTree(const WorldGeometry& geometry, const KdTreeOptions& options, E& executor);
 
+    /// What traversal reads. Valid, as the spans below, until the tree is assigned to, moved or
+    /// ends.
     [[nodiscard]] KdTreeView<Space::host> view() const {
         return {nodes_.data(), references_.data(), triangles_.data(), low_, high_, reach_};
     }
+    /// What the tree looks like and how long each stage of its construction took.
     [[nodiscard]] const KdTreeStatistics& statistics() const { return statistics_; }
 
     /// As KdTreeView counts them: node 0 is never visited.
     [[nodiscard]] std::span<const KdNode> nodes() const { return nodes_.span(); }
+    /// Triangle indices of WorldGeometry, leaf by leaf; KdNode::first() is a place here.
     [[nodiscard]] std::span<const std::uint32_t> references() const { return references_.span(); }
+    /// Rows of every triangle, by index of WorldGeometry.
     [[nodiscard]] std::span<const TriangleRows> triangles() const { return triangles_.span(); }
 
     /// Memory held, bytes.

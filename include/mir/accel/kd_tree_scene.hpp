@@ -23,12 +23,16 @@ class KdTreeScene {
               return KdTree(geometry, {}, executor);
           }()) {}
 
+    /// Answers from the tree with the masks of the scene. Valid while this object and the geometry
+    /// stay where they are.
     [[nodiscard]] KdTreeVisibility<Space::host> visibility() const {
         return {tree_.view(), geometry_->alpha_masks()};
     }
+    /// Casts rays at the same surfaces; valid as long.
     [[nodiscard]] KdRayCaster<Space::host> ray_caster() const {
         return {*geometry_, tree_.view(), geometry_->alpha_masks()};
     }
+    /// The tree itself, for views and statistics.
     [[nodiscard]] const KdTree& tree() const { return tree_; }
 
  private:

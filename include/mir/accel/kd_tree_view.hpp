@@ -12,7 +12,7 @@ namespace mir {
 /// accept_box.hpp says which triangles a leaf must list.
 template <Space S>
 struct KdTreeView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< of the memory that it points to
 
     /// Largest number of planes between the root and a leaf. Traversal keeps a stack of this size.
     static constexpr std::uint32_t max_depth = KdTreeOptions::depth_limit;
@@ -24,9 +24,10 @@ struct KdTreeView {
     const std::uint32_t* references = nullptr;  ///< triangle indices, leaf by leaf
     const TriangleRows* triangles = nullptr;    ///< by triangle index of WorldGeometry
     Vec3 low{0};                                ///< box around all accept boxes
-    Vec3 high{0};
+    Vec3 high{0};                               ///< upper corner of that box, metres
     float reach = 0.0f;  ///< metres: reach_of(magnitude_of(bounds of the scene)), accept_box.hpp
 
+    /// Both children of an inner node, in one fetch.
     [[nodiscard]] MIR_HD KdChildren children(KdNode inner) const {
         return *reinterpret_cast<const KdChildren*>(nodes + inner.below());
     }

@@ -3,6 +3,7 @@
 
 #include "mir/accel/kd_packet.hpp"
 #include "mir/accel/kd_traverse.hpp"
+#include "mir/accel/packet_visibility.hpp"
 #include "mir/concepts/visibility.hpp"
 
 namespace mir {
@@ -13,20 +14,24 @@ namespace mir {
 /// there, an Opaque or an AlphaMaskView. What it reads must outlive it. Thread-safe.
 template <Space S, class M = UsualMask<S>>
 struct KdTreeVisibility {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< of the tree
 
-    KdTreeView<S> tree;
-    [[no_unique_address]] M mask{};
+    KdTreeView<S> tree;  ///< of the scene
+    M mask{};            ///< which points of triangles are there
 
+    /// True when no triangle hides the points (metres) from each other: !is_hidden(). The same
+    /// bit when they change places.
     [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return !is_hidden(tree, a, b, mask); }
 
+    /// As PacketVisibility says, bit k being visible(origin, point k); by the widest registers of
+    /// the processor.
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const
         requires(S == Space::host) {
         if constexpr (std::is_same_v<M, Opaque>)
-            return visible_in_packet(tree, origin, points, active);
+            return detail::ask_packet(tree, origin, points, active);
         else
-            return visible_in_packet(tree, origin, points, active, mask);
+            return detail::ask_packet(tree, origin, points, active, mask);
     }
 };
 

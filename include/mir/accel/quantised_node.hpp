@@ -14,9 +14,9 @@ namespace mir {
 /// Source: Ylitie, Karras and Laine, "Efficient incoherent ray traversal on GPUs through compressed
 /// wide BVHs", HPG 2017.
 struct alignas(64) QuantisedNode {
-    static constexpr std::uint32_t words_per_row = WideNode::width / 4;
+    static constexpr std::uint32_t words_per_row = WideNode::width / 4;  ///< four children each
 
-    Vec3 origin{0};
+    Vec3 origin{0};                         ///< plane 0 of each axis, metres
     std::uint8_t exponents[3] = {0, 0, 0};  ///< of the steps, with the bias of single precision
     std::uint8_t inner = 0;                 ///< bit k: child k is a node
     /// Bytes of eight children, four to a word: low x, high x, low y, high y, low z, high z.
@@ -111,18 +111,19 @@ MIR_HD inline void quantise_axis(const WideNode& node, int axis, float margin, Q
 /// A hierarchy with the boxes of its nodes in short, for walks that visit many.
 template <Space S>
 struct QuantisedBvhView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< of the memory of both
 
-    WideBvhView<S> exact;
+    WideBvhView<S> exact;                  ///< the hierarchy itself
     const QuantisedNode* boxes = nullptr;  ///< of the nodes of `exact`, by their numbers
 };
 
 /// Kernel over the nodes of a hierarchy.
 template <Space S>
 struct QuantiseNodes {
-    WideBvhView<S> bvh;
-    QuantisedNode* out = nullptr;
+    WideBvhView<S> bvh;            ///< whose nodes are read
+    QuantisedNode* out = nullptr;  ///< one for each node, by its number
 
+    /// Writes the boxes of node `i`, with a margin of 2^-20 of the hierarchy's reach.
     MIR_HD void operator()(std::uint32_t i) const {
         // 2^-20 reach is 24 e M.
         out[i] = quantised(bvh.nodes[i], 0x1p-20f * bvh.reach);

@@ -14,8 +14,8 @@ namespace mir {
 
 /// Part of a segment or ray inside the cube of half edge `reach`.
 struct CutSegment {
-    Vec3 from{0};
-    Vec3 to{0};
+    Vec3 from{0};           ///< metres; means nothing when `empty`
+    Vec3 to{0};             ///< the same
     bool empty = false;     ///< it misses the cube
     float t_from = 0.0f;    ///< rays: distance of `from` from the origin, metres
     float t_length = 0.0f;  ///< rays: distance from `from` to `to`, metres

@@ -35,10 +35,11 @@ struct LaneRows {
 /// Sixteen triangles side by side, as vector units read them: those at the places 16 i to 16 i + 15
 /// of a hierarchy, whose leaves next to each other share them.
 struct TriangleLanes {
-    detail::LaneRows u;
-    detail::LaneRows v;
-    detail::LaneRows s;
+    detail::LaneRows u;  ///< as TriangleRows::u, of each
+    detail::LaneRows v;  ///< as TriangleRows::v
+    detail::LaneRows s;  ///< as TriangleRows::s, metres
 
+    /// Rows of the triangle in lane `k` < 16, bit for bit.
     [[nodiscard]] TriangleRows rows(std::uint32_t k) const {
         return {u.row(k), v.row(k), s.row(k)};
     }

@@ -10,7 +10,9 @@ namespace mir {
 /// Says of every point of every triangle that it is there. What traversal takes in place of an
 /// AlphaMaskView where no triangle is masked; it leaves no instruction behind.
 struct Opaque {
+    /// False: is_solid() need not be asked.
     [[nodiscard]] MIR_HD static constexpr bool exists() { return false; }
+    /// True, whatever the point.
     [[nodiscard]] MIR_HD static constexpr bool is_solid(std::uint32_t /*triangle*/,
                                                         Vec2 /*barycentrics*/) {
         return true;

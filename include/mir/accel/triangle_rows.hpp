@@ -9,10 +9,10 @@ namespace mir {
 /// An affine function of a point p in metres: x p.x + y p.y + z p.z + w. Aligned so that the device
 /// fetches it as one word.
 struct alignas(16) AffineRow {
-    float x = 0.0f;
-    float y = 0.0f;
-    float z = 0.0f;
-    float w = 0.0f;
+    float x = 0.0f;  ///< factor of p.x, the value's unit per metre
+    float y = 0.0f;  ///< of p.y
+    float z = 0.0f;  ///< of p.z
+    float w = 0.0f;  ///< value at the origin
 };
 
 /// A triangle in the form in which segments are tested: three affine functions of a point. u and v
@@ -21,9 +21,9 @@ struct alignas(16) AffineRow {
 /// Source: Baldwin and Weber, "Fast ray-triangle intersections by coordinate transformation",
 /// JCGT 5(3), 2016.
 struct TriangleRows {
-    AffineRow u;
-    AffineRow v;
-    AffineRow s;
+    AffineRow u;  ///< weight of the second corner
+    AffineRow v;  ///< weight of the third corner
+    AffineRow s;  ///< distance from the plane, metres
 };
 
 namespace detail {
@@ -168,7 +168,7 @@ template <class Mask>
 
 /// What a ray met.
 struct TriangleHit {
-    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;  ///< no index: nothing was met
 
     float t = 1.0f;                 ///< along the segment, 0 at its start and 1 at its end
     Vec2 barycentrics{0};           ///< weights of the second and third corner

@@ -22,12 +22,18 @@ class WideBvh {
           indices_(std::move(indices)),
           reach_(reach) {}
 
+    /// What traversal reads. Valid, as the spans below, until the hierarchy is assigned to, moved
+    /// or ends.
     [[nodiscard]] WideBvhView<Space::host> view() const {
         return {nodes_.data(), triangles_.data(), indices_.data(), reach_};
     }
 
+    /// The root first; children are numbered as WideNode::ref says.
     [[nodiscard]] std::span<const WideNode> nodes() const { return nodes_; }
+    /// Rows of the triangles of leaves, leaf by leaf; one that was split stands in each of its
+    /// leaves.
     [[nodiscard]] std::span<const TriangleRows> triangles() const { return triangles_; }
+    /// Which triangle of WorldGeometry stands at each place of triangles().
     [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
 
     /// Memory held, bytes.

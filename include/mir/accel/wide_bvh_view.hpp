@@ -12,7 +12,7 @@ namespace mir {
 /// (accept_box.hpp) of all triangles below it. There is always a root, even without triangles.
 template <Space S>
 struct WideBvhView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< of the memory that it points to
 
     /// Largest number of nodes on the way to a triangle. Traversal keeps a stack of this size.
     static constexpr std::uint32_t max_depth = WideBvhOptions::depth_limit;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/packet_visibility.hpp"
 #include "mir/accel/wide_packet.hpp"
 #include "mir/accel/wide_traverse.hpp"
 #include "mir/concepts/visibility.hpp"
@@ -14,20 +15,24 @@ namespace mir {
 /// Thread-safe.
 template <Space S, class M = UsualMask<S>>
 struct WideBvhVisibility {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< of the hierarchy
 
-    WideBvhView<S> bvh;
-    [[no_unique_address]] M mask{};
+    WideBvhView<S> bvh;  ///< of the scene
+    M mask{};            ///< which points of triangles are there
 
+    /// True when no triangle hides the points (metres) from each other: !is_hidden(). The same
+    /// bit when they change places.
     [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b, mask); }
 
+    /// As PacketVisibility says, bit k being visible(origin, point k); by the widest registers of
+    /// the processor.
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const
         requires(S == Space::host) {
         if constexpr (std::is_same_v<M, Opaque>)
-            return visible_in_packet(bvh, origin, points, active);
+            return detail::ask_packet(bvh, origin, points, active);
         else
-            return visible_in_packet(bvh, origin, points, active, mask);
+            return detail::ask_packet(bvh, origin, points, active, mask);
     }
 };
 

@@ -11,13 +11,14 @@ namespace mir {
 /// outlive it. Thread-safe.
 template <Space S, class M = UsualMask<S>>
 struct WideRayFinder {
-    static constexpr Space space = S;
-    using View = WideBvhView<S>;
-    using Mask = M;
+    static constexpr Space space = S;  ///< of the hierarchy
+    using View = WideBvhView<S>;       ///< what the hierarchy is read by
+    using Mask = M;                    ///< an Opaque or an AlphaMaskView
 
-    View bvh;
-    [[no_unique_address]] Mask mask{};
+    View bvh;     ///< of the scene
+    Mask mask{};  ///< which points of triangles are there
 
+    /// The first triangle along the ray, t in metres: first_hit().
     [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray) const {
         return first_hit(bvh, ray, mask);
     }

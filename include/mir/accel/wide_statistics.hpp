@@ -15,9 +15,9 @@ struct WideBvhStatistics {
     /// What visiting a node, which tests eight boxes, is taken to cost, in triangle tests.
     static constexpr double node_cost = 2.0;
 
-    std::uint64_t triangles = 0;  ///< in leaves; one that was split counts in each
-    std::uint64_t nodes = 0;
-    std::uint64_t leaves = 0;
+    std::uint64_t triangles = 0;     ///< in leaves; one that was split counts in each
+    std::uint64_t nodes = 0;         ///< the root included
+    std::uint64_t leaves = 0;        ///< slots of nodes that hold triangles
     std::uint32_t depth = 0;         ///< most nodes on the way from the root to a triangle
     std::uint32_t largest_leaf = 0;  ///< triangles
     double expected_nodes = 0.0;     ///< visited by a line through the root's box, by areas
@@ -25,6 +25,7 @@ struct WideBvhStatistics {
 
     /// Expected cost of a line through the root's box, in triangle tests.
     [[nodiscard]] double sah_cost() const { return node_cost * expected_nodes + expected_tests; }
+    /// Mean number of triangles of a leaf; 0 when there is none.
     [[nodiscard]] double triangles_per_leaf() const { return ratio(triangles, leaves); }
     /// Mean number of children of a node, at most 8.
     [[nodiscard]] double children_per_node() const {

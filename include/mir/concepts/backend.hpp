@@ -15,12 +15,15 @@ namespace mir {
 
 /// The poorest kernel: what Backend::Queue::for_each() must accept.
 struct NoOpKernel {
+    /// Does nothing with the index.
     MIR_HD void operator()(LuxelIndex) const {}
 };
 
 /// The poorest bit kernel: what Backend::Queue::fill_bits() must accept.
 struct NoBitKernel {
+    /// What the kernel wants to know of row i: its index.
     [[nodiscard]] MIR_HD std::uint32_t row(LuxelIndex i) const { return i; }
+    /// Always false, a zero bit.
     [[nodiscard]] MIR_HD bool operator()(std::uint32_t /*row*/, std::uint32_t /*column*/) const {
         return false;
     }
@@ -28,7 +31,9 @@ struct NoBitKernel {
 
 /// The poorest kernel for groups: what Backend::Queue::for_each_group() must accept.
 struct NoOpGroupKernel {
+    /// Memory of the group: empty.
     struct Workspace {};
+    /// Does nothing with the index.
     MIR_HD void operator()(const LaneGroup&, std::uint32_t /*i*/, Workspace&) const {}
 };
 

@@ -17,10 +17,12 @@ concept Executor = requires(E& e, std::size_t n, void (*body)(std::size_t)) {
 
 /// Runs everything on the calling thread, in order.
 struct InlineExecutor {
+    /// Calls body(0) to body(n - 1). An exception ends the loop there.
     template <class Body>
     void for_each(std::size_t n, Body&& body) {
         for (std::size_t i = 0; i < n; ++i) body(i);
     }
+    /// Always 1.
     [[nodiscard]] std::size_t concurrency() const { return 1; }
 };
 

@@ -11,9 +11,9 @@ namespace mir {
 /// Places VPLs. All samplers yield the same records; `normalisation` says what is left to do to
 /// make intensities of them.
 ///
-/// Axioms (tests/conformance/sampler_suite.hpp):
+/// Axioms (validation/sampler.hpp):
 ///  1. same sampler, same records, for any executor;
-///  2. intensities are finite and not negative;
+///  2. intensities are finite, not negative and not black;
 ///  3. the mean over seeds converges to the light of the scene (statistical).
 template <class S>
 concept Sampler = requires(const S s, InlineExecutor& executor) {

@@ -12,8 +12,8 @@ namespace mir {
 /// Radiance that an unoccluded VPL adds to a luxel. `typename F::Surface` says which surface data
 /// it reads.
 ///
-/// Axioms (tests/conformance/shading_suite.hpp): finite, not negative, zero below either horizon, a
-/// VPL of zero intensity adds nothing (so that it may be skipped), traces no ray.
+/// Axioms (validation/shading.hpp): finite, not negative, zero below either horizon, linear in the
+/// channels of the VPL's intensity (so black ones may be skipped), repeatable, traces no ray.
 template <class F>
 concept Shading = DeviceCopyable<F> &&
     requires(const F f, const Hit& h, const typename F::Surface& s, const Vpl& v) {

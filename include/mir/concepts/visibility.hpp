@@ -28,10 +28,10 @@ concept Visibility = DeviceCopyable<V> && requires(const V v, Vec3 a, Vec3 b) {
 
 /// Sixteen points in structure-of-arrays order, as vector units read them.
 struct alignas(64) PointPacket {
-    static constexpr std::uint32_t width = 16;
-    float x[width];
-    float y[width];
-    float z[width];
+    static constexpr std::uint32_t width = 16;  ///< number of points
+    float x[width];                             ///< metres
+    float y[width];                             ///< metres
+    float z[width];                             ///< metres
 };
 
 /// The packet face of Visibility: one origin against up to sixteen points. Bit i of the result is
@@ -48,11 +48,12 @@ concept PacketVisibility = Visibility<V> &&
 
 /// Luxels of a block of 256, a bit each: word g is for the packet of luxels 16 g to 16 g + 15.
 struct alignas(64) BlockMask {
-    static constexpr std::uint32_t luxels = 256;
-    static constexpr std::uint32_t packets = luxels / PointPacket::width;
+    static constexpr std::uint32_t luxels = 256;                           ///< bits of a mask
+    static constexpr std::uint32_t packets = luxels / PointPacket::width;  ///< words of a mask
 
-    std::uint32_t packet[packets] = {};
+    std::uint32_t packet[packets] = {};  ///< bit k of word g: luxel 16 g + k
 
+    /// True when a bit is set.
     [[nodiscard]] bool any() const {
         std::uint32_t bits = 0;
         for (const std::uint32_t p : packet) bits |= p;

@@ -29,12 +29,13 @@ MIR_HD std::uint32_t first_that(const T* values, std::uint32_t count, const Pred
 /// What kernels read of a DiscreteDistribution. A view; thread-safe.
 template <Space S>
 struct DiscreteDistributionView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< memory that `cumulative` lies in
 
     const double* cumulative = nullptr;  ///< sums of the weights up to each index, it included
-    std::uint32_t size = 0;
-    double total = 0.0;
+    std::uint32_t size = 0;              ///< of `cumulative`
+    double total = 0.0;                  ///< sum of all weights, finite and at least 0
 
+    /// True when no index has weight: sample() and probability() must not be called.
     [[nodiscard]] MIR_HD bool empty() const { return !(total > 0.0); }
 
     /// Index for u in [0, 1). Must not be empty.
@@ -82,8 +83,11 @@ class DiscreteDistribution {
         }
     }
 
+    /// True when no index has weight: sample() and probability() must not be called.
     [[nodiscard]] bool empty() const { return view().empty(); }
+    /// Sum of all weights, in their unit.
     [[nodiscard]] double total() const { return total_; }
+    /// Number of weights, those of zero included.
     [[nodiscard]] std::size_t size() const { return cumulative_.size(); }
 
     /// Sums of the weights up to each index, it included.

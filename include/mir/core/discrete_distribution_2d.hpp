@@ -7,20 +7,21 @@ namespace mir {
 
 /// A cell that a DiscreteDistribution2d picked, and a uniform place inside it, in [0, 1)^2.
 struct GridCell {
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
-    Vec2 inside{0};
+    std::uint32_t x = 0;  ///< column
+    std::uint32_t y = 0;  ///< row
+    Vec2 inside{0};       ///< from the cell's corner (x, y), in cells
 };
 
 /// What kernels read of a DiscreteDistribution2d. A view; thread-safe.
 template <Space S>
 struct DiscreteDistribution2dView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< memory that the arrays lie in
 
     const double* cumulative = nullptr;  ///< of each row alone, row by row
-    std::uint32_t width = 0;
-    DiscreteDistributionView<S> rows;
+    std::uint32_t width = 0;             ///< cells of a row
+    DiscreteDistributionView<S> rows;    ///< each row by the sum of its weights
 
+    /// True when no cell has weight: sample() must not be called.
     [[nodiscard]] MIR_HD bool empty() const { return rows.empty(); }
 
     /// The cells of one row.
@@ -60,6 +61,7 @@ class DiscreteDistribution2d {
         rows_ = DiscreteDistribution(sums);
     }
 
+    /// True when no cell has weight: sample() must not be called.
     [[nodiscard]] bool empty() const { return rows_.empty(); }
     /// Sum of all weights.
     [[nodiscard]] double total() const { return rows_.total(); }
@@ -70,6 +72,7 @@ class DiscreteDistribution2d {
     }
     /// The arrays of view().
     [[nodiscard]] std::span<const double> cumulative() const { return cumulative_; }
+    /// Picks each row by the sum of its weights, rounded to float.
     [[nodiscard]] const DiscreteDistribution& rows() const { return rows_; }
 
  private:

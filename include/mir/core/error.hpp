@@ -12,9 +12,10 @@ namespace mir {
 /// Place in the source that raised an error. clang 14 lacks std::source_location; the builtins used
 /// here exist in every supported compiler and report the caller's line.
 struct Where {
-    const char* file = "";
-    std::uint32_t line = 0;
+    const char* file = "";   ///< as the compiler was given it; static storage
+    std::uint32_t line = 0;  ///< from 1; 0: unknown
 
+    /// The caller's place, by its default arguments.
     MIR_HD static constexpr Where here(const char* file = __builtin_FILE(),
                                        std::uint32_t line = __builtin_LINE()) {
         return {file, line};
@@ -38,10 +39,13 @@ enum class ErrorCode {
 /// The one exception type of the library. The message is a sentence: problem, reason, remedy.
 class Error : public std::runtime_error {
  public:
+    /// `what` is the message for users; `at` is the caller's place when left out.
     Error(ErrorCode code, const std::string& what, Where at = Where::here())
         : std::runtime_error(what), code_(code), where_(at) {}
 
+    /// Kind of failure.
     [[nodiscard]] ErrorCode code() const noexcept { return code_; }
+    /// Place in the library's source that raised it, for reports of bugs.
     [[nodiscard]] Where where() const noexcept { return where_; }
 
  private:

@@ -19,21 +19,25 @@ namespace mir {
 /// condition that differs between lanes.
 class LaneGroup {
  public:
-    static constexpr std::uint32_t width = 32;
-    static constexpr std::uint32_t all = 0xFFFFFFFFu;
+    static constexpr std::uint32_t width = 32;         ///< lanes
+    static constexpr std::uint32_t all = 0xFFFFFFFFu;  ///< the bits of all lanes
 
     /// A value for each lane; a lane may touch its own alone.
     template <class T>
     class PerLane {
      public:
 #if defined(__CUDA_ARCH__)
+        /// The calling lane's own; the number is not looked at.
         MIR_HD T& operator[](std::uint32_t) { return value_; }
+        /// The calling lane's own; the number is not looked at.
         MIR_HD const T& operator[](std::uint32_t) const { return value_; }
 
      private:
         T value_;
 #else
+        /// Value of a lane, 0 to width - 1.
         T& operator[](std::uint32_t lane) { return values_[lane]; }
+        /// Value of a lane, 0 to width - 1.
         const T& operator[](std::uint32_t lane) const { return values_[lane]; }
 
      private:

@@ -25,12 +25,15 @@ enum class Stream : std::uint32_t {
     surfel_gather,  ///< directions in which discs look for discs
     gather,         ///< directions in which luxels look for discs
     pass,           ///< seeds of the passes of a progressive render
-    residual        ///< paths that trace back what the bound removed
+    residual,       ///< paths that trace back what the bound removed
+    distant_vpls,   ///< directions towards the environment that all luxels share
+    vsl             ///< directions in which luxels see the spheres of VSLs
 };
 
 /// 128 bits as four words; a plain array, because device code cannot index std::array.
 struct Bits128 {
-    std::uint32_t word[4] = {};
+    std::uint32_t word[4] = {};  ///< word[0] holds the lowest bits
+    /// True when all bits are equal.
     friend MIR_HD constexpr bool operator==(const Bits128&, const Bits128&) = default;
 };
 
@@ -71,11 +74,13 @@ class Random {
         return to_unit_float(block(dimension / 4).word[dimension % 4]);
     }
 
+    /// The next number of the sequence, which begins with dimension 0.
     MIR_HD constexpr float next() {
         if (dimension_ % 4 == 0) block_ = block(dimension_ / 4);
         return to_unit_float(block_.word[dimension_++ % 4]);
     }
 
+    /// The next two numbers of the sequence, x first.
     MIR_HD Vec2 next_2d() {
         const float x = next();
         return {x, next()};
@@ -100,9 +105,11 @@ class Random {
 /// are kept, because making one costs as much as making four. Not shared by threads.
 class NearbyNumbers {
  public:
+    /// Begins with the numbers of dimensions 0 to 3 at hand.
     MIR_HD constexpr explicit NearbyNumbers(const Random& random)
         : random_(random), block_(random.block(0)) {}
 
+    /// Random::at(), with its bits.
     [[nodiscard]] MIR_HD constexpr float at(std::uint32_t dimension) {
         if (dimension / 4 != number_) block_ = random_.block(number_ = dimension / 4);
         return to_unit_float(block_.word[dimension % 4]);

@@ -17,15 +17,18 @@ struct RawAllocator : std::allocator<T> {
     /// The allocator of another type, as the standard asks for it.
     template <class U>
     struct rebind {  // NOLINT(readability-identifier-naming): the standard's name
-        using other = RawAllocator<U>;
+        using other = RawAllocator<U>;  ///< the allocator of U
     };
 
     RawAllocator() = default;
+    /// All are equal: what one allocates, any other may free.
     template <class U>
     RawAllocator(const RawAllocator<U>& /*other*/) {}
 
+    /// Default initialisation of plain values: writes nothing.
     template <class U>
     void construct(U* /*place*/) noexcept {}
+    /// Writes an element made of `arguments`.
     template <class U, class... Arguments>
     void construct(U* place, Arguments&&... arguments) {
         std::construct_at(place, std::forward<Arguments>(arguments)...);

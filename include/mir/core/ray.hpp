@@ -7,22 +7,22 @@ namespace mir {
 
 /// Half line origin + t direction, t > 0. `direction` has unit length; metres.
 struct Ray {
-    Vec3 origin{0};
-    Vec3 direction{0, 0, -1};
+    Vec3 origin{0};            ///< world space, metres
+    Vec3 direction{0, 0, -1};  ///< unit
 };
 
 /// Where a ray met the scene. Both normals have unit length and lie on the side the ray came from;
 /// `front` says whether that is the side on which the triangle's vertices turn counter-clockwise.
 struct SurfacePoint {
-    Vec3 position{0};
-    Vec3 geometric_normal{0, 0, 1};
-    Vec3 shading_normal{0, 0, 1};
-    Vec2 barycentrics{0};        ///< weights of the triangle's second and third vertex
-    std::uint32_t triangle = 0;  ///< index into WorldGeometry
-    std::uint32_t material = 0;  ///< index into Scene::materials
-    bool front = true;
-    Vec2 texture_coordinates{0};
-    Rgb color{1.0f, 1.0f, 1.0f};  ///< of the vertices; multiplies the base colour
+    Vec3 position{0};                ///< world space, metres; on the surface, not lifted
+    Vec3 geometric_normal{0, 0, 1};  ///< of the triangle
+    Vec3 shading_normal{0, 0, 1};    ///< interpolated from the vertices; normal maps are not in it
+    Vec2 barycentrics{0};            ///< weights of the triangle's second and third vertex
+    std::uint32_t triangle = 0;      ///< index into WorldGeometry
+    std::uint32_t material = 0;      ///< index into Scene::materials
+    bool front = true;               ///< counter-clockwise side
+    Vec2 texture_coordinates{0};     ///< interpolated; (0, 0) where the mesh has none
+    Rgb color{1.0f, 1.0f, 1.0f};     ///< of the vertices; multiplies the base colour
     /// In the triangle's plane along rising u, not unit; zero where textures have no direction.
     Vec3 tangent{0};
     bool mirrored_texture = false;  ///< u, v and the front's normal are left-handed with v up

@@ -8,25 +8,32 @@ namespace mir {
 /// Linear Rec. 709 triple. What it measures (radiance, intensity, reflectance) is said where it is
 /// used.
 struct Rgb {
-    float r = 0.0f;
-    float g = 0.0f;
-    float b = 0.0f;
+    float r = 0.0f;  ///< red
+    float g = 0.0f;  ///< green
+    float b = 0.0f;  ///< blue
 
+    /// Adds channel by channel.
     MIR_HD constexpr Rgb& operator+=(Rgb o) {
         r += o.r;
         g += o.g;
         b += o.b;
         return *this;
     }
+    /// Channel by channel.
     friend MIR_HD constexpr Rgb operator+(Rgb a, Rgb o) { return a += o; }
+    /// Channel by channel; results may be negative.
     friend MIR_HD constexpr Rgb operator-(Rgb a, Rgb o) {
         return {a.r - o.r, a.g - o.g, a.b - o.b};
     }
+    /// Channel by channel: light times reflectance.
     friend MIR_HD constexpr Rgb operator*(Rgb a, Rgb o) {
         return {a.r * o.r, a.g * o.g, a.b * o.b};
     }
+    /// Every channel times `s`.
     friend MIR_HD constexpr Rgb operator*(Rgb a, float s) { return {a.r * s, a.g * s, a.b * s}; }
+    /// Every channel times `s`, with the bits of `a * s`.
     friend MIR_HD constexpr Rgb operator*(float s, Rgb a) { return a * s; }
+    /// True when all channels are equal; false for NaN.
     friend MIR_HD constexpr bool operator==(Rgb a, Rgb o) = default;
 };
 

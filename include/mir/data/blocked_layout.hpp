@@ -7,8 +7,8 @@ namespace mir {
 
 /// Column and row of a luxel in its tile.
 struct LuxelPlace {
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
+    std::uint32_t x = 0;  ///< column, 0 at the left
+    std::uint32_t y = 0;  ///< row, 0 at the top
 };
 
 /// Order of the luxels of one tile in memory: squares of 16x16, one after another (figure 4 of the
@@ -16,16 +16,19 @@ struct LuxelPlace {
 /// register, a warp) are neighbours in both directions. The blocked index of a luxel is the global
 /// index of its CUDA thread. Ragged edges are padded to whole blocks.
 struct BlockedLayout {
-    static constexpr std::uint32_t side = 16;
-    static constexpr std::uint32_t block_size = side * side;
+    static constexpr std::uint32_t side = 16;                 ///< of a block, luxels
+    static constexpr std::uint32_t block_size = side * side;  ///< luxels of a block
 
-    std::uint32_t blocks_x = 0;
-    std::uint32_t blocks_y = 0;
+    std::uint32_t blocks_x = 0;  ///< blocks side by side, ragged ones included
+    std::uint32_t blocks_y = 0;  ///< blocks one below the other
 
+    /// The layout of a tile of such a size, wherever it lies in the image.
     MIR_HD static constexpr BlockedLayout of(Tile t) {
         return {(t.width + side - 1) / side, (t.height + side - 1) / side};
     }
+    /// Blocks of the tile.
     [[nodiscard]] MIR_HD constexpr std::uint32_t blocks() const { return blocks_x * blocks_y; }
+    /// Luxels of the tile in memory, padding included; blocked indices are below it.
     [[nodiscard]] MIR_HD constexpr std::uint32_t size() const { return blocks() * block_size; }
 
     /// Blocked index of the luxel at (x, y) of the tile.

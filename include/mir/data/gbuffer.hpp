@@ -14,16 +14,19 @@ namespace mir {
 /// The luxels of one tile: hits and surfaces in separate planes. Model of GBuffer.
 template <Space S, class Params>
 struct GBufferView {
-    static constexpr Space space = S;
-    using Surface = mir::Surface<Params>;
+    static constexpr Space space = S;      ///< of the memory of both planes
+    using Surface = mir::Surface<Params>;  ///< what a luxel tells shading
     template <Space Other>
     using In = GBufferView<Other, Params>;  ///< the same luxels in other memory
 
-    SoaView<const Hit> hits;
-    SoaView<const Surface> surfaces;
+    SoaView<const Hit> hits;          ///< by blocked index, of the luxels and the padding
+    SoaView<const Surface> surfaces;  ///< the same of surfaces
 
+    /// Luxels, padding included.
     [[nodiscard]] MIR_HD std::uint32_t size() const { return hits.stride; }
+    /// Of blocked index `i` < size(); reads no surface.
     [[nodiscard]] MIR_HD Hit hit(LuxelIndex i) const { return hits.load(i); }
+    /// Of blocked index `i` < size(); that of an empty luxel means nothing.
     [[nodiscard]] MIR_HD Surface surface(LuxelIndex i) const { return surfaces.load(i); }
 };
 
@@ -33,8 +36,8 @@ struct GBufferView {
 template <class Params, class Alloc = std::allocator<std::uint32_t>>
 class BlockedGBuffer {
  public:
-    using Surface = mir::Surface<Params>;
-    using View = GBufferView<Space::host, Params>;
+    using Surface = mir::Surface<Params>;           ///< what a luxel tells shading
+    using View = GBufferView<Space::host, Params>;  ///< of a tile, for the host
 
     /// All luxels start empty.
     /// @throws Error(invalid_argument) when an extent is zero.
@@ -46,9 +49,12 @@ class BlockedGBuffer {
         words_.resize(first_luxel_.back() * (hit_words + surface_words));
     }
 
+    /// Luxels of the image or band, without padding.
     [[nodiscard]] Extent extent() const { return extent_; }
+    /// As cut_into_tiles() returns them; all other members count tiles by their place here.
     [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
 
+    /// The luxels of a tile. Valid until the buffer is assigned to, moved or ends.
     [[nodiscard]] View view(TileIndex t) const {
         return {{hit_plane(t), luxels(t)}, {surface_plane(t), luxels(t)}};
     }
@@ -57,12 +63,14 @@ class BlockedGBuffer {
     [[nodiscard]] std::span<const std::uint32_t> hit_words_of(TileIndex t) const {
         return {hit_plane(t), std::size_t{luxels(t)} * hit_words};
     }
+    /// The same of surfaces, which follow the tile's hits in memory.
     [[nodiscard]] std::span<const std::uint32_t> surface_words_of(TileIndex t) const {
         return {surface_plane(t), std::size_t{luxels(t)} * surface_words};
     }
 
     /// All words, tile after tile, for copies of a whole image.
     [[nodiscard]] std::span<std::uint32_t> words() { return words_; }
+    /// The same, to be read.
     [[nodiscard]] std::span<const std::uint32_t> words() const { return words_; }
 
     /// Writes luxel `i` (blocked index) of tile `t`.

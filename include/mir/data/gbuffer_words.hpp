@@ -11,15 +11,18 @@ namespace mir {
 /// words, as in BlockedGBuffer. A view; stores to different luxels may happen at the same time.
 template <class Params>
 struct GBufferWords {
-    using Surface = mir::Surface<Params>;
+    using Surface = mir::Surface<Params>;  ///< what a luxel tells shading
+    /// Words of a hit and a surface together.
     static constexpr std::size_t per_luxel = SoaView<Hit>::words + SoaView<Surface>::words;
 
-    std::uint32_t* words = nullptr;
-    TileGrid tiles;
+    std::uint32_t* words = nullptr;  ///< count(tiles) of them, where the kernel runs
+    TileGrid tiles;                  ///< of the image or band
 
+    /// Hits of tile `t`, padding included.
     [[nodiscard]] MIR_HD SoaView<Hit> hits(TileIndex t) const {
         return {words + first_word(tiles, t), luxels(t)};
     }
+    /// Surfaces of tile `t`, padding included.
     [[nodiscard]] MIR_HD SoaView<Surface> surfaces(TileIndex t) const {
         return {hits(t).planes + std::size_t{luxels(t)} * SoaView<Hit>::words, luxels(t)};
     }
@@ -40,15 +43,17 @@ struct GBufferWords {
 /// The same memory as kernels read it by places in the image. A view; thread-safe.
 template <class Params>
 struct LuxelImageView {
-    using Surface = mir::Surface<Params>;
+    using Surface = mir::Surface<Params>;  ///< what a luxel tells shading
 
-    const std::uint32_t* words = nullptr;
-    TileGrid tiles;
+    const std::uint32_t* words = nullptr;  ///< as GBufferWords::words
+    TileGrid tiles;                        ///< of the image or band
 
+    /// Of the luxel in column x and row y of the image, which must lie in it.
     [[nodiscard]] MIR_HD Hit hit(std::uint32_t x, std::uint32_t y) const {
         const TileIndex t = tile(x, y);
         return hits(t).load(index(t, x, y));
     }
+    /// The same of its surface.
     [[nodiscard]] MIR_HD Surface surface(std::uint32_t x, std::uint32_t y) const {
         const TileIndex t = tile(x, y);
         const SoaView<const Hit> before = hits(t);

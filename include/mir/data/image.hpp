@@ -15,6 +15,7 @@ template <class T>
 class Image {
  public:
     Image() = default;
+    /// An image of `extent`, every element of which is `value`.
     explicit Image(Extent extent, T value = {})
         : extent_(extent), data_(static_cast<std::size_t>(extent.area()), value) {}
 
@@ -27,18 +28,25 @@ class Image {
         return image;
     }
 
+    /// Columns and rows; zero for an image made without an extent.
     [[nodiscard]] Extent extent() const { return extent_; }
+    /// Columns.
     [[nodiscard]] std::uint32_t width() const { return extent_.width; }
+    /// Rows.
     [[nodiscard]] std::uint32_t height() const { return extent_.height; }
 
+    /// The element in column x and row y, both below the extent: not checked.
     [[nodiscard]] T& operator()(std::uint32_t x, std::uint32_t y) {
         return data_[std::size_t{y} * extent_.width + x];
     }
+    /// The same, to be read.
     [[nodiscard]] const T& operator()(std::uint32_t x, std::uint32_t y) const {
         return data_[std::size_t{y} * extent_.width + x];
     }
 
+    /// All elements, row after row without gaps. Valid until the image is assigned, moved or ends.
     [[nodiscard]] std::span<T> pixels() { return data_; }
+    /// The same, to be read.
     [[nodiscard]] std::span<const T> pixels() const { return data_; }
 
  private:

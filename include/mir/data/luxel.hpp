@@ -8,8 +8,8 @@ namespace mir {
 /// What visibility needs to know about a luxel. The position is already lifted off the surface
 /// (core/ray.hpp); the geometric normal has unit length and faces the viewer.
 struct Hit {
-    Vec3 position{0};
-    Vec3 normal{0};  ///< zero: the luxel sees nothing
+    Vec3 position{0};  ///< metres
+    Vec3 normal{0};    ///< zero: the luxel sees nothing
 };
 
 /// What shading needs to know about a luxel, and visibility does not. The split is the one that
@@ -19,7 +19,7 @@ struct Surface {
     Vec3 normal{0};  ///< unit shading normal, on the viewer's side
     Vec3 wo{0};      ///< unit direction towards the viewer
     Rgb emission;    ///< radiance emitted towards the viewer, W m^-2 sr^-1
-    Params bsdf;
+    Params bsdf;     ///< of the material at this point
 };
 
 /// True for a luxel whose camera ray left the scene, and for padding.

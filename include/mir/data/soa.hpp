@@ -21,17 +21,20 @@ concept WordCopyable = DeviceCopyable<T> && sizeof(T) % 4 == 0 && alignof(T) <= 
 template <class T>
     requires WordCopyable<std::remove_const_t<T>>
 struct SoaView {
-    using Value = std::remove_const_t<T>;
+    using Value = std::remove_const_t<T>;  ///< what a luxel holds
+    /// Const where the view only reads.
     using Word = std::conditional_t<std::is_const_v<T>, const std::uint32_t, std::uint32_t>;
-    static constexpr std::uint32_t words = sizeof(T) / 4;
+    static constexpr std::uint32_t words = sizeof(T) / 4;  ///< of a value; the number of planes
 
-    Word* planes = nullptr;
-    std::uint32_t stride = 0;
+    Word* planes = nullptr;    ///< words * stride of them, plane after plane
+    std::uint32_t stride = 0;  ///< luxels of a plane, padding included
 
+    /// The value of luxel `i` < stride, put together from its planes.
     [[nodiscard]] MIR_HD Value load(std::uint32_t i) const {
         return load(i, std::make_index_sequence<words>{});
     }
 
+    /// Writes every word of luxel `i` < stride.
     MIR_HD void store(std::uint32_t i, const Value& value) const requires(!std::is_const_v<T>) {
         store(i, value, std::make_index_sequence<words>{});
     }

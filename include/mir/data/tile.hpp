@@ -16,19 +16,21 @@ using TileIndex = std::uint32_t;   ///< place in what cut_into_tiles() returned
 
 /// Width and height in luxels or pixels.
 struct Extent {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;   ///< columns
+    std::uint32_t height = 0;  ///< rows
 
+    /// Width times height; cannot overflow.
     [[nodiscard]] constexpr std::uint64_t area() const { return std::uint64_t{width} * height; }
+    /// Equal in both directions.
     friend constexpr bool operator==(Extent, Extent) = default;
 };
 
 /// Rectangle of luxels: the unit of scheduling and of transfer (section 5.1 of the paper).
 struct Tile {
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t x = 0;       ///< first column, of the image that was cut
+    std::uint32_t y = 0;       ///< first row
+    std::uint32_t width = 0;   ///< columns, at least 1
+    std::uint32_t height = 0;  ///< rows, at least 1
 };
 
 /// Cuts `image` into tiles of `size` in row order; the last column and row may be smaller.

@@ -10,21 +10,24 @@ namespace mir {
 /// What cut_into_tiles() does, in closed form for kernels: the tiles of an image in row order,
 /// their blocks of 16 x 16 numbered one tile after another. For fewer than 2^32 luxels.
 struct TileGrid {
-    Extent image;
-    Extent tile;  ///< of all tiles but those at the right and the lower edge; not zero
+    Extent image;  ///< luxels
+    Extent tile;   ///< of all tiles but those at the right and the lower edge; not zero
 
     /// The grid of tiles that cut_into_tiles(image) returned.
     static TileGrid of(Extent image, const std::vector<Tile>& tiles) {
         return {image, {tiles.front().width, tiles.front().height}};
     }
 
+    /// Tiles side by side.
     [[nodiscard]] MIR_HD constexpr std::uint32_t columns() const {
         return parts(image.width, tile.width);
     }
+    /// Tiles one below the other.
     [[nodiscard]] MIR_HD constexpr std::uint32_t rows() const {
         return parts(image.height, tile.height);
     }
 
+    /// Tile `t` < columns() * rows(), as cut_into_tiles() returns it.
     [[nodiscard]] MIR_HD constexpr Tile operator[](TileIndex t) const {
         const std::uint32_t x = t % columns() * tile.width;
         const std::uint32_t y = t / columns() * tile.height;
@@ -51,6 +54,7 @@ struct TileGrid {
     [[nodiscard]] MIR_HD constexpr std::uint32_t blocks_across() const {
         return blocks_along(image.width, tile.width);
     }
+    /// Blocks one below the other in the whole image; each row of tiles is padded by itself.
     [[nodiscard]] MIR_HD constexpr std::uint32_t blocks_down() const {
         return blocks_along(image.height, tile.height);
     }
@@ -60,6 +64,7 @@ struct TileGrid {
         return std::uint64_t{blocks_across()} * blocks_down() * BlockedLayout::block_size;
     }
 
+    /// Same image, same tiles.
     friend constexpr bool operator==(const TileGrid&, const TileGrid&) = default;
 
  private:

@@ -13,12 +13,13 @@ namespace mir {
 /// Masks of one tile of a VisibilityMatrix: who of its luxels sees which VPL. A view.
 template <Space S>
 struct TileMasks {
-    static constexpr Space space = S;
+    static constexpr Space space = S;                ///< of the memory of the masks
     static constexpr std::uint32_t group_size = 16;  ///< luxels of one mask, 4 x 4 of the image
+    /// Masks of a block and a VPL.
     static constexpr std::uint32_t groups_per_block = BlockedLayout::block_size / group_size;
 
-    const std::uint16_t* masks = nullptr;
-    std::uint32_t vpls = 0;
+    const std::uint16_t* masks = nullptr;  ///< of the tile, placed by index()
+    std::uint32_t vpls = 0;                ///< number of VPLs
 
     /// Masks of a tile of `luxels` luxels, padding included.
     static constexpr std::size_t count(std::uint32_t luxels, std::uint32_t vpls) {
@@ -30,6 +31,7 @@ struct TileMasks {
         return (std::size_t{group / groups_per_block} * vpls + j) * groups_per_block +
                group % groups_per_block;
     }
+    /// True when luxel `i` (blocked index) faces and sees VPL `j`.
     [[nodiscard]] MIR_HD bool sees(LuxelIndex i, VplIndex j) const {
         return (masks[index(i / group_size, j)] >> (i % group_size) & 1u) != 0;
     }
@@ -38,18 +40,20 @@ struct TileMasks {
 /// View of a VisibilityMatrix; the model of KnownVisibility.
 template <Space S>
 struct VisibilityBits {
-    static constexpr Space space = S;
-    static constexpr std::uint32_t group_size = TileMasks<S>::group_size;
+    static constexpr Space space = S;  ///< of the memory of the masks
+    static constexpr std::uint32_t group_size = TileMasks<S>::group_size;  ///< luxels of a mask
+    /// Masks of a block and a VPL.
     static constexpr std::uint32_t groups_per_block = TileMasks<S>::groups_per_block;
 
-    const std::uint16_t* masks = nullptr;
+    const std::uint16_t* masks = nullptr;      ///< of all tiles, one after another
     const std::size_t* first_block = nullptr;  ///< of each tile
-    std::uint32_t vpls = 0;
+    std::uint32_t vpls = 0;                    ///< number of VPLs
 
     /// Bit k: luxel `group_size * group + k` of tile `t` faces and sees VPL `j`.
     [[nodiscard]] MIR_HD std::uint32_t mask(TileIndex t, std::uint32_t group, VplIndex j) const {
         return masks[index(t, group, j)];
     }
+    /// True when luxel `i` (blocked index) of tile `t` faces and sees VPL `j`.
     [[nodiscard]] MIR_HD bool sees(TileIndex t, LuxelIndex i, VplIndex j) const {
         return tile(t).sees(i, j);
     }
@@ -75,7 +79,7 @@ struct VisibilityBits {
 /// different threads is safe.
 class VisibilityMatrix {
  public:
-    using View = VisibilityBits<Space::host>;
+    using View = VisibilityBits<Space::host>;  ///< what schedulers read
 
     /// Nobody sees anybody yet. `tiles` are those of the G-buffer.
     /// @throws Error(limit_exceeded) when Limits::visibility_bytes is less than bytes_for().
@@ -100,8 +104,11 @@ class VisibilityMatrix {
 
     /// Valid until the matrix is moved or ends.
     [[nodiscard]] View view() const { return {masks_.data(), first_block_.data(), vpls_}; }
+    /// Number of VPLs.
     [[nodiscard]] std::uint32_t vpls() const { return vpls_; }
+    /// Number of tiles.
     [[nodiscard]] std::size_t tiles() const { return first_block_.size() - 1; }
+    /// Bytes of masks held: bytes_for() of the same tiles and VPLs.
     [[nodiscard]] std::size_t bytes() const { return masks_.size() * sizeof(std::uint16_t); }
 
     /// Replaces a mask of sixteen luxels; see VisibilityBits::mask().

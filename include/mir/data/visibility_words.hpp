@@ -14,11 +14,11 @@ namespace mir {
 /// work on 32 neighbouring luxels, read neighbouring words or the same one. A view.
 template <Space S>
 struct VisibilityWords {
-    static constexpr Space space = S;
+    static constexpr Space space = S;           ///< of the memory of the words
     static constexpr std::uint32_t width = 32;  ///< luxels of a word
 
-    const std::uint32_t* words = nullptr;
-    std::uint32_t vpls = 0;
+    const std::uint32_t* words = nullptr;  ///< count() of them
+    std::uint32_t vpls = 0;                ///< number of VPLs
 
     /// True when luxel `i` (blocked index) faces and sees VPL `j`.
     [[nodiscard]] MIR_HD bool sees(LuxelIndex i, VplIndex j) const {

@@ -24,9 +24,9 @@ enum class VplKind : std::uint8_t {
 /// Which point of which surface a geometric VPL is, and how much stands on it.
 /// Kernels that light luxels do not read it.
 struct VplOrigin {
-    VplKind kind = VplKind::reflective;
-    std::uint32_t triangle = 0;  ///< identity of the point: triangle and barycentrics
-    Vec2 barycentrics{0};
+    VplKind kind = VplKind::reflective;  ///< part of the point's identity
+    std::uint32_t triangle = 0;          ///< identity of the point: triangle and barycentrics
+    Vec2 barycentrics{0};                ///< weights of the second and third corner
     float multiplicity = 1.0f;  ///< recorded states that share this point; VplList counts them
 };
 

@@ -13,12 +13,14 @@ namespace mir {
 /// View of consecutive VPLs; the model of VplSet. Size and elements do not change while it exists.
 template <Space S>
 struct VplSpan {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< of the memory of the VPLs
 
-    const Vpl* first = nullptr;
-    std::uint32_t count = 0;
+    const Vpl* first = nullptr;  ///< may be null when there are none
+    std::uint32_t count = 0;     ///< number of VPLs
 
+    /// Number of VPLs.
     [[nodiscard]] MIR_HD std::uint32_t size() const { return count; }
+    /// VPL `j` < size(): not checked.
     [[nodiscard]] MIR_HD const Vpl& operator[](VplIndex j) const { return first[j]; }
 };
 
@@ -54,9 +56,13 @@ class VplList {
     /// @throws Error(invalid_argument) unless there is one intensity for each path VPL.
     void relight(std::span<const Rgb> intensities);
 
+    /// Number of geometric VPLs, black ones included.
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(vpls_.size()); }
+    /// True when there is no VPL.
     [[nodiscard]] bool empty() const { return vpls_.empty(); }
+    /// Geometric VPLs. Valid, as the spans below, until the list changes.
     [[nodiscard]] std::span<const Vpl> vpls() const { return vpls_; }
+    /// Where each of vpls() comes from.
     [[nodiscard]] std::span<const VplOrigin> origins() const { return origins_; }
     /// Neighbours share a geometric VPL; several of one bounce and group may.
     [[nodiscard]] std::span<const PathVpl> path_vpls() const { return path_vpls_; }

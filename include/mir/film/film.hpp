@@ -92,6 +92,7 @@ class Film {
         return develop(executor, layer);
     }
 
+    /// Pixels and luxels that it was made for.
     [[nodiscard]] const LuxelGrid& grid() const { return grid_; }
     /// Number of layers.
     [[nodiscard]] std::size_t layers() const { return layers_; }

@@ -9,11 +9,12 @@ namespace mir {
 
 /// Kernel over the luxels of a band in row order: where each lies in its pixel.
 struct LuxelOffsets {
-    LuxelGrid grid;
-    std::uint64_t seed = 0;
+    LuxelGrid grid;               ///< of the whole image
+    std::uint64_t seed = 0;       ///< that placed the luxels
     std::uint32_t first_row = 0;  ///< of the band in the image of luxels
-    Vec2* out = nullptr;
+    Vec2* out = nullptr;          ///< a place in the pixel, (0, 1)^2, for each luxel of the band
 
+    /// Luxel i of the band.
     MIR_HD void operator()(std::uint32_t i) const {
         const std::uint32_t width = grid.luxels().width;
         const std::uint32_t x = i % width;
@@ -27,11 +28,12 @@ struct LuxelOffsets {
 /// The sums of a film's pixels while luxels come: for each pixel one of weights, then three for
 /// each layer. Rows of pixels take turns in a ring of rows. A view.
 struct FilmSums {
-    double* sums = nullptr;
-    std::uint32_t width = 0;  ///< pixels
-    std::uint32_t rows = 0;   ///< of the ring
-    std::uint32_t layers = 0;
+    double* sums = nullptr;    ///< planes() planes of rows * width sums
+    std::uint32_t width = 0;   ///< pixels
+    std::uint32_t rows = 0;    ///< of the ring
+    std::uint32_t layers = 0;  ///< colours that share the weights
 
+    /// Planes: one of weights, then red, green and blue of each layer.
     [[nodiscard]] MIR_HD std::size_t planes() const { return 1 + std::size_t{3} * layers; }
     /// Distance from one plane to the next.
     [[nodiscard]] MIR_HD std::size_t stride() const { return std::size_t{rows} * width; }
@@ -45,15 +47,16 @@ struct FilmSums {
 /// adds to them, in its order.
 template <class Layer>
 struct FilmPass {
-    LuxelGrid grid;
-    detail::TapView taps;
+    LuxelGrid grid;                 ///< of the whole image
+    detail::TapView taps;           ///< of the filter; views, as it is
     const Vec2* offsets = nullptr;  ///< LuxelOffsets of the band
     const Layer* layers = nullptr;  ///< colour of luxel (x, y) of the band: layers[l](x, y)
-    FilmSums to;
-    std::uint32_t first_row = 0;  ///< of the band in the image of luxels
-    std::uint32_t rows = 0;       ///< of the band
-    std::uint32_t first_pixel_row = 0;
+    FilmSums to;  ///< of the film; rows of the ring must hold all pixels that the band reaches
+    std::uint32_t first_row = 0;        ///< of the band in the image of luxels
+    std::uint32_t rows = 0;             ///< of the band
+    std::uint32_t first_pixel_row = 0;  ///< of the pixels that the kernel runs over
 
+    /// Pixel i from row `first_pixel_row` on. Touches that pixel's sums alone.
     MIR_HD void operator()(std::uint32_t i) const {
         const std::uint32_t px = i % to.width;
         const std::uint32_t py = first_pixel_row + i / to.width;
@@ -102,12 +105,13 @@ struct FilmPass {
 /// Kernel over finished pixels in row order: writes their colours, layer after layer, as
 /// Film::develop() makes them, and clears their sums for the next turn of the ring.
 struct DevelopPass {
-    FilmSums from;
-    std::uint32_t per_pixel = 1;  ///< luxels
-    std::uint32_t first_pixel_row = 0;
-    std::uint32_t rows = 0;  ///< of pixels
-    Rgb* out = nullptr;
+    FilmSums from;                      ///< of the film
+    std::uint32_t per_pixel = 1;        ///< luxels
+    std::uint32_t first_pixel_row = 0;  ///< of the pixels that are finished
+    std::uint32_t rows = 0;             ///< of pixels
+    Rgb* out = nullptr;                 ///< layers * rows * width colours, W m^-2 sr^-1
 
+    /// Pixel i from row `first_pixel_row` on.
     MIR_HD void operator()(std::uint32_t i) const {
         double* const sums = from.at(i % from.width, first_pixel_row + i / from.width);
         const double weight = sums[0];

@@ -34,7 +34,7 @@ constexpr float sinc(float x) {
 /// are not scaled to integrate to one, because Film divides by their sum; they may be negative. A
 /// small value; free of state.
 struct Filter {
-    FilterKind kind = FilterKind::lanczos;
+    FilterKind kind = FilterKind::lanczos;  ///< shape
     float half_width = 3.0f;  ///< pixels; the weight is zero from here on, at least 0.5
     /// Only for lanczos. With half_width == tau the zeros lie on the integers, so that one luxel
     /// per pixel is left alone; a half_width of 4 with tau 3 stretches the zeros to 4/3 of a pixel
@@ -65,6 +65,7 @@ struct Filter {
     /// Weight of a luxel at `(dx, dy)` pixels from the centre of the pixel.
     [[nodiscard]] float operator()(float dx, float dy) const { return along(dx) * along(dy); }
 
+    /// True when kind, half-width and tau are equal.
     friend bool operator==(const Filter&, const Filter&) = default;
 
  private:
@@ -100,8 +101,8 @@ constexpr Filter default_filter(FilterKind kind) {
 
 /// A kind and its name on the command line and in files.
 struct FilterName {
-    std::string_view name;
-    FilterKind kind;
+    std::string_view name;  ///< in lower case
+    FilterKind kind;        ///< what it names
 };
 
 /// Every filter there is.

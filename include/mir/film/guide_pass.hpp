@@ -9,17 +9,18 @@ namespace mir {
 
 /// What Guides tell of one pixel.
 struct GuidePixel {
-    Rgb albedo;
-    Vec3 normal{0};
-    Vec3 position{0};
-    float depth = 0.0f;
+    Rgb albedo;          ///< hemispherical reflectance, 0..1
+    Vec3 normal{0};      ///< mean of shading normals, world space, not unit
+    Vec3 position{0};    ///< of the first luxel that sees a surface, world space, metres
+    float depth = 0.0f;  ///< from the lens plane, metres; 0: background
 };
 
 /// The plane that depth is measured from: Camera::depth() for kernels.
 struct LensPlane {
-    Vec3 position{0};
+    Vec3 position{0};    ///< a point of the plane: the camera's, world space, metres
     Vec3 back{0, 0, 1};  ///< unit
 
+    /// Distance of `point` before the plane, metres; negative behind it.
     [[nodiscard]] MIR_HD float depth(Vec3 point) const { return glm::dot(position - point, back); }
 };
 
@@ -47,14 +48,15 @@ MIR_HD GuidePixel guides_of_pixel(const Luxels& luxels, const LuxelGrid& grid,
 /// Kernel over the pixels of a band in row order: its guides.
 template <Bsdf B, class Luxels>
 struct GuidePass {
-    Luxels luxels;
-    LuxelGrid grid;
-    LensPlane lens;
-    Rgb* albedo = nullptr;
-    Vec3* normal = nullptr;
-    Vec3* position = nullptr;
-    float* depth = nullptr;
+    Luxels luxels;             ///< of the band, by their places in it
+    LuxelGrid grid;            ///< of the whole image
+    LensPlane lens;            ///< that depth is measured from
+    Rgb* albedo = nullptr;     ///< an element per pixel of the band, like the following
+    Vec3* normal = nullptr;    ///< as in GuidePixel
+    Vec3* position = nullptr;  ///< world space, metres
+    float* depth = nullptr;    ///< metres
 
+    /// Pixel i of the band.
     MIR_HD void operator()(std::uint32_t i) const {
         const std::uint32_t x = i % grid.pixels.width;
         const std::uint32_t y = i / grid.pixels.width;

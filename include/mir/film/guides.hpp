@@ -19,6 +19,7 @@ struct Guides {
     Image<Vec3> position;  ///< world space, metres
     Image<float> depth;    ///< distance from the lens plane, metres; 0: background
 
+    /// Background everywhere.
     explicit Guides(Extent pixels)
         : albedo(pixels), normal(pixels), position(pixels), depth(pixels) {}
 

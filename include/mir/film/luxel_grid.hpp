@@ -77,10 +77,11 @@ class PixelPattern {
 /// How the pixels of an image are cut into luxels. Luxel (x, y) belongs to pixel
 /// (x / per_pixel_x, y / per_pixel_y). A small value; make it with luxel_grid().
 struct LuxelGrid {
-    Extent pixels;
-    std::uint32_t per_pixel_x = 1;
-    std::uint32_t per_pixel_y = 1;
+    Extent pixels;                  ///< size of the image
+    std::uint32_t per_pixel_x = 1;  ///< luxels of a pixel side by side, at least 1
+    std::uint32_t per_pixel_y = 1;  ///< luxels of a pixel one below the other, at least 1
 
+    /// Luxels of a pixel, at most max_luxels_per_pixel.
     [[nodiscard]] MIR_HD constexpr std::uint32_t per_pixel() const {
         return per_pixel_x * per_pixel_y;
     }
@@ -105,6 +106,7 @@ struct LuxelGrid {
         return {add_down(px, offset.x), add_down(py, offset.y)};
     }
 
+    /// True when image and cuts are equal: then luxels have the same numbers.
     friend bool operator==(const LuxelGrid&, const LuxelGrid&) = default;
 
  private:

@@ -10,9 +10,9 @@ namespace mir {
 /// The camera rays of an image as kernels make them: one per luxel, a pure function of its place
 /// and the seed. CameraRays::luxel_rays() makes it. Host and device: see CameraOptics.
 struct LuxelRays {
-    CameraOptics optics;
-    LuxelGrid grid;
-    std::uint64_t seed = 0;
+    CameraOptics optics;     ///< of the camera
+    LuxelGrid grid;          ///< of the whole image
+    std::uint64_t seed = 0;  ///< of the places on film and lens
 
     /// Ray of the luxel at (x, y) of the whole luxel image.
     [[nodiscard]] MIR_HD Ray operator()(std::uint32_t x, std::uint32_t y) const {

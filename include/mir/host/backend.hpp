@@ -21,11 +21,16 @@ class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
 
  public:
+    /// `size` elements, all zero.
     explicit Buffer(std::size_t size = 0) : elements_(size) {}
 
+    /// The first element; valid until the buffer is assigned to or ends.
     [[nodiscard]] T* data() { return elements_.data(); }
+    /// The same to read.
     [[nodiscard]] const T* data() const { return elements_.data(); }
+    /// Number of elements.
     [[nodiscard]] std::size_t size() const { return elements_.size(); }
+    /// All elements.
     [[nodiscard]] std::span<T> span() { return elements_; }
 
  private:
@@ -34,6 +39,7 @@ class Buffer {
 
 /// Work is done when it is given, so every event has passed.
 struct Event {
+    /// Returns at once.
     void sync() const {}
 };
 
@@ -41,23 +47,31 @@ struct Event {
 template <Executor E>
 class Queue {
  public:
+    /// `executor` must outlive it.
     explicit Queue(E& executor) : executor_(&executor) {}
 
+    /// Copies all of `from` to the front of `to`.
+    /// @throws Error(invalid_argument) when it does not fit.
     template <class T>
     void upload(std::span<const T> from, Buffer<T>& to) {
         expects(from.size() <= to.size(), "a copy is larger than the buffer it goes to");
         std::copy(from.begin(), from.end(), to.data());
     }
+    /// Fills `to` from the front of `from`.
+    /// @throws Error(invalid_argument) when there is not that much.
     template <class T>
     void download(const Buffer<T>& from, std::span<T> to) {
         expects(to.size() <= from.size(), "a copy is larger than the buffer it comes from");
         std::copy_n(from.data(), to.size(), to.data());
     }
+    /// Sets every byte to zero.
     template <class T>
     void clear(Buffer<T>& buffer) {
         if (buffer.size() == 0) return;
         std::memset(static_cast<void*>(buffer.data()), 0, buffer.size() * sizeof(T));
     }
+    /// Calls kernel(i) once for each i in [0, n), 256 neighbours on one thread.
+    /// @throws What the kernel throws.
     template <class Kernel>
     void for_each(std::uint32_t n, const Kernel& kernel) {
         const std::uint32_t chunks = (n + grain - 1) / grain;
@@ -67,6 +81,8 @@ class Queue {
             for (std::uint32_t i = first; i < last; ++i) kernel(i);
         });
     }
+    /// Bit i % 32 of words[(i / 32) columns + j] becomes kernel(kernel.row(i), j).
+    /// @throws Error(invalid_argument) unless rows is a multiple of 32.
     template <class Kernel>
     void fill_bits(std::uint32_t rows, std::uint32_t columns, const Kernel& kernel,
                    std::uint32_t* words) {
@@ -81,6 +97,7 @@ class Queue {
             }
         });
     }
+    /// Calls kernel(group, i, space) once for each i in [0, n), its lanes a loop on one thread.
     template <class Kernel>
     void for_each_group(std::uint32_t n, const Kernel& kernel) {
         executor_->for_each(n, [&](std::size_t i) {
@@ -102,8 +119,11 @@ class Queue {
                     Buffer<std::byte>& /*scratch*/) {
         std::exclusive_scan(from, from + n, sums, 0u);
     }
+    /// None is needed.
     [[nodiscard]] std::size_t scratch_bytes(std::uint32_t /*n*/) const { return 0; }
+    /// An event that has passed.
     [[nodiscard]] Event record() { return {}; }
+    /// Returns at once.
     void wait(const Event&) {}
 
  private:
@@ -116,22 +136,29 @@ class Queue {
 template <Executor E>
 class Backend {
  public:
-    static constexpr Space space = Space::host;
+    static constexpr Space space = Space::host;  ///< buffers lie in host memory
+    /// Memory of the backend.
     template <class T>
     using Buffer = host::Buffer<T>;
+    /// Memory of the host, which is the same here.
     template <class T>
     using HostBuffer = host::Buffer<T>;
+    /// What record() gives.
     using Event = host::Event;
+    /// What work is given to.
     using Queue = host::Queue<E>;
 
     /// `executor` must outlive the backend and what it hands out.
     explicit Backend(E& executor) : executor_(&executor) {}
 
+    /// A queue on the backend's executor.
     [[nodiscard]] Queue queue() const { return Queue(*executor_); }
+    /// `size` elements, all zero.
     template <class T>
     [[nodiscard]] Buffer<T> buffer(std::size_t size) const {
         return Buffer<T>(size);
     }
+    /// `size` elements, all zero.
     template <class T>
     [[nodiscard]] HostBuffer<T> host_buffer(std::size_t size) const {
         return HostBuffer<T>(size);

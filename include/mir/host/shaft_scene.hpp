@@ -20,10 +20,13 @@ class ShaftScene {
     explicit ShaftScene(const WorldGeometry& geometry)
         : scene_(geometry), lanes_(lanes_of(bvh(), geometry)) {}
 
+    /// Asks single segments, packets and whole blocks; the scene must outlive it and not be moved.
     [[nodiscard]] ShaftVisibility visibility() const {
         return {bvh().view(), lanes_.data(), {}, scene_.visibility().mask};
     }
+    /// Closest hits; the scene must outlive it and not be moved.
     [[nodiscard]] WideRayCaster<Space::host> ray_caster() const { return scene_.ray_caster(); }
+    /// The hierarchy that both read.
     [[nodiscard]] const WideBvh& bvh() const { return scene_.bvh(); }
 
  private:

@@ -24,12 +24,15 @@ class WideBvhScene {
               return build_wide_bvh(geometry, executor);
           }()) {}
 
+    /// Asks single segments and packets; the scene must outlive it and not be moved.
     [[nodiscard]] WideBvhVisibility<Space::host> visibility() const {
         return {bvh_.view(), geometry_->alpha_masks()};
     }
+    /// Closest hits; the scene must outlive it and not be moved.
     [[nodiscard]] WideRayCaster<Space::host> ray_caster() const {
         return {*geometry_, bvh_.view(), geometry_->alpha_masks()};
     }
+    /// The hierarchy that both read.
     [[nodiscard]] const WideBvh& bvh() const { return bvh_; }
 
  private:

@@ -151,7 +151,7 @@ inline void write_exr(const std::filesystem::path& path, Extent extent,
 
 /// What read_exr() found.
 struct ExrImage {
-    Image<Rgb> image;
+    Image<Rgb> image;                                             ///< as large as the data window
     std::vector<std::pair<std::string, std::string>> attributes;  ///< text only, sorted by name
 };
 

@@ -29,15 +29,16 @@ enum class ExrScalar {
 /// gives X Y Z, float gives Z or Y. `image` is not owned and must outlive the call that writes it.
 struct ExrLayer {
     std::string name;  ///< "albedo" gives albedo.R and so on; empty for the beauty
+    /// Not null; every layer of a file has the same size.
     std::variant<const Image<Rgb>*, const Image<Vec3>*, const Image<float>*> image;
-    ExrPrecision precision = ExrPrecision::single;
-    ExrScalar scalar = ExrScalar::depth;  ///< only for float
+    ExrPrecision precision = ExrPrecision::single;  ///< NaN and infinities are refused in either
+    ExrScalar scalar = ExrScalar::depth;            ///< only for float
 };
 
 /// A named value in the header of an OpenEXR file. The project's own names start with "mir:".
 struct ExrAttribute {
-    std::string name;
-    std::variant<std::string, float, int> value;
+    std::string name;  ///< 1 to 255 bytes, given once, none that OpenEXR reserves
+    std::variant<std::string, float, int> value;  ///< stored as string, float or int attribute
 };
 using ExrAttributes = std::vector<ExrAttribute>;  ///< of one file
 

@@ -81,8 +81,8 @@ inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& li
 /// after its mesh (and its number where a mesh has several). emissiveFactor x emissiveStrength is
 /// radiance; punctual lights give candela as W/sr and lux as W/m^2; what is unlit shines with its
 /// base colour. Images are PNG or JPEG; their textures and vertex colours are read. A scene without
-/// light or camera is no error: the report says so. Alpha and environments are not read; the report
-/// counts them. Thread-safe for different or equal files.
+/// light or camera is no error: the report says so. Alpha mode MASK is read; BLEND and environments
+/// are not, the report counts them. Thread-safe for different or equal files.
 /// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules;
 ///         Error(unsupported) when it requires an extension that is not known;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.

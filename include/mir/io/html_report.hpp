@@ -17,16 +17,16 @@ namespace mir {
 /// A picture of a report, linear light. `picture` is not owned and must outlive the call that
 /// writes it.
 struct HtmlFigure {
-    std::string caption;
-    const Image<Rgb>* picture = nullptr;
-    float exposure_ev = 0.0f;  ///< as of write_png()
+    std::string caption;  ///< below the picture, and in its place for who cannot see it
+    const Image<Rgb>* picture = nullptr;  ///< not null, at least one pixel
+    float exposure_ev = 0.0f;             ///< as of write_png()
 };
 
 /// A page with a table of two columns and pictures. All text is plain; the page escapes it.
 struct HtmlReport {
-    std::string title;
+    std::string title;                                      ///< of the window, and heading
     std::vector<std::pair<std::string, std::string>> rows;  ///< label and value
-    std::vector<HtmlFigure> figures;
+    std::vector<HtmlFigure> figures;                        ///< in the order of the page
 };
 
 namespace detail {

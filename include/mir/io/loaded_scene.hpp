@@ -8,8 +8,8 @@ namespace mir {
 
 /// A scene from a file, and what was found and left out on the way.
 struct LoadedScene {
-    Scene scene;
-    SceneReport report;
+    Scene scene;         ///< every index in it is valid
+    SceneReport report;  ///< counts what `scene` holds
 };
 
 }  // namespace mir

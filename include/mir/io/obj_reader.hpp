@@ -46,7 +46,7 @@ inline LoadedScene load_obj(const std::filesystem::path& path, const Limits& lim
     FileBudget budget(limits);
     ObjText text(text_of(read_whole_file(path, budget)), limits, loaded.report);
     ObjTarget target{{text, limits, loaded.scene, loaded.report},
-                     {text, path.parent_path(), budget, loaded.scene, loaded.report}};
+                     {text, path.parent_path(), budget, limits, loaded.scene, loaded.report}};
     std::istream stream(&text);
     // Errors of ours fly through: a stream would swallow them otherwise.
     stream.exceptions(std::ios::badbit);
@@ -63,9 +63,9 @@ inline LoadedScene load_obj(const std::filesystem::path& path, const Limits& lim
 /// Each group becomes one mesh per material; polygons are cut into triangles; faces without normals
 /// are flat; colours behind the coordinates of vertices are sRGB. Coordinates are metres as they
 /// stand, +y up. Ke is radiance, Kd the base colour, the mean of Ks the weight of the interface, Ns
-/// or Pr its roughness, Pm metalness, Ni the index of refraction (docs/scene_files.md). Libraries
-/// that are missing and what is not read are counted in the report. Thread-safe for different or
-/// equal files.
+/// or Pr its roughness, Pm metalness, Ni the index of refraction; map_Kd, map_Ke, map_d and norm
+/// are textures (docs/scene_files.md). Libraries and images that are missing and what is not read
+/// are counted in the report. Thread-safe for different or equal files.
 /// @throws Error(invalid_input) when the file is missing or broken, with its line;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.
 ///         Each message reads "FILE: PLACE: problem (why); remedy".

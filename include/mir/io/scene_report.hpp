@@ -15,11 +15,11 @@ namespace mir {
 
 /// A camera of a scene file, usable or not.
 struct CameraReport {
-    std::string name;
+    std::string name;                    ///< as in the file; may be empty
     std::string kind;                    ///< "perspective", or the kind that cannot be used
     std::optional<std::uint32_t> index;  ///< into Scene::cameras; none: not supported
     std::uint32_t width = 0;             ///< pixels that the file asks for; 0: not given
-    std::uint32_t height = 0;
+    std::uint32_t height = 0;            ///< as width
 };
 
 /// What a scene file holds and which parts of it are not used. Plain values.
@@ -28,16 +28,16 @@ struct SceneReport {
     std::uint64_t vertices = 0;            ///< after instancing
     std::uint64_t stored_triangles = 0;    ///< each mesh once
     std::uint64_t emitting_triangles = 0;  ///< after instancing
-    std::uint64_t meshes = 0;
-    std::uint64_t instances = 0;
-    std::uint64_t materials = 0;
-    std::uint64_t emitting_materials = 0;
-    std::uint64_t point_lights = 0;
-    std::uint64_t spot_lights = 0;
-    std::uint64_t directional_lights = 0;
-    std::uint64_t environments = 0;  ///< 0 or 1
-    std::vector<CameraReport> cameras;
-    Bounds bounds;  ///< of all instances, metres
+    std::uint64_t meshes = 0;              ///< each once, however often it is placed
+    std::uint64_t instances = 0;           ///< placed meshes
+    std::uint64_t materials = 0;           ///< used by a mesh or not
+    std::uint64_t emitting_materials = 0;  ///< those of them whose emission is not black
+    std::uint64_t point_lights = 0;        ///< of Scene::point_lights
+    std::uint64_t spot_lights = 0;         ///< of Scene::spot_lights
+    std::uint64_t directional_lights = 0;  ///< of Scene::directional_lights
+    std::uint64_t environments = 0;        ///< 0 or 1
+    std::vector<CameraReport> cameras;     ///< usable or not, as the reader met them
+    Bounds bounds;                         ///< of all instances, metres
 
     /// Features that change the picture and are not supported, with the number of their uses.
     /// Nothing is dropped without an entry here.

@@ -13,13 +13,14 @@ namespace mir {
 /// nothing else.
 template <class G, Space S>
 struct BackgroundPass {
-    G luxels;
-    Tile tile;                    ///< in the band
-    std::uint32_t first_row = 0;  ///< of the band
-    LuxelRays rays;
-    EnvironmentView<S> environment;
-    SoaView<Rgb> out;
+    G luxels;                        ///< of the tile
+    Tile tile;                       ///< in the band
+    std::uint32_t first_row = 0;     ///< of the band
+    LuxelRays rays;                  ///< of the whole image
+    EnvironmentView<S> environment;  ///< in the memory where the kernel runs
+    SoaView<Rgb> out;  ///< W m^-2 sr^-1; luxels that see a surface are left as they are
 
+    /// Luxel `i` (blocked index) of the tile.
     MIR_HD void operator()(LuxelIndex i) const {
         const LuxelPlace at = BlockedLayout::of(tile).place(i);
         if (at.x >= tile.width || at.y >= tile.height || !is_empty(luxels.hit(i))) return;

@@ -11,11 +11,12 @@ namespace mir {
 /// padding included; the bits of direct_light().
 template <class G, class Light>
 struct DirectLightPass {
-    G luxels;
-    Tile tile;    ///< in the band
-    Light light;  ///< LuxelLight
-    SoaView<Rgb> out;
+    G luxels;          ///< of the tile
+    Tile tile;         ///< in the band
+    Light light;       ///< LuxelLight
+    SoaView<Rgb> out;  ///< W m^-2 sr^-1 by blocked index
 
+    /// Luxel `i` (blocked index) of the tile; black for the padding.
     MIR_HD void operator()(LuxelIndex i) const {
         const LuxelPlace at = BlockedLayout::of(tile).place(i);
         Rgb sum;

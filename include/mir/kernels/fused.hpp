@@ -15,15 +15,16 @@ namespace mir {
 /// the other, which is what bounds the number of threads that a GPU keeps in flight.
 template <GBuffer G, VplSet P, Visibility V, Shading F>
 struct FusedKernel {
-    G luxels;
-    P vpls;
-    V visibility;
-    F shade;
-    SoaView<Rgb> radiance;
+    G luxels;               ///< of the tile
+    P vpls;                 ///< summed in their order
+    V visibility;           ///< asked VPL first, where both face each other
+    F shade;                ///< not asked for VPLs that are hidden
+    SoaView<Rgb> radiance;  ///< W m^-2 sr^-1 by blocked index
 
     /// Threads in flight pay more than registers: GPUs are to hold as many blocks of 256 at least.
     static constexpr std::uint32_t resident_blocks = 5;
 
+    /// Luxel `i` (blocked index) against all VPLs; an empty luxel gets black.
     MIR_HD void operator()(LuxelIndex i) const {
         const Hit hit = luxels.hit(i);
         if (is_empty(hit)) return radiance.store(i, {});

@@ -11,10 +11,10 @@ namespace mir {
 /// Luxels of a tile, padding included, and where the light that each of them gathers goes.
 template <class G>
 struct GatherTile {
-    G luxels;
-    Tile tile;  ///< in the band
-    LuxelBand band;
-    SoaView<Rgb> out;
+    G luxels;          ///< by blocked index
+    Tile tile;         ///< in the band
+    LuxelBand band;    ///< whose luxel_numbers() gather() gets, of Stream::gather
+    SoaView<Rgb> out;  ///< W m^-2 sr^-1
 
     /// write(light) what gather(hit, surface, random) finds at a luxel, or black.
     template <class Gather, class Write>
@@ -38,10 +38,11 @@ GatherTile(G, Tile, LuxelBand, SoaView<Rgb>) -> GatherTile<G>;
 /// bits of gather_light().
 template <class G, class Gather>
 struct GatherPass {
-    GatherTile<G> tile;
-    Gather gather;  ///< a RayGather
-    LuxelIndex first = 0;
+    GatherTile<G> tile;    ///< luxels and where their light goes
+    Gather gather;         ///< a RayGather
+    LuxelIndex first = 0;  ///< luxel (blocked index) of kernel index 0
 
+    /// Luxel first + i; writes black where it is empty or padding.
     MIR_HD void operator()(LuxelIndex i) const {
         tile.at(first + i, gather, [&](Rgb light) { tile.out.store(first + i, light); });
     }
@@ -52,12 +53,13 @@ GatherPass(GatherTile<G>, Gather, LuxelIndex) -> GatherPass<G, Gather>;
 /// The same by micro-buffers: kernel for groups, a luxel for each.
 template <class G, class Gather>
 struct BufferGatherPass {
-    using Workspace = typename Gather::Workspace;
+    using Workspace = typename Gather::Workspace;  ///< fast memory of a group, that of the gather
 
-    GatherTile<G> tile;
-    Gather gather;  ///< a BufferGather
-    LuxelIndex first = 0;
+    GatherTile<G> tile;    ///< luxels and where their light goes
+    Gather gather;         ///< a BufferGather
+    LuxelIndex first = 0;  ///< luxel (blocked index) of group 0
 
+    /// Luxel first + i, by all lanes of the group together; lane 0 writes.
     MIR_HD void operator()(const LaneGroup& group, LuxelIndex i, Workspace& space) const {
         const auto by_group = [&](const Hit& hit, const auto& surface, Random random) {
             return gather(group, hit, surface, random, space);

@@ -9,9 +9,9 @@ namespace mir {
 
 /// Where the rows of a G-buffer lie in the whole luxel image; random numbers are keyed by it.
 struct LuxelBand {
-    std::uint32_t first_row = 0;
-    LuxelGrid grid;
-    std::uint64_t seed = 0;
+    std::uint32_t first_row = 0;  ///< of the band, in luxels of the whole image
+    LuxelGrid grid;               ///< of the whole image
+    std::uint64_t seed = 0;       ///< of the rendering
 
     /// Numbers of the pixel that holds luxel (x, y) of the band, the same for all its luxels.
     [[nodiscard]] MIR_HD Random pixel_numbers(std::uint32_t x, std::uint32_t y) const {
@@ -25,6 +25,9 @@ struct LuxelBand {
         return {seed, stream, std::uint64_t{first_row + y} * grid.luxels().width + x};
     }
 
+    /// Numbers that all luxels of the image share.
+    [[nodiscard]] MIR_HD Random image_numbers() const { return {seed, Stream::distant_vpls, 0}; }
+
     /// Number of the luxel inside its pixel.
     [[nodiscard]] MIR_HD std::uint32_t cell(std::uint32_t x, std::uint32_t y) const {
         return (first_row + y) % grid.per_pixel_y * grid.per_pixel_x + x % grid.per_pixel_x;
@@ -34,10 +37,11 @@ struct LuxelBand {
 /// Direct light of the luxels of a band, host and device.
 template <Bsdf B, Visibility V>
 struct LuxelLight {
-    EmitterLight<B, V> emitters;
-    DeltaLight<B, V> deltas;
-    EnvironmentLight<B, V> environment;
-    LuxelBand band;
+    EmitterLight<B, V> emitters;         ///< light of surfaces that emit
+    DeltaLight<B, V> deltas;             ///< light of points, spots and directions
+    EnvironmentLight<B, V> environment;  ///< light from outside the scene
+    LuxelBand band;                      ///< where the luxels lie
+    bool distant_vpls = false;           ///< DirectSamples::distant_vpls
 
     /// W m^-2 sr^-1 towards the viewer of the luxel at (x, y) of the band, which is not empty.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& surface,
@@ -45,7 +49,8 @@ struct LuxelLight {
         const SharedSamples shared{band.grid.per_pixel(), band.cell(x, y)};
         const Random numbers = band.pixel_numbers(x, y);
         return emitters(hit, surface, shared, numbers) + deltas(hit, surface) +
-               environment(hit, surface, shared, numbers);
+               (distant_vpls ? environment(hit, surface, {}, band.image_numbers())
+                             : environment(hit, surface, shared, numbers));
     }
 };
 

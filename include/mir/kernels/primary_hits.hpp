@@ -13,13 +13,14 @@ namespace mir {
 /// those that fill_gbuffer() writes, given the same rays and the same closest hits.
 template <class Rays, RayFinder Finder, Space S, Bsdf B>
 struct PrimaryHits {
-    Rays rays;  ///< rays(x, y) is the ray of a luxel of the whole image, as in LuxelRays
-    Finder finder;
-    GeometryView<S> geometry;
-    SurfaceTableView<S, B> surfaces;
-    GBufferWords<typename B::Params> out;
-    std::uint32_t first_row = 0;  ///< of the image that `out` begins with
+    Rays rays;      ///< rays(x, y) is the ray of a luxel of the whole image, as in LuxelRays
+    Finder finder;  ///< of the triangles of `geometry`
+    GeometryView<S> geometry;         ///< world space, with the offset by which hits are lifted
+    SurfaceTableView<S, B> surfaces;  ///< what materials are at a point
+    GBufferWords<typename B::Params> out;  ///< where luxels are written, every word of them
+    std::uint32_t first_row = 0;           ///< of the image that `out` begins with
 
+    /// Luxel `i` of the G-buffer, counted through all its blocks.
     MIR_HD void operator()(std::uint32_t i) const {
         const TileIndex t = out.tiles.tile_of(i / BlockedLayout::block_size);
         const LuxelIndex luxel = i - out.tiles.first_block(t) * BlockedLayout::block_size;

@@ -16,17 +16,19 @@ namespace mir {
 /// in single and the lanes in double precision, exactly as ResponseSum does.
 template <GBuffer G, VplSet P, Shading F>
 struct BlockResponse {
-    G luxels;
-    P vpls;
-    VisibilityWords<G::space> seen;
-    F shade;
+    G luxels;                        ///< of the tile
+    P vpls;                          ///< whose intensities are not read
+    VisibilityWords<G::space> seen;  ///< of the tile: which luxels face and see which VPL
+    F shade;  ///< luxels that it says to reflect nothing are not counted as lit
     std::uint32_t first_block = 0;  ///< of the tile
     std::uint32_t blocks_x = 0;     ///< of the tile
-    VplIndex first_vpl = 0;
+    VplIndex first_vpl = 0;         ///< that index 0 stands for
     std::uint32_t count = 0;        ///< VPLs
     ImageResponse* sums = nullptr;  ///< of the tile's first column of blocks
     std::uint32_t columns = 0;      ///< blocks side by side in the whole image
 
+    /// Block first_block + i / count and VPL first_vpl + i % count. Writes their sum to element
+    /// i % count of the `count` of that block; blocks lie in rows of `columns`.
     MIR_HD void operator()(std::uint32_t i) const {
         const std::uint32_t block = i / count;
         const std::uint32_t j = i % count;
@@ -96,10 +98,11 @@ BlockResponse(G, P, VisibilityWords<G::space>, F, std::uint32_t, std::uint32_t, 
 
 /// Adds up each row of blocks from left to right, in place: kernel over pairs of row and VPL.
 struct SumBlockRow {
-    ImageResponse* sums = nullptr;
-    std::uint32_t columns = 0;
-    std::uint32_t count = 0;  ///< VPLs
+    ImageResponse* sums = nullptr;  ///< of blocks, as BlockResponse writes them
+    std::uint32_t columns = 0;      ///< blocks of a row
+    std::uint32_t count = 0;        ///< VPLs
 
+    /// Row i / count and VPL i % count; the sum replaces that of the row's first block.
     MIR_HD void operator()(std::uint32_t i) const {
         ImageResponse* first = sums + std::size_t{i / count} * columns * count + i % count;
         ImageResponse sum = *first;
@@ -111,10 +114,11 @@ struct SumBlockRow {
 /// Adds rows of blocks to the totals from top to bottom: kernel over VPLs.
 struct AddBlockRows {
     const ImageResponse* sums = nullptr;  ///< the sum of a row is its first element
-    std::uint32_t rows = 0;
-    std::size_t stride = 0;  ///< from row to row
-    ImageResponse* totals = nullptr;
+    std::uint32_t rows = 0;               ///< of blocks
+    std::size_t stride = 0;               ///< from row to row
+    ImageResponse* totals = nullptr;      ///< by VPL; keep what was added before
 
+    /// VPL `j`, counted from the first of `sums` and `totals`.
     MIR_HD void operator()(std::uint32_t j) const {
         ImageResponse total = totals[j];
         for (std::uint32_t row = 0; row < rows; ++row) total += sums[row * stride + j];

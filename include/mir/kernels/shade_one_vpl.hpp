@@ -12,12 +12,13 @@ namespace mir {
 /// face each other. Writes W m^-2 sr^-1.
 template <GBuffer G, VplSet P, Shading F>
 struct ShadeOneVpl {
-    G luxels;
-    P vpls;
-    VplIndex vpl = 0;
-    F shade;
-    SoaView<Rgb> radiance;
+    G luxels;               ///< of the tile
+    P vpls;                 ///< of which one is read
+    VplIndex vpl = 0;       ///< its place in `vpls`
+    F shade;                ///< asked where luxel and VPL face each other
+    SoaView<Rgb> radiance;  ///< W m^-2 sr^-1 by blocked index
 
+    /// Luxel `i` (blocked index); an empty one gets black.
     MIR_HD void operator()(LuxelIndex i) const {
         const Hit hit = luxels.hit(i);
         const Vpl light = vpls[vpl];

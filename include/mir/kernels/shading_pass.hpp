@@ -12,12 +12,13 @@ namespace mir {
 /// true where luxel i faces and sees VPL j. Writes W m^-2 sr^-1, VPLs summed in their order.
 template <GBuffer G, VplSet P, class Seen, Shading F>
 struct ShadingPass {
-    G luxels;
-    P vpls;
-    Seen seen;
-    F shade;
-    SoaView<Rgb> radiance;
+    G luxels;               ///< of the tile
+    P vpls;                 ///< those that `seen` knows of, in its order
+    Seen seen;              ///< visibility of the tile's luxels
+    F shade;                ///< asked for pairs that see each other
+    SoaView<Rgb> radiance;  ///< W m^-2 sr^-1 by blocked index
 
+    /// Luxel `i` (blocked index); an empty one gets black.
     MIR_HD void operator()(LuxelIndex i) const {
         const Hit hit = luxels.hit(i);
         if (is_empty(hit)) return radiance.store(i, {});

@@ -11,12 +11,14 @@ namespace mir {
 /// surface, so that it runs while those are on their way (section 5.2 of the paper).
 template <GBuffer G, VplSet P, Visibility V>
 struct VisibilityPass {
-    G luxels;
-    P vpls;
-    V visibility;
+    G luxels;      ///< of which hits alone are read
+    P vpls;        ///< of which positions and normals are read
+    V visibility;  ///< asked VPL first, where both face each other
 
+    /// What the bits of luxel `i` (blocked index) have in common, for fill_bits().
     [[nodiscard]] MIR_HD Hit row(LuxelIndex i) const { return luxels.hit(i); }
 
+    /// True when the luxel of that row faces and sees VPL `j`. Luxels that are empty see none.
     [[nodiscard]] MIR_HD bool operator()(const Hit& hit, VplIndex j) const {
         const Vpl vpl = vpls[j];
         return faces(hit, vpl) && visibility.visible(vpl.position, hit.position);

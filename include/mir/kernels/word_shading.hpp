@@ -17,12 +17,13 @@ struct WordShading {
     /// Groups need no memory.
     struct Workspace {};
 
-    G luxels;
-    P vpls;
-    const std::uint32_t* words = nullptr;
-    F shade;
-    SoaView<Rgb> radiance;
+    G luxels;                              ///< of the tile, whole groups of 32
+    P vpls;                                ///< those that `words` knows of, in its order
+    const std::uint32_t* words = nullptr;  ///< VisibilityWords::words of the tile
+    F shade;                               ///< asked for pairs that see each other
+    SoaView<Rgb> radiance;                 ///< W m^-2 sr^-1 by blocked index
 
+    /// Luxels 32 i to 32 i + 31 (blocked indices). Black for those that no bit is set of.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace&) const {
         LaneGroup::PerLane<Hit> hits;
         LaneGroup::PerLane<typename F::Surface> surfaces;

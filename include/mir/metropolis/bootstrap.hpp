@@ -12,7 +12,7 @@ namespace mir {
 /// Independent paths that estimate P_c and seed the chains. That both come from one set is what
 /// makes chains unbiased from their first state on, without burn-in (Veach 1997, section 11.3.1).
 struct Bootstrap {
-    PathLuminance luminance;
+    PathLuminance luminance;      ///< P_c as the weights estimate it
     std::vector<double> weights;  ///< of path i, drawn from Random(seed, Stream::bootstrap, i)
     std::vector<std::uint32_t> places;  ///< place_of_vpl() of path i, 0 without light
 };

@@ -11,12 +11,13 @@ namespace mir {
 /// Random(seed, Stream::bootstrap, first + i). A thread needs 6 kB of its own for it.
 template <class Generator>
 struct BootstrapPaths {
-    Generator generator;
-    std::uint64_t seed = 0;
-    std::uint64_t first = 0;
+    Generator generator;              ///< of all paths
+    std::uint64_t seed = 0;           ///< of the run
+    std::uint64_t first = 0;          ///< path that index 0 stands for
     double* weights = nullptr;        ///< of the batch
     std::uint32_t* places = nullptr;  ///< place_of_vpl(), 0 without light
 
+    /// Path first + i, in memory of the thread's own.
     MIR_HD void operator()(std::uint32_t i) const {
         WeightedPath path;
         draw(i, path);

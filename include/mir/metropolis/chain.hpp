@@ -21,20 +21,22 @@ struct ChainRules {
                                 std::uint32_t n) {
         return refill_density(m, k, left, n);
     }
+    /// Whether a proposal is taken, for a number uniform in [0, 1).
     MIR_HD static bool accepts(double number, double probability) { return number < probability; }
 };
 
 /// Where a Markov chain stands and what it has been through: all that a PathChain remembers, 17 kB.
 struct ChainState {
+    /// Coordinates of the current path; under Mutation::bidirectional of its last large step.
     PrimarySample sample;
     WeightedPath paths[2];              ///< the current one and room for a proposal
     std::uint32_t current = 0;          ///< which of them is the current one
     double candidates[max_tries] = {};  ///< weights of a large step's tries
-    WeightMoments large_weights;
-    ChainHealth health;
-    std::uint32_t step = 0;
-    std::uint64_t stay = 0;  ///< mutations rejected since the last that was not
-    bool is_broken = false;  ///< a number of an acceptance was none, on a device
+    WeightMoments large_weights;        ///< of all tries of large steps, accepted or not
+    ChainHealth health;                 ///< counts of this chain
+    std::uint32_t step = 0;             ///< mutations since the start; names their random numbers
+    std::uint64_t stay = 0;             ///< mutations rejected since the last that was not
+    bool is_broken = false;             ///< a number of an acceptance was none, on a device
 };
 
 /// A Markov chain of full paths whose stationary density is Y(F): the paths that matter to the
@@ -94,9 +96,11 @@ class PathChain {
         ++health.mutations;
     }
 
+    /// The path where the chain stands. Valid until step() or start().
     [[nodiscard]] MIR_HD const WeightedPath& current() const {
         return state_.paths[state_.current];
     }
+    /// Mutations since the start.
     [[nodiscard]] MIR_HD std::uint32_t steps() const { return state_.step; }
     /// Counts of this chain alone; summaries over chains are left at zero.
     [[nodiscard]] MIR_HD const ChainHealth& health() const { return state_.health; }

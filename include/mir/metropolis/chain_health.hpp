@@ -10,13 +10,15 @@ namespace mir {
 
 /// Proposals of one kind of mutation.
 struct MutationCount {
-    std::uint64_t proposed = 0;
-    std::uint64_t accepted = 0;
+    std::uint64_t proposed = 0;  ///< all of them
+    std::uint64_t accepted = 0;  ///< those that the chain moved to
 
+    /// Counts one proposal, accepted or not.
     MIR_HD void add(bool taken) {
         ++proposed;
         accepted += taken ? 1 : 0;
     }
+    /// Adds the counts of another chain.
     void add(const MutationCount& other) {
         proposed += other.proposed;
         accepted += other.accepted;
@@ -29,7 +31,7 @@ struct MutationCount {
 
 /// What the chains of a MetropolisSampler say about themselves.
 struct ChainHealth {
-    std::uint32_t chains = 0;
+    std::uint32_t chains = 0;            ///< whose counts are added here
     std::uint64_t mutations = 0;         ///< of all chains, suffix refreshes not counted
     MutationCount large;                 ///< independent steps (of several tries each)
     MutationCount small;                 ///< Kelemen's small steps

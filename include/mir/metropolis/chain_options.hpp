@@ -14,9 +14,9 @@ enum class Mutation {
 
 /// How a Markov chain moves from path to path.
 struct ChainOptions {
-    Mutation mutation = Mutation::primary;
-    double large_step_probability = 0.5;  ///< in (0, 1]
-    std::uint32_t tries = 8;              ///< candidates of each large step, 1..254
+    Mutation mutation = Mutation::primary;  ///< kind of the steps that are not large
+    double large_step_probability = 0.5;    ///< in (0, 1]
+    std::uint32_t tries = 8;                ///< candidates of each large step, 1..254
 };
 
 }  // namespace mir

@@ -12,9 +12,9 @@ namespace mir {
 
 /// What one chain brings home.
 struct ChainRun {
-    std::vector<VplRecord> records;
-    MixingTrace trace;
-    ChainTally tally;
+    std::vector<VplRecord> records;  ///< in the order of the chain's states
+    MixingTrace trace;               ///< of all states, recorded or not, thinned
+    ChainTally tally;                ///< of the chain's end
 };
 
 namespace detail {

@@ -14,7 +14,7 @@ namespace mir {
 
 /// What a chain remembers while it runs, 26 kB: too much for a thread's own memory.
 struct ChainMemory {
-    ChainState state;
+    ChainState state;  ///< where the chain stands
     /// With the current suffix, unless that is the state's own, and with a proposal.
     WeightedPath refreshed[2];
     VplRecord last;  ///< the first record of the state recorded last
@@ -22,9 +22,9 @@ struct ChainMemory {
 
 /// What a chain says of itself at its end.
 struct ChainTally {
-    ChainHealth health;  ///< summaries over chains are left at zero
-    WeightMoments large_step_weights;
-    bool is_broken = false;  ///< ChainState::is_broken
+    ChainHealth health;                ///< summaries over chains are left at zero
+    WeightMoments large_step_weights;  ///< PathChain::large_step_weights()
+    bool is_broken = false;            ///< ChainState::is_broken
 };
 
 /// How much a chain may write.
@@ -33,6 +33,7 @@ struct ChainExtent {
     std::uint64_t states = 0;  ///< recorded at most
     std::uint64_t steps = 0;   ///< of its trace, at most
 
+    /// Of chain number `chain` out of `chains`, which share options.states as evenly as they can.
     MIR_HD static ChainExtent of(const MetropolisOptions& options, std::uint32_t chain,
                                  std::uint32_t chains) {
         ChainExtent e;
@@ -48,14 +49,16 @@ struct ChainExtent {
 /// device, but for where records go. `Suffix` is a SuffixProposal.
 template <class Generator, class Suffix, class Intensity>
 struct ChainWalk {
+    /// The scene that paths run through.
     using World = std::remove_cvref_t<decltype(std::declval<const Generator&>().world())>;
+    /// What makes the mutations.
     using Chain = PathChain<World, ChainRules, Generator>;
 
-    Generator generator;
-    Suffix suffix;
-    Intensity intensity;
-    MetropolisOptions options;
-    std::uint32_t chains = 1;
+    Generator generator;        ///< of paths
+    Suffix suffix;              ///< draws further light paths behind a VPL
+    Intensity intensity;        ///< intensity(path) is an Rgb
+    MetropolisOptions options;  ///< valid ones
+    std::uint32_t chains = 1;   ///< of the run, those of other threads included
 
     /// Begins chain `chain` of `chains` at a path of the bootstrap that carries light. Of what the
     /// memory was before nothing is read.

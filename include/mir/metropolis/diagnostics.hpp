@@ -156,9 +156,9 @@ inline double effective_sample_size(const Traces& traces) {
 
 /// How well chains mix, judged by the scalar that mixes worst.
 struct Mixing {
-    double effective_sample_size = 0.0;
-    double split_r_hat = std::numeric_limits<double>::infinity();
-    double autocorrelation_time = 0.0;
+    double effective_sample_size = 0.0;  ///< independent draws that all chains are worth
+    double split_r_hat = std::numeric_limits<double>::infinity();  ///< near 1 is ideal
+    double autocorrelation_time = 0.0;  ///< steps of the traces per independent draw
 };
 
 /// Smallest effective sample size, largest R-hat and longest autocorrelation time over several

@@ -21,13 +21,13 @@ inline constexpr std::uint64_t paper_stop_cap = 64;
 
 /// How chains run, whatever they are run for.
 struct MetropolisTuning {
-    std::uint32_t chains = 256;        ///< at most 65536; no more than states are used
-    std::uint32_t stride = 64;         ///< mutations from one recorded state to the next
-    std::uint32_t suffix_refresh = 8;  ///< further light paths behind each recorded VPL, 0..255
-    ChainStop stop = ChainStop::fixed;
-    ChainOptions chain;
-    BootstrapOptions bootstrap;
-    PathTechniques techniques = PathTechniques::bidirectional;
+    std::uint32_t chains = 256;         ///< at most 65536; no more than states are used
+    std::uint32_t stride = 64;          ///< mutations from one recorded state to the next
+    std::uint32_t suffix_refresh = 8;   ///< further light paths behind each recorded VPL, 0..255
+    ChainStop stop = ChainStop::fixed;  ///< when chains end
+    ChainOptions chain;                 ///< how they move
+    BootstrapOptions bootstrap;         ///< how many paths estimate P_c and seed them
+    PathTechniques techniques = PathTechniques::bidirectional;  ///< how paths are built
 
     /// @throws Error(invalid_argument) that names the first bad value.
     void validate() const;
@@ -38,9 +38,11 @@ struct MetropolisOptions : MetropolisTuning {
     std::uint32_t states = 256;    ///< n: states recorded by all chains together
     bool emitter_vpls = false;     ///< also direct light by VPLs: paths of two edges
     std::uint8_t max_bounce = 32;  ///< largest number of scattering events, 1..63
-    std::uint64_t seed = 0;
+    std::uint64_t seed = 0;        ///< of every random number of the run
 
+    /// Fewest edges of a path, camera's and lamp's included: 2 for direct light, else 3.
     [[nodiscard]] std::uint32_t min_edges() const { return emitter_vpls ? 2 : 3; }
+    /// Most edges of a path: one more than it scatters.
     [[nodiscard]] std::uint32_t max_edges() const { return std::uint32_t{max_bounce} + 1; }
     /// @throws Error(invalid_argument) that names the first bad value, Error(limit_exceeded) when
     ///         more states are wanted than `limits` allows VPLs.

@@ -9,6 +9,7 @@ namespace mir {
 
 /// Intensity of a record that is to be normalised: the colour of R, at a luminance of 1.
 struct UnitRadiance {
+    /// R of a path that carries light, scaled to a luminance of 1.
     MIR_HD Rgb operator()(const WeightedPath& p) const {
         return with_unit_luminance(p.measure.leaving);
     }
@@ -21,6 +22,7 @@ struct UnitRadiance {
 template <class World>
 class MetropolisSampler {
  public:
+    /// Records hold R; the image's response makes intensities of them.
     static constexpr Normalisation normalisation = Normalisation::image_response;
 
     /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when

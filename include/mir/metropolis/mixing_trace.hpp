@@ -14,6 +14,7 @@ struct TraceSample {
     std::uint32_t edges = 0;  ///< k
     double radiance = 0.0;    ///< Y(R)
 
+    /// What is kept of a path that carries light.
     MIR_HD static TraceSample of(const WeightedPath& state) {
         return {state.path.x(2).position, state.path.edges(), luminance(state.measure.leaving)};
     }
@@ -45,7 +46,7 @@ class TraceRhythm {
 /// Numbers along one chain that judge its mixing: x, y and z of x_v, log Y(R) and k.
 class MixingTrace {
  public:
-    static constexpr std::size_t scalars = 5;
+    static constexpr std::size_t scalars = 5;  ///< numbers kept of each state
 
     MixingTrace() = default;
     /// For a chain of `states` states.
@@ -60,6 +61,8 @@ class MixingTrace {
 
     /// States between two that are kept.
     [[nodiscard]] std::uint64_t stride() const { return rhythm_.stride(); }
+    /// One number along all states kept: 0 to 2 are x, y and z of x_v, metres; 3 is log Y(R), 4 is
+    /// k.
     [[nodiscard]] std::vector<double> values(std::size_t scalar) const {
         std::vector<double> values;
         values.reserve(samples_.size());

@@ -11,8 +11,8 @@ namespace mir {
 
 /// An estimate of P_c, the mean image luminance of the paths in the chain, W m^-2 sr^-1.
 struct PathLuminance {
-    double mean = 0.0;
-    double standard_error = 0.0;
+    double mean = 0.0;               ///< W m^-2 sr^-1
+    double standard_error = 0.0;     ///< of the mean, in the same unit; 0 for fewer than two paths
     std::uint64_t paths = 0;         ///< drawn, those without light included
     std::uint64_t contributing = 0;  ///< drawn, those with light
 
@@ -20,6 +20,7 @@ struct PathLuminance {
     [[nodiscard]] double relative_error() const { return mean > 0.0 ? standard_error / mean : 0.0; }
     /// Ends of the 95 % confidence interval.
     [[nodiscard]] double low() const { return mean - 1.96 * standard_error; }
+    /// The upper end.
     [[nodiscard]] double high() const { return mean + 1.96 * standard_error; }
 };
 

@@ -10,8 +10,8 @@ namespace mir {
 /// A range of a path that is taken out: x_0 .. x_left and x_right .. x_k stay. left = 0 takes the
 /// camera's end with it, right = k + 1 the light's.
 struct PathGap {
-    std::uint32_t left = 0;
-    std::uint32_t right = 0;
+    std::uint32_t left = 0;   ///< last vertex that stays on the camera's side
+    std::uint32_t right = 0;  ///< first that stays on the light's side
 
     /// Vertices taken out.
     [[nodiscard]] MIR_HD std::uint32_t vertices() const { return right - left - 1; }
@@ -21,6 +21,7 @@ struct PathGap {
 /// any thread. Source: Veach 1997, section 11.4.2.
 class GapChoices {
  public:
+    /// For paths of min_edges to max_edges edges, which every choice keeps to.
     MIR_HD GapChoices(std::uint32_t min_edges, std::uint32_t max_edges)
         : min_(min_edges), max_(max_edges) {}
 
@@ -50,6 +51,8 @@ class GapChoices {
         }
         return last;
     }
+    /// Probability that sample_count() puts `n` vertices into this gap; 0 where no path comes of
+    /// it.
     [[nodiscard]] MIR_HD double count_probability(std::uint32_t k, PathGap gap,
                                                   std::uint32_t n) const {
         return count_weight(k, gap, n) / total_count_weight(k, gap);

@@ -11,8 +11,8 @@ namespace mir {
 
 /// Independent draw of all coordinates at once: coordinate d is Random(seed, stream, index).at(d).
 struct LargeStep {
-    Stream stream = Stream::bootstrap;
-    std::uint64_t index = 0;
+    Stream stream = Stream::bootstrap;  ///< Stream::bootstrap for a chain's first state
+    std::uint64_t index = 0;  ///< of the path in the bootstrap, or as large_step() packs it
 };
 
 /// Coordinates that a PrimarySample has.
@@ -68,6 +68,7 @@ class PrimarySample {
     /// invalid once that accepts a step.
     class SmallProposal {
      public:
+        /// Of small step `step` from `current`, which must outlive it.
         MIR_HD SmallProposal(PrimarySample& current, std::uint32_t step)
             : current_(&current), step_(step) {}
         /// Coordinate `dimension`, in [0, 1).

@@ -19,10 +19,10 @@ namespace mir {
 template <class World>
 class ProposalSampler {
  public:
-    static constexpr Normalisation normalisation = Normalisation::none;
+    static constexpr Normalisation normalisation = Normalisation::none;  ///< records are final
 
-    using Generator = VplGenerator<World>;
-    using Probe = typename Generator::Probe;
+    using Generator = VplGenerator<World>;    ///< of light paths with their target
+    using Probe = typename Generator::Probe;  ///< luxels whose response is the target
 
     /// Paths are always built from both ends. health.luminance of the result is that of P~.
     /// @throws Error(invalid_argument) when options are out of range or ask for Veach's mutations,

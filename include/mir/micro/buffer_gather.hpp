@@ -20,10 +20,11 @@ namespace mir {
 /// same bits.
 template <Space S, Bsdf B, std::uint32_t Side = BufferGatherOptions::largest_side>
 struct BufferGather {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< memory that the tree lies in
+    /// What a group works in, undefined before and after.
     using Workspace = MicroBufferSpace<Side>;
 
-    SurfelTreeView<S> tree;
+    SurfelTreeView<S> tree;                    ///< what is seen
     const SurfelRadiance* radiance = nullptr;  ///< of nodes
     BufferGatherOptions options;               ///< must have passed check(); at most `Side` texels
 

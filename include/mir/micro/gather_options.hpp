@@ -16,12 +16,12 @@ enum class GatherDirections {
 
 /// How light is gathered at a point.
 struct GatherOptions {
-    std::uint32_t rays = 128;  ///< of each point, 1 to 65536
-    GatherDirections directions = GatherDirections::cosine;
+    std::uint32_t rays = 128;                                ///< of each point, 1 to 65536
+    GatherDirections directions = GatherDirections::cosine;  ///< where rays lie dense
     /// Largest solid angle of a node at which a ray stops, in units of the ray's own, which is
     /// 1 / (rays * density): 0 is exact, 1 the article's choice.
     float threshold = 1.0f;
-    StopShape shape = StopShape::disc;
+    StopShape shape = StopShape::disc;  ///< what a ray meets where it stops at a node
 };
 
 /// Which directions the texels of a MicroBuffer stand for.
@@ -32,13 +32,13 @@ enum class BufferWarp {
 
 /// How light is gathered by a MicroBuffer.
 struct BufferGatherOptions {
-    static constexpr std::uint32_t largest_side = 24;
+    static constexpr std::uint32_t largest_side = 24;  ///< texels that a group has room for
 
     std::uint32_t side = 16;  ///< texels in each direction, 1 to largest_side
     /// Largest solid angle of a node that is drawn as a whole, in units of the smallest texel that
     /// it may cover, of those that follow the cosine pi / side^2 everywhere: 0 is exact.
     float threshold = 1.0f;
-    BufferWarp warp = BufferWarp::hemisphere;
+    BufferWarp warp = BufferWarp::hemisphere;  ///< what texels stand for
 };
 
 /// @throws Error(invalid_argument) when an option is out of its range.

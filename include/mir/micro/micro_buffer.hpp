@@ -13,16 +13,16 @@ namespace mir {
 /// What a group works in that draws a MicroBuffer of up to `Side` texels in each direction.
 template <std::uint32_t Side>
 struct MicroBufferSpace {
-    static constexpr std::uint32_t side = Side;
+    static constexpr std::uint32_t side = Side;  ///< most texels in each direction
     /// Nodes that may wait: fewer make lanes idle, never fail; more leave room for fewer groups.
     static constexpr std::uint32_t most_waiting = 384;
 
-    std::uint64_t nearest[Side * Side];
-    Vec3 direction[Side * Side];
-    std::uint32_t waiting[most_waiting];
-    std::uint32_t drawn[2 * LaneGroup::width];
+    std::uint64_t nearest[Side * Side];   ///< of texels: bits of the distance, below them the node
+    Vec3 direction[Side * Side];          ///< of texels, unit
+    std::uint32_t waiting[most_waiting];  ///< stack of nodes still to be looked at
+    std::uint32_t drawn[2 * LaneGroup::width];  ///< nodes where the walk ended
     // Of up to 32 nodes that are drawn together:
-    SurfelNode node[LaneGroup::width];
+    SurfelNode node[LaneGroup::width];       ///< copies of those nodes
     std::uint32_t area[LaneGroup::width];    ///< texels that it may cover
     std::uint32_t before[LaneGroup::width];  ///< texels of the nodes before
 };
@@ -34,6 +34,7 @@ struct MicroBufferSpace {
 template <std::uint32_t Side, class Texels>
 class MicroBuffer {
  public:
+    /// Memory of the group, undefined before; holds the picture afterwards.
     using Workspace = MicroBufferSpace<Side>;
 
     /// `side` texels in each direction, 1 to `Side`; `jitter` in [0, 1)^2 is the place of the
@@ -50,6 +51,7 @@ class MicroBuffer {
         });
     }
 
+    /// Number of texels, counted row by row.
     [[nodiscard]] MIR_HD std::uint32_t size() const { return side_ * side_; }
     /// Unit, in the world.
     [[nodiscard]] MIR_HD Vec3 direction(std::uint32_t texel) const {

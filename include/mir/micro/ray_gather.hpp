@@ -75,9 +75,9 @@ struct GatherRays {
 /// where directions lie dense. Allocates nothing; a kernel body for host and device.
 template <Space S, Bsdf B>
 struct RayGather {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< memory that the tree lies in
 
-    SurfelTreeView<S> tree;
+    SurfelTreeView<S> tree;                    ///< what is seen
     const SurfelRadiance* radiance = nullptr;  ///< of nodes
     GatherOptions options;                     ///< must have passed check()
 

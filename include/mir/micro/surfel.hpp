@@ -23,7 +23,7 @@ struct alignas(16) Surfel {
     /// From the centre to two corners of the piece, counter-clockwise around the normal; the third
     /// is minus their sum. Both zero: the disc is whole. Metres.
     Vec3 corner1{0};
-    Vec3 corner2{0};
+    Vec3 corner2{0};  ///< like corner1
 
     /// True when nothing is cut off.
     [[nodiscard]] MIR_HD bool is_whole() const {

@@ -28,6 +28,7 @@ class SurfelLinks {
         return sum * face.surface.bsdf.reflectance * (1.0f / static_cast<float>(rays_));
     }
 
+    /// Memory held, bytes.
     [[nodiscard]] std::size_t bytes() const { return links_.size() * sizeof(std::uint32_t); }
 
  private:

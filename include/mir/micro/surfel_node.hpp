@@ -23,6 +23,7 @@ struct alignas(16) SurfelNode {
     std::uint32_t first = 0;  ///< first disc below, in the order of the tree
     std::uint32_t count = 0;  ///< discs below
 
+    /// True when the node is one disc, that of index `first`.
     [[nodiscard]] MIR_HD bool is_leaf() const { return right == 0; }
 };
 static_assert(sizeof(SurfelNode) == 48);

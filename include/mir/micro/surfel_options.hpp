@@ -22,8 +22,8 @@ enum class DiscExtent {
 
 /// How a scene is cut into discs.
 struct SurfelOptions {
-    float max_area = 0.01f;  ///< m^2; no piece is larger, none is cut that is not
-    DiscExtent extent = DiscExtent::piece;
+    float max_area = 0.01f;                 ///< m^2; no piece is larger, none is cut that is not
+    DiscExtent extent = DiscExtent::piece;  ///< how far a disc reaches
 };
 
 /// @throws Error(invalid_argument) when an option is out of its range.

@@ -16,16 +16,17 @@ namespace mir {
 /// radiance, W m^-2 sr^-1, the same in all directions.
 struct SurfelRadiance {
     Rgb front;  ///< on the side of the normals
-    Rgb back;
+    Rgb back;   ///< against the normals
 
+    /// Of the side that is asked for.
     [[nodiscard]] MIR_HD Rgb of(bool front_side) const { return front_side ? front : back; }
 };
 
 /// One side of a disc as a luxel: its lifted centre, seen head-on, with the albedo of its material
 /// as Lambertian reflectance.
 struct SurfelFace {
-    Hit hit;
-    Surface<Lambert::Params> surface;
+    Hit hit;                           ///< place and normal of the side
+    Surface<Lambert::Params> surface;  ///< Lambertian, without emission
 };
 
 /// The side of leaf `index`. `ray_offset` is WorldGeometry::ray_offset(), metres.

@@ -10,7 +10,7 @@ namespace mir {
 
 /// A ray that gathers light over a solid angle.
 struct SurfelRay {
-    Vec3 origin{0};
+    Vec3 origin{0};            ///< metres; lifted where it lies on a surface
     Vec3 direction{0, 0, -1};  ///< unit
     /// Unit normal of the surface that gathers, on its lit side. What lies below the tangent plane
     /// through the origin is not met: the surface's own discs, which lie in that plane (a lifted
@@ -23,7 +23,7 @@ struct SurfelRay {
 
 /// What a ray met first.
 struct SurfelHit {
-    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;  ///< node of a ray that met nothing
 
     float t = std::numeric_limits<float>::infinity();  ///< distance from the origin, metres
     std::uint32_t node = none;                         ///< a leaf, or where the ray stopped

@@ -25,11 +25,13 @@ class SurfelTree {
     SurfelTree(std::vector<Surfel> surfels, std::span<const Rgb> albedo,
                const SurfelTreeOptions& options, E& executor);
 
+    /// What kernels on the host read; valid until the tree ends.
     [[nodiscard]] SurfelTreeView<Space::host> view() const {
         return {nodes_.data(), albedo_.data(), surfels_.data(), area_.data(),
                 static_cast<std::uint32_t>(nodes_.size())};
     }
 
+    /// In the order of a walk (SurfelNode): the root first, 2 n - 1 for n discs.
     [[nodiscard]] std::span<const SurfelNode> nodes() const { return nodes_; }
     /// Of nodes: mean over the area below, 0..1.
     [[nodiscard]] std::span<const Rgb> albedo() const { return albedo_; }

@@ -26,8 +26,8 @@ struct SurfelTreeOptions {
     /// Most nodes on the way from the root to a disc; traversal has a stack of that size.
     static constexpr std::uint32_t depth_limit = 48;
 
-    SphereFit sphere = SphereFit::ritter;
-    SurfelSplit split = SurfelSplit::orientation;
+    SphereFit sphere = SphereFit::ritter;          ///< what bounds the discs of a node
+    SurfelSplit split = SurfelSplit::orientation;  ///< how discs are dealt to children
     std::uint32_t median_below = 16;  ///< discs of nodes that are always halved by number
     std::uint32_t bins = 16;  ///< in which `orientation` looks for planes, per axis; 2 to 64
 

@@ -12,7 +12,7 @@ namespace mir {
 /// What kernels read of a SurfelTree. A view of plain arrays; thread-safe.
 template <Space S>
 struct SurfelTreeView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< memory that the arrays lie in
 
     /// Most nodes on the way from the root to a disc.
     static constexpr std::uint32_t max_depth = SurfelTreeOptions::depth_limit;
@@ -26,6 +26,7 @@ struct SurfelTreeView {
     const float* area = nullptr;   ///< of nodes: of the pieces that the discs below stand for, m^2
     std::uint32_t node_count = 0;  ///< 0: there is no disc
 
+    /// True when there is no disc: then there is no root.
     [[nodiscard]] MIR_HD bool empty() const { return node_count == 0; }
 };
 

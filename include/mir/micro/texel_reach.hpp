@@ -10,6 +10,7 @@ struct SeenSphere {
     Vec3 direction{0, 0, 1};  ///< unit, of its centre
     float sine = 1.0f;        ///< of the angle from there to its rim; 1 or more: around the point
 
+    /// `to_centre` leads from the point to the centre, metres, like `radius`.
     MIR_HD SeenSphere(Vec3 to_centre, float radius) {
         const float distance = glm::length(to_centre);
         if (!(radius < distance)) return;
@@ -18,7 +19,9 @@ struct SeenSphere {
         sine = share * radius;
     }
 
+    /// True when the point lies inside: every direction may meet the sphere.
     [[nodiscard]] MIR_HD bool is_around() const { return !(sine < 1.0f); }
+    /// Of the same angle; 0 around the point.
     [[nodiscard]] MIR_HD float cosine() const { return sqrtf(larger(0.0f, 1.0f - sine * sine)); }
     /// Length of the way between unit vectors to centre and rim, or more: 2 sin(a / 2) is at most
     /// s (1 + (sqrt(2) - 1) s^2) where sin a = s.
@@ -28,8 +31,8 @@ struct SeenSphere {
 /// A rectangle of the unit square of a MicroBuffer's texels, all of it unless said. On axes that go
 /// around it may reach past 0 or 1.
 struct TexelReach {
-    Vec2 low{0.0f};
-    Vec2 high{1.0f};
+    Vec2 low{0.0f};   ///< least u and v
+    Vec2 high{1.0f};  ///< largest u and v
 };
 
 }  // namespace mir

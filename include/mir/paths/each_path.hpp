@@ -11,10 +11,10 @@ namespace mir {
 
 /// Independent paths: path i is a function of Random(seed, stream, i), first <= i < end.
 struct PathRange {
-    std::uint64_t seed = 0;
-    Stream stream = Stream::bootstrap;
-    std::uint64_t first = 0;
-    std::uint64_t end = 0;
+    std::uint64_t seed = 0;             ///< of all paths
+    Stream stream = Stream::bootstrap;  ///< what the paths are for
+    std::uint64_t first = 0;            ///< index of the first path
+    std::uint64_t end = 0;              ///< one past the last, at least `first`
 };
 
 /// Calls f(i, path) for each path of the range that `generator` builds, those of weight 0

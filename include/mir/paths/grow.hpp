@@ -84,13 +84,14 @@ MIR_HD bool extend_from_eye(const World& world, Numbers& u, std::uint32_t edges,
 /// The light's part of a path in the making. It grows from x_k towards the camera, in place: the
 /// path has all its edges already, and those that connect both parts come last.
 struct LightPart {
-    Path& path;
+    Path& path;              ///< whole path; outlives this
     std::uint32_t size = 0;  ///< vertices so far
 
     /// Its i-th vertex, x_(k-i).
     [[nodiscard]] MIR_HD PathVertex& vertex(std::uint32_t i) const {
         return path.x(path.edges() - i);
     }
+    /// Writes the next vertex towards the camera; the path must have room for it.
     MIR_HD void add(const PathVertex& v) { vertex(size++) = v; }
 };
 

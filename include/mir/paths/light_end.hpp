@@ -9,7 +9,9 @@ namespace mir {
 
 /// A light end together with its vertex.
 struct PlacedLightEnd {
+    /// Of ends outside the scene only the normal counts: the way that their light travels.
     PathVertex vertex;
+    /// What else is known of it.
     LightEnd end;
 };
 

@@ -23,9 +23,9 @@ struct PathVertex {
 
 /// What is known about the light at the end of a path besides its place.
 struct LightEnd {
-    LightEndKind kind = LightEndKind::area;
-    std::uint16_t light_group = 0;
-    std::uint32_t light = 0;      ///< as LightTable::sample_light() counts
+    LightEndKind kind = LightEndKind::area;  ///< says which members mean what
+    std::uint16_t light_group = 0;           ///< of the light
+    std::uint32_t light = 0;                 ///< as LightTable::sample_light() counts
     Rgb emission;                 ///< area, environment: L_e; point, spot: intensity; directional:
                                   ///< irradiance
     double pdf_next_event = 0.0;  ///< of choosing this end for a given receiver: m^-2, sr^-1 for
@@ -41,13 +41,15 @@ struct Path {
     Vec3 eye{0};     ///< x0, metres
     Vec3 spread{0};  ///< numbers that choose how x_2 spreads light, [0,1)^3
     InlineVector<PathVertex, max_path_edges> vertices;  ///< x1 .. x_k; element i - 1 is x_i
-    LightEnd light;
+    LightEnd light;  ///< what shines at the end; its place is x_k
 
     /// k: the number of edges.
     [[nodiscard]] MIR_HD std::uint32_t edges() const { return vertices.size(); }
     /// Scattering events, k - 1: the bounce that the path counts in.
     [[nodiscard]] MIR_HD std::uint32_t bounce() const { return edges() - 1; }
+    /// x_i, 1 <= i <= edges().
     [[nodiscard]] MIR_HD const PathVertex& x(std::uint32_t i) const { return vertices[i - 1]; }
+    /// x_i, 1 <= i <= edges(), to write to.
     [[nodiscard]] MIR_HD PathVertex& x(std::uint32_t i) { return vertices[i - 1]; }
     /// Position of x_i, x0 included.
     [[nodiscard]] MIR_HD Vec3 position(std::uint32_t i) const {

@@ -10,8 +10,8 @@ namespace mir {
 
 /// A path together with what it is worth. 4.6 kB. Where the weight is 0, nothing else is defined.
 struct WeightedPath {
-    Path path;
-    PathMeasure measure;
+    Path path;             ///< x0 .. x_k and its light
+    PathMeasure measure;   ///< contribution and densities of `path`
     double density = 0.0;  ///< of the generator at this path
     double weight = 0.0;   ///< Y(F) / density; 0: no light passes
 };
@@ -47,10 +47,13 @@ class PathGenerator {
     /// Paths reach from the camera to a light.
     static constexpr bool has_camera = true;
 
+    /// Keeps copies; what the world views must outlive it.
     PathGenerator(World world, const TechniqueTable& techniques)
         : world_(std::move(world)), techniques_(techniques) {}
 
+    /// What paths run through.
     [[nodiscard]] MIR_HD const World& world() const { return world_; }
+    /// Lengths and techniques that paths are drawn by.
     [[nodiscard]] MIR_HD const TechniqueTable& techniques() const { return techniques_; }
 
     /// The path at the point `u` of primary sample space; `u.at(d)` is coordinate d. Of what

@@ -31,18 +31,21 @@ struct PathWorld {
     static_assert(AccessibleFrom<V, S>,
                   "mir: the visibility of a PathWorld lies in another memory than its scene");
 
+    /// Model by which all surfaces reflect.
     using Bsdf = B;
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< memory that the views read
 
-    GeometryView<S> geometry;
-    LightTableView<S> lights;
-    SurfaceTableView<S, B> surfaces;
-    R caster;
-    V visibility;
-    CameraOptics camera;
+    GeometryView<S> geometry;                         ///< triangles
+    LightTableView<S> lights;                         ///< what shines
+    SurfaceTableView<S, B> surfaces;                  ///< materials and their textures
+    R caster;                                         ///< what rays meet
+    V visibility;                                     ///< whether vertices see each other
+    CameraOptics camera;                              ///< what paths start from
     float aspect = 1.0f;                              ///< width / height of the film
     float bound = std::numeric_limits<float>::max();  ///< of the geometry term x1, x2; m^-2
 
+    /// Views that lie in space `S`; `geometry_bound`, m^-2, limits the geometry term between x1 and
+    /// x2.
     PathWorld(const GeometryView<S>& geometry_view, const LightTableView<S>& light_table,
               const SurfaceTableView<S, B>& surface_table, R ray_caster, V sight,
               const CameraOptics& optics, float film_aspect = 1.0f,
@@ -76,6 +79,7 @@ struct PathWorld {
                   p.material};
         return true;
     }
+    /// How the surface reflects at a vertex, textures and vertex colours included.
     [[nodiscard]] MIR_HD typename B::Params params(const PathVertex& v) const {
         if (geometry.texture_coordinates == nullptr && geometry.colors == nullptr)
             return surfaces.params(v.material);

@@ -12,8 +12,8 @@ namespace mir {
 /// One way to build a path of k edges: s vertices from the light (0: the camera's part runs into a
 /// lamp, 1: light sample, more: light path), k - s from the camera, x1 always among them.
 struct Technique {
-    std::uint32_t edges = 2;
-    std::uint32_t from_light = 1;
+    std::uint32_t edges = 2;       ///< k, at least 2
+    std::uint32_t from_light = 1;  ///< s, 0 to k - 1
 };
 
 /// Which techniques are used how often: first the length, geometrically distributed and cut to
@@ -45,7 +45,9 @@ class TechniqueTable {
         return t;
     }
 
+    /// Edges of the shortest path, at least 2.
     [[nodiscard]] MIR_HD std::uint32_t min_edges() const { return min_; }
+    /// Edges of the longest path, at most max_path_edges.
     [[nodiscard]] MIR_HD std::uint32_t max_edges() const { return max_; }
 
     /// Technique for one number in [0, 1).

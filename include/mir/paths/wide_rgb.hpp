@@ -8,19 +8,22 @@ namespace mir {
 /// Rgb with the range of double. A product over the vertices of a path has a factor 1 / m^2 for
 /// each: after some ten bounces it leaves the range of float in a hall of 100 m or a box of 1 cm.
 struct WideRgb {
-    double r = 0.0;
-    double g = 0.0;
-    double b = 0.0;
+    double r = 0.0;  ///< red
+    double g = 0.0;  ///< green
+    double b = 0.0;  ///< blue
 
     constexpr WideRgb() = default;
+    /// Channels in the unit of what the triple measures.
     MIR_HD constexpr WideRgb(double red, double green, double blue) : r(red), g(green), b(blue) {}
     /// Not explicit: nothing is lost.
     MIR_HD constexpr WideRgb(Rgb c)
         : WideRgb(static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)) {}
 
+    /// Channel by channel.
     friend MIR_HD constexpr WideRgb operator*(const WideRgb& a, const WideRgb& o) {
         return {a.r * o.r, a.g * o.g, a.b * o.b};
     }
+    /// Every channel times `s`.
     friend MIR_HD constexpr WideRgb operator*(const WideRgb& a, double s) {
         return {a.r * s, a.g * s, a.b * s};
     }

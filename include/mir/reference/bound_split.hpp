@@ -19,7 +19,7 @@ enum class BoundPart {
 /// two parts of one bound add up to all light. Thread-safe.
 struct BoundSplit {
     float bound = std::numeric_limits<float>::max();  ///< m^-2
-    BoundPart part = BoundPart::kept;
+    BoundPart part = BoundPart::kept;                 ///< which of the two is wanted
     bool lamps = false;  ///< the bound holds for the emission of triangles too
 
     /// Share of the light that `at`, a lifted point with unit shading normal `normal`, gets from

@@ -43,6 +43,7 @@ struct BalanceRules {
 
 /// BalanceRules with the power heuristic of exponent 2. Model of PathRules.
 struct PowerRules : BalanceRules {
+    /// Weight own^2 / (own^2 + other^2), for own > 0.
     static float mis(float own, float other) {
         const float ratio = other / own;
         return 1.0f / (1.0f + ratio * ratio);

@@ -25,7 +25,7 @@ enum class LightSearch {
 
 /// How paths are traced; the estimator is described in docs/reference.md.
 struct PathTracerOptions {
-    LightSearch light = LightSearch::mis;
+    LightSearch light = LightSearch::mis;  ///< how lamps and environment are found
     /// Points on emissive triangles, and directions towards the environment, at the first vertex.
     /// Every later vertex takes one: the cost is linear in `light_samples` and `directions`, not
     /// their product.
@@ -55,22 +55,23 @@ class PathTracer {
  public:
     /// What paths run through.
     struct World {
-        const WorldGeometry& geometry;
-        const LightTable& lights;
-        const SurfaceTable<B>& surfaces;
-        R caster;
-        V visibility;
+        const WorldGeometry& geometry;    ///< outlives the tracer
+        const LightTable& lights;         ///< outlives the tracer
+        const SurfaceTable<B>& surfaces;  ///< outlives the tracer
+        R caster;                         ///< finds what paths meet, from many threads at once
+        V visibility;                     ///< asked about lights, from many threads at once
     };
 
     /// A lifted point of a surface, seen from where the path came from.
     struct Vertex {
-        Hit hit;
-        Surface<typename B::Params> surface;
+        Hit hit;                              ///< place, lifted, and geometric normal
+        Surface<typename B::Params> surface;  ///< towards where the path came from
     };
 
     /// @throws Error(invalid_argument) when options are out of range.
     PathTracer(const World& world, PathTracerOptions options);
 
+    /// As they were given.
     [[nodiscard]] const PathTracerOptions& options() const { return options_; }
 
     /// What `ray` sees first: the luxel that fill_gbuffer() stores.

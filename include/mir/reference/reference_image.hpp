@@ -22,8 +22,11 @@ class ReferenceImage {
           replicates_(replicates),
           moments_(static_cast<std::size_t>(extent.area()) * layers()) {}
 
+    /// Size in luxels.
     [[nodiscard]] Extent extent() const { return extent_; }
+    /// Last bounce with a layer of its own.
     [[nodiscard]] std::uint8_t last_bounce() const { return last_bounce_; }
+    /// Replicates that each pixel is to get; variances divide by them.
     [[nodiscard]] std::uint32_t replicates() const { return replicates_; }
 
     /// Adds one replicate of pixel (x, y) after `earlier` others: the mean radiance of every

@@ -12,18 +12,21 @@ namespace mir {
 
 /// Red, green and blue in double precision, in the unit of what was added.
 struct RgbSum {
-    std::array<double, 3> channel{};
+    std::array<double, 3> channel{};  ///< red, green, blue
 
+    /// Adds channel by channel, in double precision.
     RgbSum& operator+=(Rgb c) {
         channel[0] += static_cast<double>(c.r);
         channel[1] += static_cast<double>(c.g);
         channel[2] += static_cast<double>(c.b);
         return *this;
     }
+    /// Adds channel by channel.
     RgbSum& operator+=(const RgbSum& o) {
         for (std::size_t i = 0; i < 3; ++i) channel[i] += o.channel[i];
         return *this;
     }
+    /// Every channel times `s`.
     friend RgbSum operator*(RgbSum a, double s) {
         for (double& c : a.channel) c *= s;
         return a;
@@ -38,7 +41,7 @@ struct RgbSum {
 /// First and second moments of a colour over replicates, channel by channel (Welford 1962). How
 /// many replicates it holds is kept by the image it belongs to.
 struct RgbMoments {
-    RgbSum mean;
+    RgbSum mean;     ///< of the replicates added so far
     RgbSum squares;  ///< sum of squared deviations from the mean
 
     /// Adds `value` after `earlier` others.

@@ -16,11 +16,11 @@ enum class FilmPosition {
 
 /// How much to trace. Memory is 48 bytes per luxel and layer, the beauty's layer included.
 struct ReferenceOptions {
-    std::uint32_t samples = 64;         ///< estimates per luxel and replicate
-    std::uint32_t replicates = 16;      ///< independent images
-    std::uint32_t first_replicate = 0;  ///< number of the first: names its random numbers
-    FilmPosition film = FilmPosition::luxel;
-    std::uint8_t last_bounce = 8;  ///< last bounce with a layer of its own
+    std::uint32_t samples = 64;               ///< estimates per luxel and replicate
+    std::uint32_t replicates = 16;            ///< independent images
+    std::uint32_t first_replicate = 0;        ///< number of the first: names its random numbers
+    FilmPosition film = FilmPosition::luxel;  ///< where camera rays go through
+    std::uint8_t last_bounce = 8;             ///< last bounce with a layer of its own
 };
 
 namespace detail {

@@ -22,6 +22,7 @@ namespace mir {
 template <Backend B>
 class BackendFilm {
  public:
+    /// Of the backend.
     using Queue = typename B::Queue;
 
     /// `grid` and `seed` must be those that placed the luxels; bands have up to `most_rows` luxel

@@ -16,6 +16,7 @@ namespace mir {
 template <Backend B, Bsdf F>
 class BackendGather {
  public:
+    /// G-buffers that it takes, on the host.
     using Luxels = BlockedGBuffer<typename F::Params>;
 
     /// Copies the tree.
@@ -43,6 +44,7 @@ class BackendGather {
             };
         });
     }
+    /// The same by micro-buffers, as gather_light() does with these options.
     template <class Done = decltype(no_progress)>
     [[nodiscard]] Image<Rgb> operator()(const Luxels& luxels,
                                         std::span<const SurfelRadiance> radiance,

@@ -15,7 +15,9 @@ namespace mir {
 template <Backend B, class Params>
 class BackendGBuffer {
  public:
+    /// What a luxel knows of its surface.
     using Surface = mir::Surface<Params>;
+    /// Luxels of one tile.
     using View = GBufferView<B::space, Params>;
 
     /// @throws Error(invalid_argument) when an extent is zero, Error(limit_exceeded) for 2^32
@@ -25,10 +27,14 @@ class BackendGBuffer {
           grid_(TileGrid::of(extent, tiles_)),
           words_(backend.template buffer<std::uint32_t>(checked_count(grid_))) {}
 
+    /// Size of the image or band, in luxels.
     [[nodiscard]] Extent extent() const { return grid_.image; }
+    /// Row by row; TileIndex counts them.
     [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
+    /// The same tiles as a small value, for kernels.
     [[nodiscard]] const TileGrid& grid() const { return grid_; }
 
+    /// For kernels that read the luxels of a tile; valid as long as this.
     [[nodiscard]] View view(TileIndex t) const {
         const SoaView<const Hit> hits{words_.data() + first_word(t), luxels(t)};
         return {hits, {hits.planes + hit_words(t), luxels(t)}};
@@ -39,6 +45,7 @@ class BackendGBuffer {
         requires(B::space == Space::host) {
         return {words_.data() + first_word(t), hit_words(t)};
     }
+    /// The same of the surfaces, which follow the hits.
     [[nodiscard]] std::span<const std::uint32_t> surface_words_of(TileIndex t) const
         requires(B::space == Space::host) {
         return {words_.data() + first_word(t) + hit_words(t), tile_words(t) - hit_words(t)};

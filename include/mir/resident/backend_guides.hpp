@@ -13,6 +13,7 @@ namespace mir {
 template <Backend B>
 class BackendGuides {
  public:
+    /// Of the backend.
     using Queue = typename B::Queue;
 
     /// Guides of an image as `camera` sees it.

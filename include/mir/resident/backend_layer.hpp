@@ -11,8 +11,8 @@ namespace mir {
 /// A colour per luxel of an image (or of a band of it) as kernels read it: tiles and luxels in the
 /// order of a G-buffer, planes of red, green and blue in each tile. A view; thread-safe.
 struct LayerView {
-    const std::uint32_t* words = nullptr;
-    TileGrid grid;
+    const std::uint32_t* words = nullptr;  ///< of all tiles, one after the other
+    TileGrid grid;                         ///< of the image or band
 
     /// Colour of the luxel at (x, y).
     [[nodiscard]] MIR_HD Rgb operator()(std::uint32_t x, std::uint32_t y) const {
@@ -39,7 +39,9 @@ class BackendLayer {
           words_(backend.template buffer<std::uint32_t>(static_cast<std::size_t>(grid.size()) *
                                                         SoaView<Rgb>::words)) {}
 
+    /// Tiles that it was made for.
     [[nodiscard]] const TileGrid& grid() const { return grid_; }
+    /// For kernels that read it; valid as long as this.
     [[nodiscard]] LayerView view() const { return {words_.data(), grid_}; }
 
     /// The luxels of a tile, for kernels that write them.
@@ -58,9 +60,10 @@ class BackendLayer {
 /// Kernel over the luxels of a tile: what they emit themselves.
 template <class G>
 struct EmissionPass {
-    G luxels;
-    SoaView<Rgb> out;
+    G luxels;          ///< of the tile, a view as kernels read them
+    SoaView<Rgb> out;  ///< radiance, W m^-2 sr^-1
 
+    /// Luxel i of the tile, padding included.
     MIR_HD void operator()(LuxelIndex i) const { out.store(i, luxels.surface(i).emission); }
 };
 template <class G>
@@ -68,17 +71,19 @@ EmissionPass(G, SoaView<Rgb>) -> EmissionPass<G>;
 
 /// Kernel over all luxels of two layers of one grid, padding included: sum += layer.
 struct AddLayer {
-    SoaView<Rgb> sum;
-    SoaView<const Rgb> layer;
+    SoaView<Rgb> sum;          ///< read and written
+    SoaView<const Rgb> layer;  ///< as many luxels as `sum`
 
+    /// Luxel i, counted over all tiles.
     MIR_HD void operator()(std::uint32_t i) const { sum.store(i, sum.load(i) + layer.load(i)); }
 };
 
 /// Kernel over the rows of a layer: adds up the luminance of each, from left to right.
 struct RowLuminance {
-    LayerView layer;
-    double* out = nullptr;
+    LayerView layer;        ///< what is added up
+    double* out = nullptr;  ///< a sum per row of the image or band, in the unit of the layer
 
+    /// Row y.
     MIR_HD void operator()(std::uint32_t y) const {
         double sum = 0.0;
         for (std::uint32_t x = 0; x < layer.grid.image.width; ++x)

@@ -17,6 +17,7 @@ namespace mir {
 template <Backend B>
 class BackendResponse {
  public:
+    /// Of the backend.
     using Queue = typename B::Queue;
 
     /// For an image of `luxels` and a set of `vpls` VPLs. `partial_sums` of 32 bytes may be kept of

@@ -41,7 +41,9 @@ class BackendVisibility {
     [[nodiscard]] VisibilityWords<B::space> tile(TileIndex t) const {
         return {words_.data() + first_word(t), vpls_};
     }
+    /// Number of VPLs that it was made for.
     [[nodiscard]] std::uint32_t vpls() const { return vpls_; }
+    /// Tiles that it was made for.
     [[nodiscard]] const TileGrid& grid() const { return grid_; }
 
     /// Bytes that it takes, before it is made.

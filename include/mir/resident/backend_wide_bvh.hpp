@@ -41,6 +41,7 @@ class BackendWideBvh {
         return {nodes_.data(), rows_.data(), indices_.data(), reach_};
     }
 
+    /// Wide nodes, the root included.
     [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
     /// Triangles in leaves; those that were split lie in several.
     [[nodiscard]] std::size_t reference_count() const { return rows_.size(); }

@@ -33,6 +33,7 @@ class ChainBatch {
                most.samples * sizeof(TraceSample);
     }
 
+    /// Most chains that there is room for.
     [[nodiscard]] std::uint32_t chains() const {
         return static_cast<std::uint32_t>(reports_here_.size());
     }

@@ -11,13 +11,16 @@ namespace mir {
 /// What kernels trace single rays by when it is a kd-tree; for scenes without masks.
 template <Space S>
 struct KdRays {
-    using Sight = KdTreeVisibility<S, Opaque>;
-    using Caster = KdRayCaster<S, Opaque>;
+    using Sight = KdTreeVisibility<S, Opaque>;  ///< model of Visibility
+    using Caster = KdRayCaster<S, Opaque>;      ///< model of RayCaster
 
-    KdTreeView<S> tree;
+    KdTreeView<S> tree;  ///< of the scene
 
+    /// What finds the first triangle along a ray.
     [[nodiscard]] KdRayFinder<S, Opaque> finder() const { return {tree}; }
+    /// What says whether two points see each other.
     [[nodiscard]] Sight sight() const { return {tree}; }
+    /// What finds the first surface point along a ray; `geometry` is that of the tree.
     [[nodiscard]] Caster caster(const GeometryView<S>& geometry) const { return {geometry, tree}; }
 };
 
@@ -25,14 +28,17 @@ struct KdRays {
 /// Opaque or an AlphaMaskView: kernels of scenes without masks are compiled without them.
 template <Space S, class M = Opaque>
 struct WideRays {
-    using Sight = WideBvhVisibility<S, M>;
-    using Caster = WideRayCaster<S, M>;
+    using Sight = WideBvhVisibility<S, M>;  ///< model of Visibility
+    using Caster = WideRayCaster<S, M>;     ///< model of RayCaster
 
-    WideBvhView<S> bvh;
-    [[no_unique_address]] M mask{};
+    WideBvhView<S> bvh;  ///< of the scene
+    M mask{};            ///< of the same scene
 
+    /// What finds the first triangle along a ray.
     [[nodiscard]] WideRayFinder<S, M> finder() const { return {bvh, mask}; }
+    /// What says whether two points see each other.
     [[nodiscard]] Sight sight() const { return {bvh, mask}; }
+    /// What finds the first surface point along a ray; `geometry` is that of the hierarchy.
     [[nodiscard]] Caster caster(const GeometryView<S>& geometry) const {
         return {geometry, bvh, mask};
     }

@@ -17,6 +17,7 @@ class UploadedArray {
 
     /// For kernels that follow on the queue.
     [[nodiscard]] const T* data() const { return elements_.data(); }
+    /// Number of elements.
     [[nodiscard]] std::size_t size() const { return elements_.size(); }
 
  private:

@@ -176,17 +176,18 @@ auto BackendEngine<B, F, E>::black(const Luxels& luxels) const -> Layer {
 
 template <Backend B, Bsdf F, Executor E>
 auto BackendEngine<B, F, E>::direct(const Luxels& luxels, const LightTable& lights,
-                                    const LuxelBand& band, std::uint32_t samples) const -> Layer {
+                                    const LuxelBand& band, DirectSamples samples) const -> Layer {
     const UploadedLights<B> there(backend_, queue_, lights);
     Layer layer(backend_, luxels.gbuffer.grid());
     const WaitAtEnd wait(queue_);
     with_rays([&](const auto& rays) {
         using Sight = typename std::remove_cvref_t<decltype(rays)>::Sight;
         const LuxelLight<F, Sight> light{
-            {there.view(), geometry_there_.view(), rays.sight(), samples},
+            {there.view(), geometry_there_.view(), rays.sight(), samples.emitters},
             {there.view(), rays.sight()},
-            {there.view(), rays.sight(), samples},
-            band};
+            {there.view(), rays.sight(), samples.environment},
+            band,
+            samples.distant_vpls};
         for (TileIndex t = 0; t < luxels.gbuffer.tiles().size(); ++t) {
             const auto view = luxels.gbuffer.view(t);
             queue_.for_each(view.size(),
@@ -216,6 +217,7 @@ auto BackendEngine<B, F, E>::emission(const Luxels& luxels, const EnvironmentTab
     return layer;
 }
 
+/// As declared.
 template <Backend B, Bsdf F, Executor E>
 template <Shading S>
 auto BackendEngine<B, F, E>::light(const Luxels& luxels, VplSpan<Space::host> vpls,

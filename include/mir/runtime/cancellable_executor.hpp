@@ -24,6 +24,7 @@ class CancellableExecutor {
             body(i);
         });
     }
+    /// That of the executor beneath.
     [[nodiscard]] std::size_t concurrency() const { return executor_.concurrency(); }
 
  private:

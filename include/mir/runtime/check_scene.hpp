@@ -28,8 +28,7 @@ inline bool has_light(const Scene& scene) {
 
 /// Checks that the scene can be rendered with these settings; returns worded warnings.
 /// @throws Error(invalid_input) without camera, triangles or (unless allowed) light, and when the
-///         camera asked for does not exist; Error(unsupported) when VPLs are to bring the direct
-///         light of an environment.
+///         camera asked for does not exist.
 inline std::vector<std::string> check_scene(const Scene& scene, const RenderSettings& settings) {
     std::vector<std::string> warnings;
     if (scene.cameras.empty())
@@ -45,11 +44,6 @@ inline std::vector<std::string> check_scene(const Scene& scene, const RenderSett
         throw Error(ErrorCode::invalid_input,
                     "the scene has no triangles (there is nothing to see); check the file with "
                     "'mir info'");
-    if (scene.environment && settings.integrator == Integrator::vpl &&
-        settings.direct == DirectLight::vpl)
-        throw Error(ErrorCode::unsupported,
-                    "direct light of an environment cannot come from VPLs (they lie on surfaces, "
-                    "and it has none); use --direct separate");
     if (has_light(scene)) return warnings;
     if (!settings.allow_no_light)
         throw Error(
@@ -137,6 +131,10 @@ inline void add_result_warnings(const RenderResult& result, std::vector<std::str
         warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.non_lambertian_share), 1) +
                            " % of the VPLs' light comes from glossy surfaces and is spread as if "
                            "they were diffuse");
+    if (s.widened_share > 0.01f)
+        warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.widened_share), 1) +
+                           " % of the VPLs' light comes from surfaces smoother than "
+                           "--glossy-roughness and through lobes of that roughness");
     if (s.vpls == 0 && s.emitted_power > 0.0f && !s.health && s.camera_paths == 0 && s.surfels == 0)
         warnings.emplace_back("no VPL was placed: no light path met a reflecting surface");
 }

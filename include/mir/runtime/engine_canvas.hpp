@@ -12,33 +12,42 @@ namespace mir {
 template <Bsdf B, BandEngine Engine, Executor E>
 class EngineCanvas {
  public:
-    using Job = RenderJob<B, Engine, E>;
-    using Band = KeptBand<Engine>;
-    using Layer = typename Engine::Layer;
+    using Job = RenderJob<B, Engine, E>;   ///< whose result it fills
+    using Band = KeptBand<Engine>;         ///< luxels in the engine's memory
+    using Layer = typename Engine::Layer;  ///< radiance of luxels, W m^-2 sr^-1
 
+    /// For `layers` layers in the order of FilmLayer. No scheduler is made: engines have their own.
     template <class MakeScheduler>
     EngineCanvas(Job& job, const MakeScheduler& /*make_scheduler*/, std::size_t layers)
         : job_(job), layers_(static_cast<std::uint32_t>(layers)) {}
 
+    /// No light.
     [[nodiscard]] Layer black(const Band& band) const { return job_.engine.black(band.luxels); }
-    [[nodiscard]] Layer direct(const Band& band, std::uint32_t samples) const {
+    /// Next-event light from lamps and environment, and light without extent.
+    [[nodiscard]] Layer direct(const Band& band, DirectSamples samples) const {
         return job_.engine.direct(band.luxels, job_.lights,
                                   {band.first_row, job_.rays.grid, job_.settings.seed}, samples);
     }
+    /// What the luxels themselves emit, and the environment where they see nothing else.
     [[nodiscard]] Layer emission(const Band& band) const {
         return job_.engine.emission(band.luxels, job_.lights.environment(), job_.rays,
                                     band.first_row);
     }
+    /// Light of VPLs: from the band's visibility where it is known, by tracing otherwise.
     template <Shading F>
     [[nodiscard]] Layer light(const Band& band, VplSpan<Space::host> vpls, const F& shading,
                               Monitor* monitor) const {
         return job_.engine.light(band.luxels, vpls, shading, monitor);
     }
+    /// sum += layer.
     void add(Layer& sum, const Layer& layer) const { job_.engine.add(sum, layer); }
+    /// Sum of the luminance of each row's luxels, from left to right, W m^-2 sr^-1.
     [[nodiscard]] std::vector<double> row_luminances(const Layer& layer) const {
         return job_.engine.row_luminances(layer);
     }
 
+    /// Puts the layers of a band on the film, from top to bottom, and its guides into the result.
+    /// The first band is the highest.
     void put(const Band& band, std::vector<Layer>& layers) {
         // The first band is the highest.
         if (!picture_) {
@@ -58,6 +67,7 @@ class EngineCanvas {
         job_.engine.bring_home(*picture_, job_.result.guides);
     }
 
+    /// Makes the images of the result, once every band was put there; at most once.
     void finish() {
         const auto stage = job_.clock.measure(&StageSeconds::film);
         take_layers(job_.engine.develop(*picture_), job_.settings.removed_layer, job_.result,

@@ -2,9 +2,13 @@
 #pragma once
 
 #include "mir/direct_light.hpp"
+#include "mir/glossy_light.hpp"
 #include "mir/reshade.hpp"
+#include "mir/runtime/any_engine.hpp"
 #include "mir/runtime/film_layers.hpp"
+#include "mir/runtime/render_job.hpp"
 #include "mir/runtime/residual_light.hpp"
+#include "mir/vsl_light.hpp"
 
 namespace mir {
 
@@ -14,11 +18,14 @@ namespace mir {
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 class HostCanvas {
  public:
-    using Job = RenderJob<B, Engine, E>;
-    using Band = typename ImageBands<B, Engine, E>::Band;
+    using Job = RenderJob<B, Engine, E>;                   ///< whose result it fills
+    using Band = typename ImageBands<B, Engine, E>::Band;  ///< luxels in the host's memory
     /// Radiance towards the viewer of the luxels of a band, W m^-2 sr^-1.
     using Layer = Image<Rgb>;
+    using TakesVplDetails = void;  ///< offers spheres() and glossy()
 
+    /// For `layers` layers in the order of FilmLayer. `make_scheduler(executor, monitor)` returns
+    /// the Scheduler that light() traces with.
     HostCanvas(Job& job, MakeScheduler make_scheduler, std::size_t layers)
         : job_(job),
           make_scheduler_(make_scheduler),
@@ -27,9 +34,8 @@ class HostCanvas {
     /// No light.
     [[nodiscard]] Layer black(const Band& band) const { return Layer(band.gbuffer.extent()); }
 
-    /// Next-event light from `samples` points of lamps for each luxel, and from lights without
-    /// extent.
-    [[nodiscard]] Layer direct(const Band& band, std::uint32_t samples) const {
+    /// Next-event light from lamps and environment, and light without extent.
+    [[nodiscard]] Layer direct(const Band& band, DirectSamples samples) const {
         return direct_light<B>(band.gbuffer, job_.lights, job_.engine.visibility(),
                                {band.first_row, job_.rays.grid, job_.settings.seed}, samples,
                                job_.executor);
@@ -45,12 +51,37 @@ class HostCanvas {
         const auto scheduler = make_scheduler_(job_.executor, monitor);
         if (band.visibility)
             return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
-        return reconstruct(scheduler, band.gbuffer, vpls, job_.engine.visibility(), shading);
+        if constexpr (LoopEngine<Engine, B, E>)
+            return job_.engine.reconstruct(scheduler, band.gbuffer, vpls, shading);
+        else
+            return reconstruct(scheduler, band.gbuffer, vpls, job_.engine.visibility(), shading);
+    }
+
+    /// The same of spheres around the VPLs, of these radii, from the band's visibility.
+    [[nodiscard]] Layer spheres(const Band& band, VplSpan<Space::host> vpls,
+                                std::span<const float> radii, const VslShading<B>& shading,
+                                Monitor* monitor) const {
+        Layer layer =
+            vsl_light(band.gbuffer, *band.visibility, vpls, radii, shading, job_.executor);
+        if (monitor != nullptr) monitor->contributions += band.extent().area() * vpls.size();
+        return layer;
+    }
+
+    /// The same of VPLs with lobes.
+    [[nodiscard]] Layer glossy(const Band& band, VplSpan<Space::host> vpls,
+                               std::span<const VplLobe<B>> lobes, const GlossyShading<B>& shading,
+                               Monitor* monitor) const {
+        Layer layer =
+            glossy_light(band.gbuffer, *band.visibility, vpls, lobes, shading, job_.executor);
+        if (monitor != nullptr) monitor->contributions += band.extent().area() * vpls.size();
+        return layer;
     }
 
     /// Adds what `bound` removed, traced back, to the layers of a band, and returns it.
     Layer add_residual(const Band& band, float bound, std::vector<Layer>& layers) const {
-        return ResidualLight<B, Engine, E>(job_, bound).add_to(layers, band);
+        const AnyEngine engine(job_.engine);
+        const auto context = job_.context().through(engine);
+        return ResidualLight<B, AnyEngine, E>(context, job_.lights, bound).add_to(layers, band);
     }
 
     /// sum += layer.

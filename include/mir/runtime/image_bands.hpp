@@ -3,6 +3,7 @@
 
 #include "mir/fill_visibility.hpp"
 #include "mir/runtime/band_engine.hpp"
+#include "mir/runtime/loop_engine.hpp"
 #include "mir/runtime/render_context.hpp"
 
 #include <optional>
@@ -12,21 +13,25 @@ namespace mir {
 /// Some rows of luxels, and who of them sees which VPL where that was asked.
 template <Bsdf B>
 struct ImageBand {
-    std::uint32_t first_row = 0;
-    BlockedGBuffer<typename B::Params> gbuffer;
-    std::optional<VisibilityMatrix> visibility;
+    std::uint32_t first_row = 0;                 ///< of luxels, in the whole image
+    BlockedGBuffer<typename B::Params> gbuffer;  ///< all columns of the image
+    std::optional<VisibilityMatrix> visibility;  ///< none before ImageBands::find_visible()
 
+    /// True after ImageBands::find_visible().
     [[nodiscard]] bool knows_visibility() const { return visibility.has_value(); }
+    /// Luxels of the band, without padding.
     [[nodiscard]] Extent extent() const { return gbuffer.extent(); }
 };
 
 /// The same where an engine keeps them (BandEngine).
 template <BandEngine Engine>
 struct KeptBand {
-    std::uint32_t first_row = 0;
-    typename Engine::Luxels luxels;
+    std::uint32_t first_row = 0;     ///< of luxels, in the whole image
+    typename Engine::Luxels luxels;  ///< all columns of the image
 
+    /// True after ImageBands::find_visible().
     [[nodiscard]] bool knows_visibility() const { return luxels.knows_visibility(); }
+    /// Luxels of the band, without padding.
     [[nodiscard]] Extent extent() const { return luxels.extent(); }
 };
 
@@ -50,8 +55,8 @@ using BandOf = typename detail::BandOf<B, Engine>::Type;
 template <Bsdf B, class Engine, Executor E>
 class ImageBands {
  public:
-    using Context = RenderContext<B, Engine, E>;
-    using Band = BandOf<B, Engine>;
+    using Context = RenderContext<B, Engine, E>;  ///< of the render
+    using Band = BandOf<B, Engine>;               ///< what make() returns
 
     /// `vpls` of which the visibility will be stored, 0 for none: bands become lower until the
     /// matrix of one fits into Limits::visibility_bytes.
@@ -60,6 +65,7 @@ class ImageBands {
           tile_(whole_blocks(context.settings.tile.value_or(default_tile))),
           rows_(choose_rows(vpls)) {}
 
+    /// Bands that the image is cut into; the last may be lower than the others.
     [[nodiscard]] std::uint32_t count() const { return (luxels().height + rows_ - 1) / rows_; }
 
     /// Luxels of the whole image.
@@ -126,8 +132,12 @@ void ImageBands<B, Engine, E>::find_visible(Band& band, VplSpan<Space::host> vpl
         context_.engine.find_visible(band.luxels, vpls, context_.settings.limits);
     } else {
         band.visibility.emplace(band.gbuffer.tiles(), vpls.size(), context_.settings.limits);
-        fill_visibility(*band.visibility, band.gbuffer, vpls, context_.engine.visibility(),
-                        context_.executor);
+        if constexpr (LoopEngine<Engine, B, E>)
+            context_.engine.fill_visibility(*band.visibility, band.gbuffer, vpls,
+                                            context_.executor);
+        else
+            fill_visibility(*band.visibility, band.gbuffer, vpls, context_.engine.visibility(),
+                            context_.executor);
     }
     if (context_.monitor != nullptr)
         context_.monitor->contributions += band.extent().area() * vpls.size();

@@ -16,7 +16,7 @@ namespace mir {
 template <class T>
 class LayerSum {
  public:
-    using Channels = std::array<double, 3>;
+    using Channels = std::array<double, 3>;  ///< red, green, blue or x, y, z
 
     /// The first image fixes the size; all have it.
     void add(const Image<T>& image) {

@@ -22,6 +22,9 @@ class MicroRender {
                 const Engine& engine, E& executor, Monitor* monitor, StageClock& clock)
         : scene_(scene), job_(scene, settings, geometry, engine, executor, monitor, clock) {}
 
+    /// Renders; to be called once.
+    /// @throws Error(cancelled), Error(limit_exceeded) when discs or their links pass the limits,
+    ///         and what the engine throws.
     RenderResult run();
 
  private:

@@ -13,8 +13,8 @@ namespace mir {
 template <Bsdf B, class Engine, Executor E, Shading F>
 class NormalisationPass {
  public:
-    using Context = RenderContext<B, Engine, E>;
-    using Band = typename ImageBands<B, Engine, E>::Band;
+    using Context = RenderContext<B, Engine, E>;           ///< of the render
+    using Band = typename ImageBands<B, Engine, E>::Band;  ///< luxels with their visibility
 
     /// `shading` is the one that the sampler's P_c was measured with and that the image will use.
     NormalisationPass(const Context& context, const ImageBands<B, Engine, E>& bands,

@@ -52,11 +52,12 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
     for (double RenderStatistics::*mean :
          {&RenderStatistics::path_luminance, &RenderStatistics::dropped_share,
           &RenderStatistics::indirect_luminance, &RenderStatistics::removed_luminance,
-          &RenderStatistics::residual_luminance})
+          &RenderStatistics::residual_luminance, &RenderStatistics::vsl_radius})
         all.*mean = detail::mean_with(all.*mean, pass.*mean, earlier);
-    all.non_lambertian_share = static_cast<float>(
-        detail::mean_with(static_cast<double>(all.non_lambertian_share),
-                          static_cast<double>(pass.non_lambertian_share), earlier));
+    for (float RenderStatistics::*share :
+         {&RenderStatistics::non_lambertian_share, &RenderStatistics::widened_share})
+        all.*share = static_cast<float>(detail::mean_with(
+            static_cast<double>(all.*share), static_cast<double>(pass.*share), earlier));
     if (all.health && pass.health) detail::add_pass(*all.health, *pass.health, earlier);
     for (const RenderStage& stage : render_stages)
         all.seconds.*stage.seconds += pass.seconds.*stage.seconds;

@@ -40,6 +40,7 @@ class PassSums {
         spread_.add(pass.beauty, earlier);
     }
 
+    /// Renders added so far.
     [[nodiscard]] std::uint32_t passes() const { return statistics_.passes; }
 
     /// Those of the passes together; they do not say how far the passes differ.

@@ -17,6 +17,8 @@ class PathRender {
                const Engine& engine, E& executor, Monitor* monitor, StageClock& clock)
         : job_(scene, settings, geometry, engine, executor, monitor, clock) {}
 
+    /// Renders; to be called once.
+    /// @throws Error(invalid_argument) for options out of range, and what the engine throws.
     RenderResult run();
 
  private:

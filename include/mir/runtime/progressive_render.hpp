@@ -5,6 +5,7 @@
 #include "mir/runtime/pass_seed.hpp"
 #include "mir/runtime/pass_sums.hpp"
 #include "mir/runtime/renderer.hpp"
+#include "mir/sampling/vsl_radii.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -15,8 +16,10 @@ namespace mir {
 
 /// A picture that gets better pass by pass. Each pass is a whole render with random numbers of its
 /// own (pass_seed()): other luxels where a pixel has several, other VPLs, other light samples; the
-/// picture is the mean. Its variance falls as one over the number of passes. Everything is made
-/// anew in each pass, the acceleration structure and the G-buffer too. One thread at a time.
+/// picture is the mean. Its variance falls as one over the number of passes;
+/// the spheres of virtual spherical lights shrink from pass to pass (vsl_radius_share()).
+/// Everything is made anew in each pass, the acceleration structure and the G-buffer too. One
+/// thread at a time.
 class ProgressiveRender {
  public:
     /// Starts the clock of the goal. `renderer`, `scene` and `monitor`, which may be null, must
@@ -28,6 +31,7 @@ class ProgressiveRender {
           scene_(scene),
           settings_(std::move(settings)),
           seed_(settings_.seed),
+          vsl_scale_(settings_.vsl.scale),
           goal_(goal),
           monitor_(monitor),
           sums_(std::move(done)) {
@@ -46,6 +50,7 @@ class ProgressiveRender {
             monitor_->begin_pass(sums_.passes());
         }
         settings_.seed = pass_seed(seed_, sums_.passes());
+        settings_.vsl.scale = vsl_scale_ * static_cast<float>(vsl_radius_share(sums_.passes()));
         sums_.add(renderer_.render(scene_, settings_, monitor_));
         look_at_goal();
     }
@@ -70,6 +75,7 @@ class ProgressiveRender {
     const Scene& scene_;
     RenderSettings settings_;
     std::uint64_t seed_;
+    float vsl_scale_;
     PassGoal goal_;
     Monitor* monitor_;
     PassSums sums_;

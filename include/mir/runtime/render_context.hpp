@@ -13,16 +13,23 @@ namespace mir {
 /// offers ray_caster() and visibility().
 template <Bsdf B, class Engine, Executor E>
 struct RenderContext {
-    const RenderSettings& settings;
-    const WorldGeometry& geometry;
-    const SurfaceTable<B>& surfaces;
-    const CameraRays& rays;
-    const Engine& engine;
-    E& executor;
-    Monitor* monitor;  ///< may be null
-    StageClock& clock;
+    const RenderSettings& settings;   ///< validated
+    const WorldGeometry& geometry;    ///< of the scene
+    const SurfaceTable<B>& surfaces;  ///< of the scene's materials
+    const CameraRays& rays;           ///< of the whole image
+    const Engine& engine;             ///< finds where rays end
+    E& executor;                      ///< runs the loops of every stage
+    Monitor* monitor;                 ///< may be null
+    StageClock& clock;                ///< to which stages tell their time
 
+    /// Width / height of the image.
     [[nodiscard]] float aspect() const { return settings.aspect(); }
+
+    /// The same, with the rays of another engine.
+    template <class Other>
+    [[nodiscard]] RenderContext<B, Other, E> through(const Other& other) const {
+        return {settings, geometry, surfaces, rays, other, executor, monitor, clock};
+    }
 };
 
 }  // namespace mir

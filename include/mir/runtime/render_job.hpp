@@ -11,7 +11,7 @@ namespace mir {
 /// visibility().
 template <Bsdf B, class Engine, Executor E>
 struct RenderJob {
-    using Context = RenderContext<B, Engine, E>;
+    using Context = RenderContext<B, Engine, E>;  ///< what the stages are given
 
     /// `monitor` may be null.
     RenderJob(const Scene& scene, const RenderSettings& render_settings,
@@ -33,6 +33,7 @@ struct RenderJob {
                settings.seed},
           result{{}, {}, {}, {}, {}, Guides::unwritten(settings.image), {}, {}, {}} {}
 
+    /// Width / height of the image.
     [[nodiscard]] float aspect() const { return settings.aspect(); }
 
     /// For the stages; a view.
@@ -53,16 +54,16 @@ struct RenderJob {
         return std::move(result);
     }
 
-    const RenderSettings& settings;
-    const WorldGeometry& geometry;
-    const Engine& engine;
-    E& executor;
-    Monitor* monitor;
-    StageClock& clock;
-    LightTable lights;
-    SurfaceTable<B> surfaces;
-    CameraRays rays;
-    RenderResult result;
+    const RenderSettings& settings;  ///< validated
+    const WorldGeometry& geometry;   ///< of the scene
+    const Engine& engine;            ///< finds where rays end
+    E& executor;                     ///< runs the loops of every stage
+    Monitor* monitor;                ///< may be null
+    StageClock& clock;               ///< to which stages tell their time
+    LightTable lights;               ///< of the scene
+    SurfaceTable<B> surfaces;        ///< of the scene's materials
+    CameraRays rays;                 ///< of the whole image
+    RenderResult result;             ///< as far as it has come; take_result() takes it away
 };
 
 }  // namespace mir

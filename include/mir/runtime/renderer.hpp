@@ -30,15 +30,15 @@ class Renderer {
 /// vanish from static libraries. Const use from any thread.
 class Registry {
  public:
-    using Factory = std::function<std::unique_ptr<Renderer>()>;
+    using Factory = std::function<std::unique_ptr<Renderer>()>;  ///< makes one more renderer
 
     /// A machine with its renderers.
     struct Backend {
-        BackendKind kind = BackendKind::cpu;
-        std::string name;               ///< as users write it
+        BackendKind kind = BackendKind::cpu;  ///< which machine; not automatic
+        std::string name;                     ///< as users write it
         std::function<void()> require;  ///< throws Error(no_device) where there is no such machine
-        std::string default_scheduler;
-        std::map<std::string, Factory, std::less<>> schedulers;
+        std::string default_scheduler;  ///< one of `schedulers`
+        std::map<std::string, Factory, std::less<>> schedulers;  ///< by name, as users write it
     };
 
     /// Backends that are added first are preferred by BackendKind::automatic.

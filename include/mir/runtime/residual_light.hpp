@@ -5,7 +5,8 @@
 #include "mir/kernels/luxel_light.hpp"
 #include "mir/reference/path_tracer.hpp"
 #include "mir/runtime/film_layers.hpp"
-#include "mir/runtime/render_job.hpp"
+#include "mir/runtime/image_bands.hpp"
+#include "mir/scene/light_table.hpp"
 
 #include <array>
 
@@ -14,27 +15,28 @@ namespace mir {
 /// The light that the bound keeps VPLs from giving to luxels, traced back by paths that leave each
 /// luxel as its BSDF says: f cos max(0, 1 - b/G) / p times the light that the point they meet sends
 /// back, which is that of a path tracer without bound. Unbiased; surfaces met reflect with their
-/// full BSDF, so what is added is what the bound removed where those are Lambertian, as VPLs are.
-/// Source: Kollig and Keller, "Illumination in the presence of weak singularities", MCQMC 2004,
-/// with paths in place of the recursion. Bits depend on seed and luxel alone.
+/// full BSDF, so what is added is what the bound removed where those are Lambertian, as VPLs are,
+/// or where VPLs keep a lobe that was not widened. Source: Kollig and Keller, "Illumination in the
+/// presence of weak singularities", MCQMC 2004, with paths in place of the recursion. Bits depend
+/// on seed and luxel alone.
 template <Bsdf B, class Engine, Executor E>
 class ResidualLight {
  public:
-    using Job = RenderJob<B, Engine, E>;
+    using Context = RenderContext<B, Engine, E>;  ///< of the render
 
-    /// What is missing under `bound`, m^-2. The job must outlive it.
-    ResidualLight(const Job& job, float bound)
-        : job_(job),
-          tracer_({job.geometry, job.lights, job.surfaces, job.engine.ray_caster(),
-                   job.engine.visibility()},
-                  options_of(job.settings, bound)) {}
+    /// What is missing under `bound`, m^-2. What is passed in must outlive it.
+    ResidualLight(const Context& context, const LightTable& lights, float bound)
+        : context_(context),
+          tracer_({context.geometry, lights, context.surfaces, context.engine.ray_caster(),
+                   context.engine.visibility()},
+                  options_of(context.settings, bound)) {}
 
     /// Adds the light to the layers of a band: to that of the indirect light, and to those of the
     /// bounces where there are any. Returns it, W m^-2 sr^-1.
     Image<Rgb> add_to(std::vector<Image<Rgb>>& layers, const ImageBand<B>& band) const {
-        const LuxelBand rows{band.first_row, job_.rays.grid, job_.settings.seed};
+        const LuxelBand rows{band.first_row, context_.rays.grid, context_.settings.seed};
         Image<Rgb> light(band.extent());
-        for_each_luxel(band.gbuffer, job_.executor,
+        for_each_luxel(band.gbuffer, context_.executor,
                        [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
                            const Hit hit = luxels.hit(i);
                            if (is_empty(hit)) return;
@@ -42,7 +44,7 @@ class ResidualLight {
                                trace({hit, luxels.surface(i)},
                                      rows.luxel_numbers(x, y, Stream::residual));
                            RgbSum sum;
-                           for (std::uint32_t b = 1; b <= job_.settings.max_bounce; ++b)
+                           for (std::uint32_t b = 1; b <= context_.settings.max_bounce; ++b)
                                sum += bounces[b];
                            light(x, y) = sum.rgb();
                            layers[indirect_layer](x, y) += light(x, y);
@@ -70,11 +72,11 @@ class ResidualLight {
     [[nodiscard]] Bounces trace(const typename Tracer::Vertex& luxel, Random random) const {
         Bounces bounces{};
         tracer_.trace(luxel, random,
-                      std::span(bounces).first(std::size_t{job_.settings.max_bounce} + 1));
+                      std::span(bounces).first(std::size_t{context_.settings.max_bounce} + 1));
         return bounces;
     }
 
-    const Job& job_;
+    Context context_;
     Tracer tracer_;
 };
 

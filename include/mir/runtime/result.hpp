@@ -15,9 +15,9 @@ namespace mir {
 
 /// Numbers about a render that a user may want to judge it by.
 struct RenderStatistics {
-    std::uint64_t triangles = 0;
+    std::uint64_t triangles = 0;          ///< of all instances; those left out do not count
     std::uint64_t dropped_triangles = 0;  ///< without area, left out
-    std::uint64_t luxels = 0;
+    std::uint64_t luxels = 0;             ///< of the whole image
     std::uint64_t light_paths = 0;    ///< of the sampler; of the bootstrap for Metropolis sampling
     std::uint64_t camera_paths = 0;   ///< of the reference integrator
     std::uint32_t vpls = 0;           ///< geometric VPLs placed
@@ -25,6 +25,7 @@ struct RenderStatistics {
     std::uint64_t contributions = 0;  ///< luxels x VPLs
     float emitted_power = 0.0f;       ///< luminance, W
     float non_lambertian_share = 0.0f;  ///< of VPL intensity spread as Lambertian
+    float widened_share = 0.0f;         ///< of VPL intensity, through lobes that were widened
     double states = 0.0;                ///< n: recorded states; 0 for samplers without
     double path_luminance = 0.0;        ///< P_c: mean image luminance of all paths, W m^-2 sr^-1
     double dropped_share = 0.0;         ///< of the states, 0..1: light of VPLs that no luxel sees
@@ -33,15 +34,16 @@ struct RenderStatistics {
     float bound = 0.0f;                 ///< largest geometry term, m^-2; 0: none
     double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' or discs' light alone
     double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed, by the VPLs
+    double vsl_radius = 0.0;            ///< mean radius of spherical lights, m; 0: points
     std::uint64_t residual_paths = 0;   ///< that traced back what the bound removed
     double residual_luminance = 0.0;    ///< mean over luxels of what they found
     std::string backend;                ///< "cpu" or "cuda"
     std::string device;                 ///< name of the GPU; empty on the processor
     std::string acceleration;           ///< "bvh", "embree", "kdtree" or "kdtree+shafts"
-    std::string scheduler;
-    std::string scene_hash;
-    StageSeconds seconds;
-    std::uint32_t passes = 1;  ///< renders whose mean the picture is (ProgressiveRender)
+    std::string scheduler;              ///< its name in the Registry
+    std::string scene_hash;             ///< SceneHash::hex()
+    StageSeconds seconds;               ///< of wall time, by stage
+    std::uint32_t passes = 1;           ///< renders whose mean the picture is (ProgressiveRender)
     std::optional<double> relative_error;  ///< of the picture, from their spread; needs two
     bool complete = true;                  ///< false: passes that were asked for are missing
 
@@ -54,14 +56,14 @@ struct RenderStatistics {
 
 /// A finished picture. Radiance in W m^-2 sr^-1; beauty = emission + direct + indirect.
 struct RenderResult {
-    Image<Rgb> beauty;
-    Image<Rgb> emission;
-    Image<Rgb> direct;
-    Image<Rgb> indirect;
+    Image<Rgb> beauty;                ///< the sum of the next three
+    Image<Rgb> emission;              ///< of what the camera sees, environment included
+    Image<Rgb> direct;                ///< of one scattering event, but for what VPLs on lamps bring
+    Image<Rgb> indirect;              ///< the rest: of VPLs, of discs or of longer paths
     std::vector<Image<Rgb>> bounces;  ///< element i: light of i + 1 scattering events; on request
-    Guides guides;
-    VplList vpls;
-    RenderStatistics statistics;
+    Guides guides;                    ///< what a denoiser wants to know
+    VplList vpls;                     ///< that lit the picture; none of other integrators
+    RenderStatistics statistics;      ///< how it came about
     std::vector<std::string> warnings;  ///< sentences
     /// What the bound removed from the VPLs' light, as the VPLs tell it: in no other layer; empty
     /// unless asked for.

@@ -26,6 +26,7 @@ inline InstantRadiosityOptions light_path_options(const RenderSettings& settings
     options.vpls = settings.vpls;
     options.termination = settings.termination;
     options.sequence = settings.sequence;
+    options.arrivals = settings.glossy.enabled;
     return with_common(options, settings);
 }
 
@@ -102,6 +103,22 @@ auto with_sampler(const RenderContext<B, Engine, E>& c, const LightTable& lights
     using Roulette = RouletteRadiositySampler<B, decltype(c.engine.ray_caster()),
                                               decltype(c.engine.visibility())>;
     return use(Roulette(light_paths, light_path_options(s), probe, {}, s.limits));
+}
+
+/// What a sampler recorded, and what is left to do to it.
+struct SampledVpls {
+    VplRecords records;                                 ///< as they come from the sampler
+    Normalisation normalisation = Normalisation::none;  ///< none: intensities are final
+};
+
+/// Places VPLs with the sampler that the settings name; `bound` as for path_world().
+/// @throws Error for options out of range, and what the sampler throws.
+template <Bsdf B, class Engine, Executor E>
+SampledVpls sample_vpls(const RenderContext<B, Engine, E>& c, const LightTable& lights,
+                        float bound) {
+    return with_sampler(c, lights, bound, [&c](const auto& sampler) {
+        return SampledVpls{sampler.sample(c.executor), sampler.normalisation};
+    });
 }
 
 }  // namespace mir

@@ -12,7 +12,7 @@ namespace mir {
 
 /// How the image of a render looks at the scene.
 struct PathView {
-    CameraOptics camera;
+    CameraOptics camera;                              ///< makes the rays of the film
     float aspect = 1.0f;                              ///< width / height of the film
     float bound = std::numeric_limits<float>::max();  ///< see PathWorld::bound
 };
@@ -31,13 +31,14 @@ concept SamplingEngine = requires(const N n, const LightTable& lights, const Pat
 /// MetropolisSampler as an engine runs it. Model of Sampler. What is referred to must outlive it.
 template <SamplingEngine N>
 struct EngineMetropolis {
+    /// As of MetropolisSampler: records hold radiance.
     static constexpr Normalisation normalisation = Normalisation::image_response;
 
-    const N& engine;
-    const LightTable& lights;
-    PathView view;
-    MetropolisOptions options;
-    Limits limits;
+    const N& engine;             ///< runs the chains
+    const LightTable& lights;    ///< of the scene that the engine was made for
+    PathView view;               ///< of the image that VPLs are to light
+    MetropolisOptions options;   ///< of the chains
+    Limits limits;               ///< checked before memory is taken
     Monitor* monitor = nullptr;  ///< may be null
 
     /// The engine has threads of its own; those of the executor are left alone.

@@ -11,6 +11,7 @@
 #include "mir/paths/path.hpp"
 #include "mir/reference/path_tracer.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
+#include "mir/shading/direct_samples.hpp"
 
 #include <cmath>
 #include <optional>
@@ -42,9 +43,9 @@ enum class Integrator {
 
 /// Of Integrator::path.
 struct PathSettings {
-    std::uint32_t samples = 256;  ///< camera paths per luxel
-    LightSearch light = LightSearch::mis;
-    std::uint32_t directions = 1;  ///< paths that go on from each first hit
+    std::uint32_t samples = 256;           ///< camera paths per luxel
+    LightSearch light = LightSearch::mis;  ///< how paths find lamps
+    std::uint32_t directions = 1;          ///< paths that go on from each first hit
 };
 
 /// How luxels gather light from discs.
@@ -58,8 +59,8 @@ struct MicroSettings {
     /// Discs wanted: their largest area is that of the scene divided by it. There are one to four
     /// times as many, and at least one for each triangle.
     std::uint32_t surfels = 16384;
-    std::uint32_t surfel_rays = 32;  ///< of each side of a disc, for later bounces
-    MicroGather luxels = MicroGather::rays;
+    std::uint32_t surfel_rays = 32;          ///< of each side of a disc, for later bounces
+    MicroGather luxels = MicroGather::rays;  ///< by what luxels gather
     GatherOptions gather;  ///< of rays, at each luxel; but for their number at discs too
     std::uint32_t buffer_side = BufferGatherOptions{}.side;  ///< texels of MicroGather::buffers
     BufferWarp buffer_warp = BufferWarp::hemisphere;         ///< of MicroGather::buffers
@@ -85,44 +86,66 @@ enum class SamplerKind {
 /// How direct light reaches the image.
 enum class DirectLight {
     separate,  ///< next-event samples per luxel (default); delta lights exactly
-    vpl        ///< VPLs on the lamps, as the paper does; delta lights stay separate
+    vpl        ///< VPLs on the lamps, as the paper does, and at infinity for an environment; delta
+               ///< lights stay separate
 };
 
 /// How 1/d^2 next to a VPL is tamed.
 struct BoundPolicy {
+    /// How the largest geometry term is found: from the area that the camera sees and the number of
+    /// VPLs (default_bound()), not at all, or by `value`.
     enum class Kind { automatic, none, fixed };
-    Kind kind = Kind::automatic;
-    float value = 0.0f;  ///< largest geometry term, m^-2, for `fixed`
+    Kind kind = Kind::automatic;  ///< how the bound is found
+    float value = 0.0f;           ///< largest geometry term, m^-2, for `fixed`
+};
+
+/// Of virtual spherical lights, which are an alternative to points under a bound.
+struct VslSettings {
+    bool enabled = false;  ///< VPLs light the image as spheres
+    std::uint32_t samples =
+        8;               ///< directions from the cone of a sphere, and from the BSDF, 1..1024
+    float scale = 1.0f;  ///< of the radii (vsl_radii()), more than 0
+};
+
+/// Of VPLs that keep the lobes of their surfaces.
+struct GlossySettings {
+    bool enabled = false;          ///< else VPLs spread what they reflect as Lambertian surfaces do
+    float least_roughness = 0.5f;  ///< 0..1; smoother surfaces shine through lobes of this one
+
+    /// The narrowest lobe, a GGX width.
+    [[nodiscard]] float least_alpha() const { return least_roughness * least_roughness; }
 };
 
 /// What to render and how. Plain values with working defaults; validate() tells what is wrong.
 struct RenderSettings {
-    Extent image{640, 480};              ///< pixels
-    std::uint32_t luxels_per_pixel = 1;  ///< 1..64
-    std::uint32_t camera = 0;            ///< index into Scene::cameras
-    Integrator integrator = Integrator::vpl;
-    PathSettings path;
-    MicroSettings micro;
-    std::uint32_t vpls = 256;  ///< wanted geometric VPLs
-    SamplerKind sampler = SamplerKind::metropolis;
+    Extent image{640, 480};                         ///< pixels
+    std::uint32_t luxels_per_pixel = 1;             ///< 1..64
+    std::uint32_t camera = 0;                       ///< index into Scene::cameras
+    Integrator integrator = Integrator::vpl;        ///< says which of the settings below count
+    PathSettings path;                              ///< of Integrator::path
+    MicroSettings micro;                            ///< of Integrator::micro
+    std::uint32_t vpls = 256;                       ///< wanted geometric VPLs
+    SamplerKind sampler = SamplerKind::metropolis;  ///< of Integrator::vpl
     NormalisationPolicy normalisation = NormalisationPolicy::full;  ///< of samplers that need one
     std::uint32_t prepass_luxels = 4096;                            ///< of policy `prepass`
     MetropolisTuning metropolis;                                    ///< of SamplerKind::metropolis
     bool vpl_roulette = false;  ///< instant radiosity keeps VPLs by what they give to the image
-    Termination termination = Termination::roulette;
-    Sequence sequence = Sequence::random;
-    DirectLight direct = DirectLight::separate;
-    std::uint32_t direct_samples = 16;  ///< next-event samples per pixel
-    std::uint8_t max_bounce = 32;       ///< largest number of scattering events
-    BoundPolicy bound;
+    Termination termination = Termination::roulette;  ///< of light paths
+    Sequence sequence = Sequence::random;             ///< of SamplerKind::instant_radiosity
+    DirectLight direct = DirectLight::separate;       ///< how it reaches the image
+    std::uint32_t direct_samples = 16;                ///< next-event samples per pixel
+    std::uint8_t max_bounce = 32;                     ///< largest number of scattering events
+    BoundPolicy bound;                                ///< of the VPLs' geometry term
     /// Paths per pixel that trace back what the bound removed, shared out among its luxels, at
     /// least one each; 0: none, so that this light is missing.
     std::uint32_t compensate = 0;
-    Filter filter = default_filter(FilterKind::lanczos);
-    std::uint64_t seed = 0;
-    unsigned threads = 0;  ///< 0: every core
-    BackendKind backend = BackendKind::automatic;
-    Acceleration acceleration = Acceleration::automatic;
+    VslSettings vsl;                                      ///< a choice instead of `bound`
+    GlossySettings glossy;                                ///< else all VPLs are Lambertian
+    Filter filter = default_filter(FilterKind::lanczos);  ///< from luxels to pixels
+    std::uint64_t seed = 0;                               ///< of all random numbers
+    unsigned threads = 0;                                 ///< 0: every core
+    BackendKind backend = BackendKind::automatic;         ///< which machine renders
+    Acceleration acceleration = Acceleration::automatic;  ///< what finds out where rays end
     std::string scheduler;  ///< name in the Registry; empty: the backend's default
     /// Luxels scheduled together, rounded up to whole blocks of 16 x 16, not larger than the image
     /// of luxels rounded likewise; none: the backend's choice.
@@ -130,7 +153,7 @@ struct RenderSettings {
     bool bounce_layers = false;   ///< one image per bounce besides the sum
     bool removed_layer = false;   ///< an image of the light that the bound removed
     bool allow_no_light = false;  ///< a scene without light gives black, not an error
-    Limits limits;
+    Limits limits;                ///< checked before memory is taken
 
     /// @throws Error(invalid_argument or limit_exceeded) that names the first bad value.
     void validate() const;
@@ -143,6 +166,13 @@ struct RenderSettings {
     /// Next-event samples of one luxel: those of the pixel shared out, at least one.
     [[nodiscard]] std::uint32_t direct_samples_per_luxel() const {
         return (direct_samples + luxels_per_pixel - 1) / luxels_per_pixel;
+    }
+
+    /// What brings direct light to one luxel: its samples, or as many VPLs at infinity as there
+    /// are to be others.
+    [[nodiscard]] DirectSamples direct_samples_of_luxel() const {
+        return direct == DirectLight::separate ? DirectSamples(direct_samples_per_luxel())
+                                               : DirectSamples::vpls(vpls);
     }
 
     /// Paths of one luxel that trace back what the bound removed, likewise; 0 for none.
@@ -166,6 +196,42 @@ inline void check_removed(const RenderSettings& s) {
     expects(s.bound.kind != BoundPolicy::Kind::none,
             "without a bound no light is removed (there is nothing to trace back); leave "
             "--compensate or --bound none out");
+}
+
+/// Spheres light what points would, with nothing removed.
+inline void check_vsl(const RenderSettings& s) {
+    if (!s.vsl.enabled) return;
+    expects(s.vsl.samples >= 1 && s.vsl.samples <= 1024,
+            "directions in which a luxel sees a sphere must be 1 to 1024; 8 are usual");
+    expects(s.vsl.scale > 0.0f && std::isfinite(s.vsl.scale),
+            "the scale of the spheres' radii must be positive and finite; 1 is usual");
+    expects(s.integrator == Integrator::vpl,
+            "only VPLs can become spheres (there are none); leave --vsl out or use --integrator "
+            "vpl");
+    expects(s.direct == DirectLight::separate,
+            "VPLs on lamps do not become spheres (those spread indirect light alone); leave --vsl "
+            "out or use --direct separate");
+    expects(s.compensate == 0 && !s.removed_layer,
+            "spheres have no bound that removes light (there is nothing to show or to trace back); "
+            "leave --vsl out, or --compensate and the layer of what was removed");
+}
+
+/// Light paths alone tell from where a VPL is lit, and weigh it without a look at the image.
+inline void check_glossy(const RenderSettings& s) {
+    if (!s.glossy.enabled) return;
+    expects(s.glossy.least_roughness >= 0.0f && s.glossy.least_roughness <= 1.0f,
+            "the least roughness of the lobes of VPLs must be 0 to 1; 0.5 is usual");
+    expects(
+        s.integrator == Integrator::vpl,
+        "only VPLs keep the lobes of their surfaces (there are none); leave --glossy out or use "
+        "--integrator vpl");
+    expects(
+        s.sampler == SamplerKind::instant_radiosity && !s.vpl_roulette,
+        "VPLs keep the lobes of their surfaces with light paths only (other samplers weigh VPLs "
+        "by what the image gets of them without lobes); use --sampler ir or keller, or leave "
+        "--glossy out");
+    expects(!s.vsl.enabled,
+            "VPLs are spheres or have lobes (not both are made); leave --vsl or --glossy out");
 }
 
 /// A tile may fill the last blocks of the image, but no more.
@@ -219,6 +285,8 @@ inline void RenderSettings::validate() const {
             "only the light of VPLs has a bounded geometry term (the picture would not be the one "
             "asked for); leave --bound out or use --integrator vpl");
     detail::check_removed(*this);
+    detail::check_vsl(*this);
+    detail::check_glossy(*this);
     expects(micro.surfels > 0,
             "0 discs were asked for (there would be no indirect light); 16384 are usual");
     check_limit(micro.surfels, limits.surfels, "surfels");

@@ -14,23 +14,27 @@ namespace mir {
 /// bindings name every member, so that a new one cannot be forgotten.
 class SettingsHash {
  public:
+    /// Reads every setting once.
     explicit SettingsHash(const RenderSettings& settings) {
         const auto& [image, luxels, camera, integrator, path, micro, vpls, sampler, normalisation,
                      prepass, metropolis, roulette, termination, sequence, direct, direct_samples,
-                     max_bounce, bound, compensate, filter, seed, threads, backend, acceleration,
-                     scheduler, tile, bounce_layers, removed_layer, allow_no_light, limits] =
-            settings;
+                     max_bounce, bound, compensate, vsl, glossy, filter, seed, threads, backend,
+                     acceleration, scheduler, tile, bounce_layers, removed_layer, allow_no_light,
+                     limits] = settings;
         static_cast<void>(threads), static_cast<void>(scheduler), static_cast<void>(tile);
         static_cast<void>(limits);
         add(image.width, image.height, luxels, camera, integrator, vpls, sampler, normalisation,
             prepass, roulette, termination, sequence, direct, direct_samples, max_bounce,
             bound.kind, bound.value, compensate, filter.kind, filter.half_width, filter.tau, seed,
             backend, acceleration, bounce_layers, removed_layer, allow_no_light);
+        add_vsl(vsl);
+        add_glossy(glossy);
         add_path(path);
         add_micro(micro);
         add_metropolis(metropolis);
     }
 
+    /// 64 bits; the same whatever threads, scheduler, tile and limits are.
     [[nodiscard]] std::uint64_t value() const { return state_; }
 
  private:
@@ -44,6 +48,14 @@ class SettingsHash {
     template <class... T>
     void add(T... values) {
         for (const std::uint64_t w : {word(values)...}) state_ = (state_ ^ w) * 0x100000001b3ull;
+    }
+    void add_vsl(const VslSettings& settings) {
+        const auto& [enabled, samples, scale] = settings;
+        add(enabled, samples, scale);
+    }
+    void add_glossy(const GlossySettings& settings) {
+        const auto& [enabled, least_roughness] = settings;
+        add(enabled, least_roughness);
     }
     void add_path(const PathSettings& settings) {
         const auto& [samples, light, directions] = settings;

@@ -12,11 +12,13 @@ namespace mir {
 /// thread at a time.
 class StageClock {
  public:
-    using Stage = StageMember;
+    using Stage = StageMember;  ///< which counter a stage adds to
 
     /// A stage from its construction to its end.
     class Scope {
      public:
+        /// Begins `stage`; the stage that it interrupts goes on at its end. The clock must outlive
+        /// it.
         Scope(StageClock& clock, Stage stage) : clock_(clock), outer_(clock.change_to(stage)) {}
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;

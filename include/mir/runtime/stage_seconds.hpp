@@ -30,7 +30,7 @@ struct StageSeconds {
     double download = 0.0;        ///< finished pictures from the backend's memory
     double hash = 0.0;            ///< fingerprint of the scene
     double other = 0.0;           ///< everything else
-    double total = 0.0;
+    double total = 0.0;           ///< sum of all of these
 };
 
 /// Which of its stages.
@@ -38,8 +38,8 @@ using StageMember = double StageSeconds::*;
 
 /// A stage and its name in files.
 struct RenderStage {
-    std::string_view name;
-    StageMember seconds;
+    std::string_view name;  ///< key in files
+    StageMember seconds;    ///< where its time stands
 };
 
 /// Every stage in the order in which a frame goes through them; what they take adds up to

@@ -8,6 +8,7 @@ namespace mir {
 /// Adds the wall time of its own life to a counter, in seconds.
 class Stopwatch {
  public:
+    /// Starts. `seconds` must outlive it.
     explicit Stopwatch(double& seconds) : seconds_(seconds) {}
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;

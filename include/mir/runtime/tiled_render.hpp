@@ -8,6 +8,7 @@
 #include "mir/runtime/sampler_choice.hpp"
 #include "mir/runtime/vpl_light.hpp"
 #include "mir/sampling/visible_area.hpp"
+#include "mir/sampling/vsl_radii.hpp"
 #include "mir/scene/scene_hash.hpp"
 
 namespace mir {
@@ -35,6 +36,10 @@ using CanvasOf = typename detail::CanvasOf<B, Engine, E, MakeScheduler>::Type;
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 class TiledRender {
  public:
+    /// Chooses the bound, for which AreaRays are traced where the settings leave it open. What is
+    /// passed in must outlive it; `monitor` may be null.
+    /// @throws Error(unsupported) when the settings trace back removed light, or make spheres of
+    ///         VPLs, on a BandEngine.
     TiledRender(const Scene& scene, const RenderSettings& settings, const WorldGeometry& geometry,
                 const Engine& engine, E& executor, Monitor* monitor, StageClock& clock,
                 MakeScheduler make_scheduler)
@@ -44,6 +49,14 @@ class TiledRender {
             throw Error(ErrorCode::unsupported,
                         "what the bound removed is traced back on the processor only (this backend "
                         "keeps its luxels to itself); use --backend cpu or leave --compensate out");
+        if (BandEngine<Engine> && settings.vsl.enabled)
+            throw Error(ErrorCode::unsupported,
+                        "spheres light luxels on the processor only (this backend keeps its luxels "
+                        "to itself); use --backend cpu or leave --vsl out");
+        if (BandEngine<Engine> && settings.glossy.enabled)
+            throw Error(ErrorCode::unsupported,
+                        "VPLs keep the lobes of their surfaces on the processor only (kernels of "
+                        "this backend read none); use --backend cpu or leave --glossy out");
         choose_bound();
     }
 
@@ -65,7 +78,18 @@ class TiledRender {
     using Layer = typename Canvas::Layer;
 
     void choose_bound();
+    [[nodiscard]] SampledVpls sample_as_set() {
+        if constexpr (SamplingEngine<Engine>)
+            return sample_vpls(job_.context(), job_.lights, shading_.bound);
+        else
+            return sample_vpls(job_.context().through(AnyEngine(job_.engine)), job_.lights,
+                               shading_.bound);
+    }
+    template <class Sample>
+    RenderResult render_from(const Sample& sample);
     [[nodiscard]] double seen_area() const;
+    [[nodiscard]] std::vector<float> sphere_radii();
+    [[nodiscard]] std::vector<VplLobe<B>> lobes(const VplRecords& records, bool normalised);
     void keep_statistics(const VplRecords& records, Normalisation normalisation);
     [[nodiscard]] bool must_normalise(Normalisation normalisation) const;
     void render(const VplRecords& records, Normalisation normalisation);
@@ -103,25 +127,61 @@ double TiledRender<B, Engine, E, MakeScheduler>::seen_area() const {
         return visible_area(camera, aspect, job_.engine.ray_caster());
 }
 
+/// Of virtual spherical lights, metres; none without.
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+std::vector<float> TiledRender<B, Engine, E, MakeScheduler>::sphere_radii() {
+    const VslSettings& vsl = job_.settings.vsl;
+    if (!vsl.enabled) return {};
+    const auto stage = job_.clock.measure(&StageSeconds::bound);
+    std::vector<float> radii =
+        vsl_radii(job_.result.vpls.vpls(), seen_area(), vsl.scale, job_.executor);
+    double& mean = job_.result.statistics.vsl_radius;
+    for (const float r : radii) mean += static_cast<double>(r) / static_cast<double>(radii.size());
+    return radii;
+}
+
+/// Of VPLs that keep the lobes of their surfaces; none where they do not.
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+std::vector<VplLobe<B>> TiledRender<B, Engine, E, MakeScheduler>::lobes(const VplRecords& records,
+                                                                        bool normalised) {
+    if (!job_.settings.glossy.enabled) return {};
+    expects(!normalised,
+            "VPLs that keep lobes were normalised by the image (lobes would keep the power of "
+            "before); use a sampler whose intensities are final");
+    VplLobes<B> kept(records, job_.surfaces, job_.settings.glossy.least_alpha());
+    job_.result.statistics.non_lambertian_share = 0.0f;
+    job_.result.statistics.widened_share = kept.widened_share;
+    return std::move(kept.lobes);
+}
+
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 RenderResult TiledRender<B, Engine, E, MakeScheduler>::run() {
-    return with_sampler(job_.context(), job_.lights, shading_.bound,
-                        [this](const auto& sampler) { return this->run(sampler); });
+    return render_from([this] { return sample_as_set(); });
 }
 
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 template <Sampler S>
 RenderResult TiledRender<B, Engine, E, MakeScheduler>::run(const S& sampler) {
-    VplRecords records;
+    return render_from([this, &sampler] {
+        return SampledVpls{sampler.sample(job_.executor), S::normalisation};
+    });
+}
+
+/// Goes on from the VPLs that `sample()` returns.
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+template <class Sample>
+RenderResult TiledRender<B, Engine, E, MakeScheduler>::render_from(const Sample& sample) {
+    SampledVpls sampled;
+    const VplRecords& records = sampled.records;
     {
         const auto stage = job_.clock.measure(&StageSeconds::sampling);
-        records = sampler.sample(job_.executor);
+        sampled = sample();
         job_.result.vpls = aggregate(records);
         job_.clock.reassign(records.bootstrap_seconds, &StageSeconds::sampling,
                             &StageSeconds::bootstrap);
     }
-    keep_statistics(records, S::normalisation);
-    render(records, S::normalisation);
+    keep_statistics(records, sampled.normalisation);
+    render(records, sampled.normalisation);
     return job_.take_result();
 }
 
@@ -154,12 +214,14 @@ template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 void TiledRender<B, Engine, E, MakeScheduler>::render(const VplRecords& records,
                                                       Normalisation normalisation) {
     const bool normalises = must_normalise(normalisation);
-    const bool stores = normalises && job_.settings.normalisation == NormalisationPolicy::full;
-    const Bands bands(job_.context(), normalises ? job_.result.vpls.size() : 0);
-    plan_progress(stores, bands.fit_together(job_.result.vpls.size()));
+    const bool over_image = normalises && job_.settings.normalisation == NormalisationPolicy::full;
+    const bool stores = over_image || job_.settings.vsl.enabled || job_.settings.glossy.enabled;
+    const Bands bands(job_.context(), normalises || stores ? job_.result.vpls.size() : 0);
+    plan_progress(stores, !over_image || bands.fit_together(job_.result.vpls.size()));
     std::vector<Band> kept;
     if (normalises) kept = normalise_vpls(bands, records);
-    const VplLight<B> light(job_.settings, shading_, job_.result.vpls);
+    const VplLight<B> light(job_.settings, shading_, job_.result.vpls,
+                            {sphere_radii(), lobes(records, normalises)});
     Canvas canvas(
         job_, make_scheduler_,
         std::size_t{first_bounce_layer} + light.bounces() + (job_.settings.removed_layer ? 1 : 0));
@@ -199,9 +261,7 @@ void TiledRender<B, Engine, E, MakeScheduler>::render_band(Canvas& canvas, const
     std::vector<Layer> layers;
     {
         const auto stage = job_.clock.measure(&StageSeconds::direct);
-        const bool sampled = job_.settings.direct == DirectLight::separate;
-        layers.push_back(
-            canvas.direct(band, sampled ? job_.settings.direct_samples_per_luxel() : 0));
+        layers.push_back(canvas.direct(band, job_.settings.direct_samples_of_luxel()));
         layers.push_back(canvas.emission(band));
     }
     {
@@ -224,7 +284,8 @@ template <Bsdf B, class Engine, Executor E, class MakeScheduler>
 auto TiledRender<B, Engine, E, MakeScheduler>::removed_light(const Canvas& canvas, const Band& band,
                                                              const VplLight<B>& light) -> Layer {
     const auto stage = job_.clock.measure(&StageSeconds::ledger);
-    if (job_.settings.bound.kind == BoundPolicy::Kind::none) return canvas.black(band);
+    if (job_.settings.bound.kind == BoundPolicy::Kind::none || job_.settings.vsl.enabled)
+        return canvas.black(band);
     Layer removed = light.removed(canvas, band);
     add_mean(canvas, removed, &RenderStatistics::removed_luminance);
     return removed;

@@ -18,10 +18,10 @@ namespace mir {
 struct BidirectionalOptions {
     std::uint32_t vpls = 256;       ///< N': drawn from the candidates; some may coincide
     std::uint32_t candidates = 32;  ///< per VPL, at least 1
-    TargetFloor floor;
-    bool emitter_vpls = false;     ///< also place VPLs on the lamps: direct light by VPLs
-    std::uint8_t max_bounce = 32;  ///< largest number of scattering events, 1..63
-    std::uint64_t seed = 0;
+    TargetFloor floor;              ///< least worth of light that the probe does not see
+    bool emitter_vpls = false;      ///< also place VPLs on the lamps: direct light by VPLs
+    std::uint8_t max_bounce = 32;   ///< largest number of scattering events, 1..63
+    std::uint64_t seed = 0;         ///< of candidates and of the choice among them
 };
 
 /// What the weights of resampled importance sampling are made of.
@@ -44,9 +44,11 @@ struct ResamplingRules : VplDensity {
 template <class World, class Rules = ResamplingRules>
 class BidirectionalSampler {
  public:
-    static constexpr Normalisation normalisation = Normalisation::none;
+    static constexpr Normalisation normalisation = Normalisation::none;  ///< intensities are J
 
+    /// What makes a candidate from numbers.
     using Generator = VplGenerator<World, Rules>;
+    /// What judges candidates.
     using Probe = typename Generator::Probe;
 
     /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when

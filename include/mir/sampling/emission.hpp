@@ -11,9 +11,9 @@ namespace mir {
 
 /// The start of a light path: a ray and the power it stands for.
 struct Emission {
-    Ray ray;
-    Rgb power;  ///< W: emitted power divided by the density of this choice
-    std::uint16_t light_group = 0;
+    Ray ray;                        ///< leaves the light; its origin is lifted off emitters
+    Rgb power;                      ///< W: emitted power divided by the density of this choice
+    std::uint16_t light_group = 0;  ///< of the light
     std::optional<EmitterSample> emitter;  ///< where the ray left, for area lights
     Vec3 emitter_normal{0};                ///< of the side it left from
     float pdf_point = 0.0f;                ///< of the point on that side, m^-2

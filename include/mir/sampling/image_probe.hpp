@@ -45,9 +45,11 @@ class ImageProbe {
     [[nodiscard]] std::uint32_t luxels() const { return luxels_; }
     /// Luxels that see a surface which reflects; their points and surfaces follow, i < receivers().
     [[nodiscard]] std::uint32_t receivers() const { return filled_; }
+    /// Place and normal of receiver i, lifted off its surface.
     [[nodiscard]] const Hit& hit(std::uint32_t i) const {
         return groups_[i / width].hits[i % width];
     }
+    /// Surface of receiver i, as the luxel sees it.
     [[nodiscard]] const typename VplShading<B>::Surface& surface(std::uint32_t i) const {
         return groups_[i / width].surfaces[i % width];
     }

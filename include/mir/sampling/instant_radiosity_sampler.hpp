@@ -19,12 +19,15 @@ enum class Termination {
 
 /// How many VPLs an InstantRadiositySampler wants, from what numbers, and where paths end.
 struct InstantRadiosityOptions {
-    std::uint32_t vpls = 256;  ///< wanted; the set comes close, see sample()
-    Termination termination = Termination::roulette;
-    Sequence sequence = Sequence::random;
+    std::uint32_t vpls = 256;                         ///< wanted; the set comes close, see sample()
+    Termination termination = Termination::roulette;  ///< when paths end
+    Sequence sequence = Sequence::random;             ///< numbers that paths are made of
     bool emitter_vpls = false;     ///< also place VPLs on the lamps: direct light by VPLs
     std::uint8_t max_bounce = 32;  ///< largest number of scattering events, 1..254
-    std::uint64_t seed = 0;
+    /// Also keep how light arrives at VPLs (VplRecords::arrivals). The intensity of a VPL that is
+    /// not Lambertian is then a guide alone, by Bsdf::albedo(): its light is that of the lobe.
+    bool arrivals = false;
+    std::uint64_t seed = 0;  ///< of all numbers, the pilot's too
 };
 
 /// Instant radiosity: VPLs along light paths that start at the lamps. Source: Keller, "Instant
@@ -34,14 +37,14 @@ struct InstantRadiosityOptions {
 template <Bsdf B, RayCaster R>
 class InstantRadiositySampler {
  public:
-    static constexpr Normalisation normalisation = Normalisation::none;
+    static constexpr Normalisation normalisation = Normalisation::none;  ///< intensities are J
 
     /// What paths run through.
     struct World {
-        const WorldGeometry& geometry;
-        const LightTable& lights;
-        const SurfaceTable<B>& surfaces;
-        R caster;
+        const WorldGeometry& geometry;    ///< outlives the sampler
+        const LightTable& lights;         ///< outlives the sampler; may be empty: no records
+        const SurfaceTable<B>& surfaces;  ///< outlives the sampler
+        R caster;                         ///< finds what paths meet, from many threads at once
     };
 
     /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when
@@ -64,13 +67,18 @@ class InstantRadiositySampler {
     [[nodiscard]] VplRecords sample(E& executor) const;
 
  private:
-    using Path = std::vector<VplRecord>;
+    struct Path {
+        std::vector<VplRecord> records;
+        std::vector<VplArrival> arrivals;
+    };
 
     [[nodiscard]] std::uint64_t paths_for_target() const;
     [[nodiscard]] Path trace(std::uint64_t index, Stream stream,
                              const SurvivorCounts* levels) const;
     bool bounce_once(Emission& light, std::uint8_t bounce, float survival, PathNumbers& numbers,
                      Path& path) const;
+    void record(const Arrival<B>& at, const typename B::Params& bsdf, const BsdfSample& sample,
+                std::uint8_t bounce, std::uint16_t light_group, Path& path) const;
     [[nodiscard]] SurvivorCounts level_counts() const;
 
     World world_;
@@ -93,9 +101,12 @@ VplRecords InstantRadiositySampler<B, R>::sample(E& executor) const {
     });
     const float scale = 1.0f / static_cast<float>(out.paths);
     for (const Path& path : paths)
-        for (VplRecord r : path) {
-            r.vpl.intensity = r.vpl.intensity * scale;
-            out.records.push_back(r);
+        for (std::size_t i = 0; i < path.records.size(); ++i) {
+            out.records.push_back(path.records[i]);
+            out.records.back().vpl.intensity = path.records[i].vpl.intensity * scale;
+            if (!options_.arrivals) continue;
+            out.arrivals.push_back(path.arrivals[i]);
+            out.arrivals.back().power = path.arrivals[i].power * scale;
         }
     out.non_lambertian_share = share_of_non_lambertian(out.records);
     return out;
@@ -106,7 +117,7 @@ std::uint64_t InstantRadiositySampler<B, R>::paths_for_target() const {
     constexpr std::uint64_t pilot_paths = 4096;
     std::uint64_t records = 0;
     for (std::uint64_t i = 0; i < pilot_paths; ++i)
-        records += trace(i, Stream::pilot, nullptr).size();
+        records += trace(i, Stream::pilot, nullptr).records.size();
     // Nothing hit at all: the target cannot be met, so the count of paths is the target itself.
     const double per_path =
         records == 0 ? 1.0 : static_cast<double>(records) / static_cast<double>(pilot_paths);
@@ -129,17 +140,45 @@ SurvivorCounts InstantRadiositySampler<B, R>::level_counts() const {
     return SurvivorCounts::for_total(options_.vpls, rho, max_level, options_.emitter_vpls);
 }
 
+/// Adds the VPL of an arrival. Where its lobe is to be kept, no drawn direction may say that there
+/// is none.
+template <Bsdf B, RayCaster R>
+void InstantRadiositySampler<B, R>::record(const Arrival<B>& at, const typename B::Params& bsdf,
+                                           const BsdfSample& sample, std::uint8_t bounce,
+                                           std::uint16_t light_group, Path& path) const {
+    const SurfacePoint& point = at.point;
+    const bool lambertian = world_.surfaces.is_lambertian(point.material);
+    const Rgb weight = options_.arrivals && !lambertian
+                           ? B::albedo(bsdf, point.shading_normal, at.towards_light)
+                           : sample.weight;
+    const Vpl vpl = reflective_vpl(at, weight, world_.geometry.ray_offset());
+    if (is_black(vpl.intensity)) return;
+    path.records.push_back({vpl,
+                            {VplKind::reflective, point.triangle, point.barycentrics},
+                            bounce,
+                            light_group,
+                            1.0f,
+                            lambertian});
+    if (options_.arrivals)
+        path.arrivals.push_back({at.towards_light, point.shading_normal,
+                                 at.power * at.shading_normal_factor(), point.material,
+                                 attributes_of(point)});
+}
+
 template <Bsdf B, RayCaster R>
 auto InstantRadiositySampler<B, R>::trace(std::uint64_t index, Stream stream,
                                           const SurvivorCounts* levels) const -> Path {
     Path path;
     PathNumbers numbers(options_.sequence, options_.seed, stream, index);
     Emission light = sample_emission(world_.lights, world_.geometry.ray_offset(), numbers);
-    if (options_.emitter_vpls && light.emitter)
-        path.push_back({emitter_vpl(light),
-                        {VplKind::emitter, light.emitter->triangle, light.emitter->barycentrics},
-                        1,
-                        light.light_group});
+    if (options_.emitter_vpls && light.emitter) {
+        path.records.push_back(
+            {emitter_vpl(light),
+             {VplKind::emitter, light.emitter->triangle, light.emitter->barycentrics},
+             1,
+             light.light_group});
+        if (options_.arrivals) path.arrivals.emplace_back();
+    }
     for (std::uint8_t bounce = 2; bounce <= options_.max_bounce; ++bounce) {
         float survival = 1.0f;
         if (levels != nullptr) {
@@ -163,17 +202,10 @@ bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bo
     const SurfaceTableView<Space::host, B> surfaces = world_.surfaces.view();
     at.point.shading_normal = surfaces.shading_normal(*point, at.towards_light);
     const Vec2 uv = numbers.next_2d();
+    const typename B::Params bsdf = surfaces.params(point->material, attributes_of(*point));
     const BsdfSample sample =
-        B::sample(surfaces.params(point->material, attributes_of(*point)), at.point.shading_normal,
-                  at.towards_light, uv, numbers.next());
-    const Vpl vpl = reflective_vpl(at, sample.weight, offset);
-    if (!is_black(vpl.intensity))
-        path.push_back({vpl,
-                        {VplKind::reflective, point->triangle, point->barycentrics},
-                        bounce,
-                        light.light_group,
-                        1.0f,
-                        world_.surfaces.is_lambertian(point->material)});
+        B::sample(bsdf, at.point.shading_normal, at.towards_light, uv, numbers.next());
+    record(at, bsdf, sample, bounce, light.light_group, path);
 
     const std::uint16_t group = light.light_group;
     light = scatter(at, sample, offset);

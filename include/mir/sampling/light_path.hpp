@@ -11,9 +11,9 @@ namespace mir {
 /// Light that arrives at a surface along a light path, seen from there.
 template <Bsdf B>
 struct Arrival {
-    SurfacePoint point;
-    Vec3 towards_light{0};
-    Rgb power;  ///< W, per path
+    SurfacePoint point;     ///< its normals lie on the side that the light comes from
+    Vec3 towards_light{0};  ///< unit
+    Rgb power;              ///< W, per path
 
     /// Jacobian of arriving power with a shading normal: (wi.ns) / (wi.ng). Source: Veach 1997,
     /// section 5.3, the adjoint BSDF.

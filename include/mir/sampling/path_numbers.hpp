@@ -25,18 +25,21 @@ MIR_HD inline float radical_inverse(std::uint32_t base, std::uint64_t i) {
 /// unbiased.
 class PathNumbers {
  public:
+    /// Numbers of path `path` of a stream; a pure function of the arguments.
     PathNumbers(Sequence sequence, std::uint64_t seed, Stream stream, std::uint64_t path)
         : sequence_(sequence),
           path_(path),
           random_(seed, stream, path),
           shift_(seed, stream, ~std::uint64_t{0}) {}
 
+    /// Number of the next dimension, in [0, 1).
     float next() {
         const std::uint32_t d = dimension_++;
         if (sequence_ == Sequence::random || d >= halton_dimensions) return random_.at(d);
         const float x = radical_inverse(prime(d), path_ + 1) + shift_.at(d);
         return x < 1.0f ? x : x - 1.0f;
     }
+    /// Numbers of the next two dimensions, x first.
     Vec2 next_2d() {
         const float x = next();
         return {x, next()};

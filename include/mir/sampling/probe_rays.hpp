@@ -14,10 +14,10 @@ namespace mir {
 /// cell of a grid on the film, so that the mean over them is an unbiased estimate of the mean over
 /// the film. A pure function of cell and members.
 struct ProbeRays {
-    Camera camera;
+    Camera camera;               ///< that looks at the image
     float aspect = 1.0f;         ///< width / height of the film
     std::uint32_t luxels = 256;  ///< wanted; cells() has at least as many
-    std::uint64_t seed = 0;
+    std::uint64_t seed = 0;      ///< of the places on film and lens
 
     /// The grid: nearly square cells.
     [[nodiscard]] Extent cells() const {

@@ -11,20 +11,22 @@ namespace mir {
 
 /// The fixed grid of 64 x 64 rays that visible_area() looks along, for host and device.
 struct AreaRays {
-    static constexpr std::uint32_t side = 64;
-    static constexpr std::uint32_t count = side * side;
+    static constexpr std::uint32_t side = 64;            ///< rays along each side of the grid
+    static constexpr std::uint32_t count = side * side;  ///< rays in all
 
-    CameraOptics optics;
-    Vec3 back{0, 0, 1};  ///< unit, against the viewing direction
-    float aspect = 1.0f;
-    double cell = 0.0;  ///< solid angle of a ray along the axis, sr
+    CameraOptics optics;  ///< of the camera
+    Vec3 back{0, 0, 1};   ///< unit, against the viewing direction
+    float aspect = 1.0f;  ///< width / height of the film
+    double cell = 0.0;    ///< solid angle of a ray along the axis, sr
 
+    /// `film_aspect` is width / height.
     AreaRays(const Camera& camera, float film_aspect)
         : optics(camera.optics()), back(camera.back), aspect(film_aspect) {
         const double half = std::tan(0.5 * static_cast<double>(camera.vertical_fov));
         cell = 4.0 * half * half * static_cast<double>(aspect) / (side * side);
     }
 
+    /// Ray i < count, row by row from the top left: through the middle of its cell and of the lens.
     [[nodiscard]] MIR_HD Ray operator()(std::uint32_t i) const {
         const std::uint32_t x = i % side;
         const std::uint32_t y = i / side;
@@ -46,10 +48,11 @@ struct AreaRays {
 /// Kernel over AreaRays: what each covers, m^2; 0 where it leaves the scene.
 template <PointFinder F>
 struct AreaPass {
-    AreaRays rays;
-    F finder;
-    double* out = nullptr;
+    AreaRays rays;          ///< what it looks along
+    F finder;               ///< finds what they meet, in memory that the kernel reads
+    double* out = nullptr;  ///< AreaRays::count areas, m^2
 
+    /// Ray i.
     MIR_HD void operator()(std::uint32_t i) const {
         const Ray ray = rays(i);
         SurfacePoint point;

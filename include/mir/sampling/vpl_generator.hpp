@@ -36,8 +36,9 @@ struct VplDensity {
 template <class World, class Density = VplDensity>
 class VplGenerator {
  public:
+    /// What judges paths; asks the kind of visibility that the world asks.
     using Probe = ImageProbe<typename World::Bsdf, decltype(World::visibility)>;
-    static constexpr bool has_camera = false;
+    static constexpr bool has_camera = false;  ///< paths begin at x2
 
     /// Paths of min_edges (2: also VPLs on lamps) to max_edges edges. `floor`, sr^-1 m^-2, must be
     /// positive wherever a target of 0 would lose light.
@@ -49,8 +50,11 @@ class VplGenerator {
           techniques_(min_edges, max_edges, PathTechniques::bidirectional),
           floor_(floor) {}
 
+    /// What paths run through.
     [[nodiscard]] const World& world() const { return world_; }
+    /// Lengths and techniques, both sides' (PathTechniques::bidirectional).
     [[nodiscard]] const TechniqueTable& techniques() const { return techniques_; }
+    /// Weight of R in the target, sr^-1 m^-2.
     [[nodiscard]] double floor() const { return floor_; }
     /// P~ of a path that generate() has measured.
     [[nodiscard]] double target(const PathMeasure& m) const {

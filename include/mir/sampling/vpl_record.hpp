@@ -3,6 +3,7 @@
 
 #include "mir/data/vpl_list.hpp"
 #include "mir/metropolis/chain_health.hpp"
+#include "mir/scene/geometry_view.hpp"
 
 #include <optional>
 #include <vector>
@@ -19,12 +20,21 @@ enum class Normalisation {
 /// One path VPL: a vertex that lights what the camera sees, with the light path behind it summed
 /// into `intensity`.
 struct VplRecord {
-    Vpl vpl;
-    VplOrigin origin;
-    std::uint8_t bounce = 2;        ///< scattering events up to the camera: 1 direct, 2 one bounce
+    Vpl vpl;                  ///< its intensity is what Normalisation says
+    VplOrigin origin;         ///< surface or light that it lies on; equal for records of one point
+    std::uint8_t bounce = 2;  ///< scattering events up to the camera: 1 direct, 2 one bounce
     std::uint16_t light_group = 0;  ///< group of the light that feeds it
     float weight = 1.0f;            ///< recorded states that it stands for
     bool lambertian = true;         ///< false: the surface's lobe was spread as a Lambertian one
+};
+
+/// The light that a VPL passes on, as it arrives there: what its surface makes a lobe of.
+struct VplArrival {
+    Vec3 towards_light{0};       ///< unit
+    Vec3 shading_normal{0};      ///< unit, of the VPL's surface
+    Rgb power;                   ///< P, W: radiant intensity towards w is P f(towards_light, w) cos
+    std::uint32_t material = 0;  ///< of the surface
+    VertexAttributes attributes;  ///< of the point
 };
 
 /// True when two records lie at one geometric VPL.
@@ -46,9 +56,10 @@ inline float share_of_non_lambertian(const std::vector<VplRecord>& records) {
 
 /// What a sampler yields, in an order that depends on the sampler's options alone.
 struct VplRecords {
-    std::vector<VplRecord> records;
-    std::uint64_t paths = 0;            ///< light paths traced, those without a record included
-    float emitted_power = 0.0f;         ///< luminance of the scene's emitted power, W
+    std::vector<VplRecord> records;    ///< aggregate() joins neighbours of one point
+    std::vector<VplArrival> arrivals;  ///< one for each record where they were asked for, else none
+    std::uint64_t paths = 0;           ///< light paths traced, those without a record included
+    float emitted_power = 0.0f;        ///< luminance of the scene's emitted power, W
     float non_lambertian_share = 0.0f;  ///< of the records' intensity, from surfaces with a lobe
     double path_luminance = 0.0;  ///< P_c: mean image luminance of the paths that the records stand
                                   ///< for, W m^-2 sr^-1; only with Normalisation::image_response
@@ -57,9 +68,15 @@ struct VplRecords {
     double bootstrap_seconds = 0.0;     ///< wall time that they took until chains started
 };
 
-/// Algorithm 2's aggregation: consecutive records of one point become one geometric VPL.
+/// Algorithm 2's aggregation: consecutive records of one point become one geometric VPL. Where
+/// light keeps the direction that it came from, every record becomes one.
 inline VplList aggregate(const VplRecords& from) {
     VplList list;
+    if (!from.arrivals.empty()) {
+        for (const VplRecord& r : from.records)
+            list.push_back(r.vpl, r.origin, r.bounce, r.light_group, r.weight);
+        return list;
+    }
     for (const VplRecord& r : from.records)
         list.append(r.vpl, r.origin, r.bounce, r.light_group, r.weight);
     return list;

@@ -103,11 +103,15 @@ VplRecords VplRoulette<B, V>::filter(const VplRecords& from, std::uint64_t seed,
     executor.for_each(survivals.size(), [&](std::size_t i) { survivals[i] = survival(from, i); });
     VplRecords out = from;
     out.records.clear();
+    out.arrivals.clear();
     for (std::size_t i = 0; i < survivals.size(); ++i) {
         if (!(Random(seed, Stream::candidate, i).at(0) < survivals[i])) continue;
         out.records.push_back(from.records[i]);
-        Rgb& j = out.records.back().vpl.intensity;
-        j = j * (1.0f / survivals[i]);
+        const float scale = 1.0f / survivals[i];
+        out.records.back().vpl.intensity = from.records[i].vpl.intensity * scale;
+        if (from.arrivals.empty()) continue;
+        out.arrivals.push_back(from.arrivals[i]);
+        out.arrivals.back().power = from.arrivals[i].power * scale;
     }
     out.non_lambertian_share = share_of_non_lambertian(out.records);
     return out;
@@ -119,9 +123,11 @@ VplRecords VplRoulette<B, V>::filter(const VplRecords& from, std::uint64_t seed,
 template <Bsdf B, RayCaster R, Visibility V>
 class RouletteRadiositySampler {
  public:
-    static constexpr Normalisation normalisation = Normalisation::none;
+    static constexpr Normalisation normalisation = Normalisation::none;  ///< intensities are J
 
+    /// What draws VPLs before the roulette.
     using Candidates = InstantRadiositySampler<B, R>;
+    /// What their paths run through.
     using World = typename Candidates::World;
 
     /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when

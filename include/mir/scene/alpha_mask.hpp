@@ -30,9 +30,9 @@ struct AlphaMask {
 /// thread-safe.
 template <Space S>
 struct AlphaMaskView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< where the arrays lie
 
-    GeometryView<S> geometry;
+    GeometryView<S> geometry;          ///< of the triangles that is_solid() is asked about
     const AlphaMask* masks = nullptr;  ///< by material; nullptr: no triangle has a mask
     TextureView<S> textures{};         ///< of the masks
 

@@ -18,9 +18,9 @@ namespace mir::builtin {
 
 /// A scene that is generated in code, and what it shows.
 struct Entry {
-    std::string_view name;
-    std::string_view description;
-    Scene (*make)();
+    std::string_view name;         ///< what make() takes
+    std::string_view description;  ///< one line of help
+    Scene (*make)();               ///< generates it anew, with the same bits each time
 };
 
 /// Every built-in scene, in the order in which help lists them.

@@ -11,8 +11,8 @@ namespace mir {
 /// Perspective camera: a pinhole, or a thin lens when `lens_radius` is positive. Looks along -z of
 /// its own frame, +y up (glTF). Value type; const use from any thread.
 struct Camera {
-    std::string name;
-    Vec3 position{0};
+    std::string name;             ///< for messages and files
+    Vec3 position{0};             ///< of the pinhole, or the middle of the lens; metres
     Vec3 right{1, 0, 0};          ///< unit
     Vec3 up{0, 1, 0};             ///< unit
     Vec3 back{0, 0, 1};           ///< unit, against the viewing direction

@@ -10,7 +10,7 @@ namespace mir {
 /// bits on host and device: the tangent in them was computed before, and the lens is sampled by
 /// unit_circle().
 struct CameraOptics {
-    Vec3 position{0};
+    Vec3 position{0};             ///< of the pinhole, or the middle of the lens; metres
     Vec3 right{1, 0, 0};          ///< unit
     Vec3 up{0, 1, 0};             ///< unit
     Vec3 back{0, 0, 1};           ///< unit, against the viewing direction

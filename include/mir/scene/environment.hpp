@@ -18,12 +18,12 @@ namespace mir {
 /// equal steps of azimuth and of the angle from +y, and all directions in it have its radiance:
 /// nothing is interpolated.
 struct Environment {
-    std::string name;
+    std::string name;       ///< for messages
     Image<Rgb> radiance;    ///< finite, not negative, W m^-2 sr^-1
     float scale = 1.0f;     ///< multiplies the radiance; finite, not negative
     float rotation = 0.0f;  ///< degrees about +y, counter-clockwise seen from above: 90 brings the
                             ///< centre of the image from +x to -z
-    std::uint16_t light_group = 0;
+    std::uint16_t light_group = 0;  ///< group that its light is counted in
 };
 
 }  // namespace mir

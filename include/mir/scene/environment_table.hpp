@@ -24,6 +24,7 @@ class EnvironmentTable {
     ///         together is no float.
     explicit EnvironmentTable(const Environment& environment);
 
+    /// True when no light comes from it: there is none, or it is black.
     [[nodiscard]] bool empty() const { return by_luminance_.empty(); }
     /// What kernels on the host read; valid until the table is changed or ends.
     [[nodiscard]] EnvironmentView<Space::host> view() const {
@@ -32,6 +33,7 @@ class EnvironmentTable {
     }
     /// The arrays of view().
     [[nodiscard]] std::span<const Rgb> texels() const { return texels_; }
+    /// Weights of the texels: luminance times solid angle, W m^-2.
     [[nodiscard]] const DiscreteDistribution2d& by_luminance() const { return by_luminance_; }
 
  private:

@@ -22,14 +22,14 @@ struct EnvironmentSample {
 /// "Physically Based Rendering", 3rd edition, section 14.2.4, but for the place inside the texel.
 template <Space S>
 struct EnvironmentView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< where the arrays lie
 
-    const Rgb* texels = nullptr;  ///< scaled, rows from the top
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    float turns = 0.0f;  ///< rotation about +y in whole turns, [0, 1)
-    std::uint16_t light_group = 0;
-    DiscreteDistribution2dView<S> by_luminance;
+    const Rgb* texels = nullptr;                 ///< scaled, rows from the top
+    std::uint32_t width = 0;                     ///< columns of the image; 0: there is none
+    std::uint32_t height = 0;                    ///< rows of the image
+    float turns = 0.0f;                          ///< rotation about +y in whole turns, [0, 1)
+    std::uint16_t light_group = 0;               ///< group that its light is counted in
+    DiscreteDistribution2dView<S> by_luminance;  ///< picks texels; EnvironmentTable::by_luminance()
 
     /// True when no light comes from it: there is none, or it is black.
     [[nodiscard]] MIR_HD bool empty() const { return by_luminance.empty(); }

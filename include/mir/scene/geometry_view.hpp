@@ -9,8 +9,8 @@ namespace mir {
 
 /// What vertices say about a point of their triangle besides its place.
 struct VertexAttributes {
-    Vec2 texture_coordinates{0};
-    Rgb color{1.0f, 1.0f, 1.0f};
+    Vec2 texture_coordinates{0};  ///< (0, 0) where the mesh has none
+    Rgb color{1.0f, 1.0f, 1.0f};  ///< linear, 0..1; white where the mesh has none
 };
 
 /// Those that a surface point was given.
@@ -22,15 +22,15 @@ struct VertexAttributes {
 /// into surface points, with the same bits on host and device. A view; thread-safe.
 template <Space S>
 struct GeometryView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< where the arrays lie
 
-    const Vec3* positions = nullptr;  ///< of vertices, metres
-    const Vec3* normals = nullptr;    ///< of vertices, unit; zero where there is none
-    const TriangleIndices* triangles = nullptr;
-    const std::uint32_t* materials = nullptr;   ///< of triangles
-    float ray_offset = 0.0f;                    ///< WorldGeometry::ray_offset(), metres
-    const Vec2* texture_coordinates = nullptr;  ///< of vertices; nullptr: no mesh has any
-    const Rgb* colors = nullptr;                ///< of vertices; nullptr: all are white
+    const Vec3* positions = nullptr;             ///< of vertices, metres
+    const Vec3* normals = nullptr;               ///< of vertices, unit; zero where there is none
+    const TriangleIndices* triangles = nullptr;  ///< indices into positions
+    const std::uint32_t* materials = nullptr;    ///< of triangles
+    float ray_offset = 0.0f;                     ///< WorldGeometry::ray_offset(), metres
+    const Vec2* texture_coordinates = nullptr;   ///< of vertices; nullptr: no mesh has any
+    const Rgb* colors = nullptr;                 ///< of vertices; nullptr: all are white
 
     /// Corner `k` (0..2) of a triangle, metres.
     [[nodiscard]] MIR_HD Vec3 corner(std::uint32_t triangle, std::uint32_t k) const {

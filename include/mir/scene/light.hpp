@@ -10,31 +10,31 @@ namespace mir {
 
 /// Shines equally in all directions. `intensity` in W sr^-1.
 struct PointLight {
-    std::string name;
-    Vec3 position{0};
-    Rgb intensity;
-    std::uint16_t light_group = 0;
+    std::string name;               ///< for messages and files
+    Vec3 position{0};               ///< metres
+    Rgb intensity;                  ///< finite, not negative, W sr^-1
+    std::uint16_t light_group = 0;  ///< group that its light is counted in
 };
 
 /// Shines into a cone around the unit vector `direction`: full `intensity` (W sr^-1) inside the
 /// inner angle, none outside the outer one, smooth between as glTF's KHR_lights_punctual says.
 struct SpotLight {
-    std::string name;
-    Vec3 position{0};
-    Vec3 direction{0, 0, -1};
-    Rgb intensity;
-    float cos_inner = 1.0f;
-    float cos_outer = 0.70710678f;
-    std::uint16_t light_group = 0;
+    std::string name;               ///< for messages and files
+    Vec3 position{0};               ///< metres
+    Vec3 direction{0, 0, -1};       ///< unit, along which it shines
+    Rgb intensity;                  ///< inside the inner angle; finite, not negative, W sr^-1
+    float cos_inner = 1.0f;         ///< of the inner angle, counted from `direction`
+    float cos_outer = 0.70710678f;  ///< of the outer angle; at most cos_inner
+    std::uint16_t light_group = 0;  ///< group that its light is counted in
 };
 
 /// Parallel light that travels along the unit vector `direction`. `irradiance` on a surface
 /// facing it, W m^-2.
 struct DirectionalLight {
-    std::string name;
-    Vec3 direction{0, -1, 0};
-    Rgb irradiance;
-    std::uint16_t light_group = 0;
+    std::string name;               ///< for messages and files
+    Vec3 direction{0, -1, 0};       ///< unit, along which it shines
+    Rgb irradiance;                 ///< finite, not negative, W m^-2
+    std::uint16_t light_group = 0;  ///< group that its light is counted in
 };
 
 /// Share of a spot light's intensity sent along the unit vector `w`, 0..1, for a light with these

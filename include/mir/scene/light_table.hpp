@@ -21,12 +21,17 @@ class LightTable {
     ///         EnvironmentTable throws.
     LightTable(const Scene& scene, const WorldGeometry& geometry);
 
+    /// True when nothing emits power: sample_light() has no answer.
     [[nodiscard]] bool empty() const { return by_power_.empty(); }
+    /// Those of the scene.
     [[nodiscard]] std::span<const PointLight> point_lights() const { return scene_->point_lights; }
+    /// Those of the scene.
     [[nodiscard]] std::span<const SpotLight> spot_lights() const { return scene_->spot_lights; }
+    /// Those of the scene.
     [[nodiscard]] std::span<const DirectionalLight> directional_lights() const {
         return scene_->directional_lights;
     }
+    /// Indices into WorldGeometry::triangles(), ascending: element i is light i.
     [[nodiscard]] std::span<const std::uint32_t> emissive_triangles() const { return triangles_; }
 
     /// Luminance of the power emitted by everything, W. Directional lights and the environment
@@ -48,6 +53,7 @@ class LightTable {
     /// Any light by power, as an index: first emissive triangles, then point, spot and directional
     /// lights, then the environment. Must not be empty().
     [[nodiscard]] std::uint32_t sample_light(float u) const { return view().sample_light(u); }
+    /// Probability with which sample_light() picks `light`, an index as it counts; sums to 1.
     [[nodiscard]] float light_probability(std::uint32_t light) const {
         return view().light_probability(light);
     }
@@ -70,6 +76,7 @@ class LightTable {
 
     /// Bounding sphere that light from outside is sent through.
     [[nodiscard]] Vec3 centre() const { return geometry_->bounds().centre(); }
+    /// Half the diagonal of the bounding box, metres; 0 for a scene without vertices.
     [[nodiscard]] float radius() const { return 0.5f * geometry_->bounds().diagonal(); }
 
     /// What kernels on the host read; valid until the table is changed or ends.
@@ -88,11 +95,15 @@ class LightTable {
     }
     /// The arrays of view().
     [[nodiscard]] std::span<const DeltaSource> delta_sources() const { return delta_sources_; }
+    /// By material.
     [[nodiscard]] std::span<const LampEntry> lamps() const { return lamps_; }
+    /// Weights of the lights as sample_light() counts: luminance of their power, W.
     [[nodiscard]] const DiscreteDistribution& by_power() const { return by_power_; }
+    /// The weights of the emissive triangles alone.
     [[nodiscard]] const DiscreteDistribution& emitters() const { return emitters_; }
     /// Where the emissive triangles are.
     [[nodiscard]] const WorldGeometry& geometry() const { return *geometry_; }
+    /// The images of the scene if a lamp has a texture or a mask, else none.
     [[nodiscard]] const TextureTable& textures() const { return textures_; }
 
  private:

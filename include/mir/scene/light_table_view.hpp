@@ -12,14 +12,14 @@ namespace mir {
 
 /// A point on an emissive triangle.
 struct EmitterSample {
-    Vec3 position{0};         ///< on the surface, not lifted
-    Vec3 normal{0};           ///< unit, of the triangle's front
-    Rgb radiance;             ///< W m^-2 sr^-1; black where the triangle's mask cuts it away
-    float pdf_area = 0.0f;    ///< of this point among all emissive triangles, m^-2
-    bool both_sides = false;  ///< shines from the back too
-    std::uint16_t light_group = 0;
-    std::uint32_t triangle = 0;
-    Vec2 barycentrics{0};
+    Vec3 position{0};               ///< on the surface, not lifted
+    Vec3 normal{0};                 ///< unit, of the triangle's front
+    Rgb radiance;                   ///< W m^-2 sr^-1; black where the triangle's mask cuts it away
+    float pdf_area = 0.0f;          ///< of this point among all emissive triangles, m^-2
+    bool both_sides = false;        ///< shines from the back too
+    std::uint16_t light_group = 0;  ///< group that the lamp's light is counted in
+    std::uint32_t triangle = 0;     ///< index into WorldGeometry::triangles()
+    Vec2 barycentrics{0};           ///< weights of the triangle's second and third vertex
 };
 
 /// What a light path may end on.
@@ -38,58 +38,62 @@ MIR_HD constexpr bool is_from_outside(LightEndKind kind) {
 
 /// A light without extent: a PointLight, SpotLight or DirectionalLight but for its name.
 struct DeltaSource {
-    LightEndKind kind = LightEndKind::point;
-    std::uint16_t light_group = 0;
-    Rgb emission;             ///< intensity in W sr^-1, or irradiance in W m^-2
-    Vec3 position{0};         ///< metres; of directional lights none
-    Vec3 direction{0, 0, 1};  ///< unit, along which it shines; of point lights any
-    float cos_inner = 1.0f;   ///< of spot lights
-    float cos_outer = 1.0f;   ///< of spot lights
+    LightEndKind kind = LightEndKind::point;  ///< point, spot or directional
+    std::uint16_t light_group = 0;            ///< group that its light is counted in
+    Rgb emission;                             ///< intensity in W sr^-1, or irradiance in W m^-2
+    Vec3 position{0};                         ///< metres; of directional lights none
+    Vec3 direction{0, 0, 1};                  ///< unit, along which it shines; of point lights any
+    float cos_inner = 1.0f;                   ///< of spot lights
+    float cos_outer = 1.0f;                   ///< of spot lights
 };
 
 /// What the triangles of a material emit.
 struct LampEntry {
-    Rgb radiance;  ///< W m^-2 sr^-1
-    bool both_sides = false;
-    std::uint16_t light_group = 0;
-    Texture texture{};  ///< multiplies the radiance
-    AlphaMask mask{};   ///< where it cuts away, nothing shines
+    Rgb radiance;                   ///< W m^-2 sr^-1
+    bool both_sides = false;        ///< the back shines as the front does
+    std::uint16_t light_group = 0;  ///< group that its light is counted in
+    Texture texture{};              ///< multiplies the radiance
+    AlphaMask mask{};               ///< where it cuts away, nothing shines
 };
 
 /// What kernels read of a LightTable. Lights are counted as there: first emissive triangles, then
 /// point, spot and directional lights, then the environment if it shines. A view; thread-safe.
 template <Space S>
 struct LightTableView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< where the arrays lie
 
     /// Answer of light_of() for triangles that emit nothing.
     static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
-    const std::uint32_t* triangles = nullptr;  ///< emissive ones, ascending
-    std::uint32_t triangle_count = 0;
+    const std::uint32_t* triangles = nullptr;    ///< emissive ones, ascending
+    std::uint32_t triangle_count = 0;            ///< emissive triangles
     const DeltaSource* delta_sources = nullptr;  ///< point, spot, then directional lights
-    std::uint32_t delta_count = 0;
-    const LampEntry* lamps = nullptr;      ///< by material
-    DiscreteDistributionView<S> by_power;  ///< of all lights
-    DiscreteDistributionView<S> emitters;  ///< of emissive triangles alone, by power
-    Vec3 centre{0};                        ///< of the scene's bounding sphere, metres
-    float radius = 0.0f;                   ///< of the scene's bounding sphere, metres
-    TextureView<S> textures{};             ///< of the lamps
-    EnvironmentView<S> environment{};      ///< around the scene
+    std::uint32_t delta_count = 0;               ///< lights without extent
+    const LampEntry* lamps = nullptr;            ///< by material
+    DiscreteDistributionView<S> by_power;        ///< of all lights
+    DiscreteDistributionView<S> emitters;        ///< of emissive triangles alone, by power
+    Vec3 centre{0};                              ///< of the scene's bounding sphere, metres
+    float radius = 0.0f;                         ///< of the scene's bounding sphere, metres
+    TextureView<S> textures{};                   ///< of the lamps
+    EnvironmentView<S> environment{};            ///< around the scene
 
+    /// True when nothing emits power: sample_light() has no answer.
     [[nodiscard]] MIR_HD bool empty() const { return by_power.empty(); }
     /// Luminance of the power emitted by everything, W.
     [[nodiscard]] MIR_HD double power() const { return by_power.total; }
 
     /// Any light by power, for u in [0, 1). Must not be empty().
     [[nodiscard]] MIR_HD std::uint32_t sample_light(float u) const { return by_power.sample(u); }
+    /// Probability with which sample_light() picks `light`.
     [[nodiscard]] MIR_HD float light_probability(std::uint32_t light) const {
         return by_power.probability(light);
     }
 
+    /// True for the index of an emissive triangle, as sample_light() counts.
     [[nodiscard]] MIR_HD bool is_triangle(std::uint32_t light) const {
         return light < triangle_count;
     }
+    /// True for the index that the environment has, or would have if it shone.
     [[nodiscard]] MIR_HD bool is_environment(std::uint32_t light) const {
         return light == triangle_count + delta_count;
     }

@@ -12,19 +12,20 @@ namespace mir {
 /// metallic-roughness parameters. Both faces reflect. `specular` = 0 and `metallic` = 0 make it
 /// purely Lambertian.
 struct Material {
-    std::string name;
-    Rgb base_color{0.8f, 0.8f, 0.8f};  ///< linear reflectance, 0..1
-    float metallic = 0.0f;             ///< 0..1
-    float roughness = 1.0f;            ///< 0..1, GGX alpha is its square
-    float specular = 1.0f;             ///< weight of the dielectric interface, 0..1
-    float ior = 1.5f;                  ///< index of refraction of the dielectric interface, >= 1
-    Rgb emission;                      ///< radiance of the front, W m^-2 sr^-1
-    bool emits_from_both_sides = false;
-    std::uint16_t light_group = 0;  ///< group that its light is counted in
-    MaterialTextures textures;      ///< multiply what stands above, point by point
-    float alpha = 1.0f;             ///< 0..1, times that of textures.base_color; only masks use it
-    float alpha_cutoff = 0.0f;      ///< points with less alpha are not there; 0: all are
+    std::string name;                    ///< for messages and files
+    Rgb base_color{0.8f, 0.8f, 0.8f};    ///< linear reflectance, 0..1
+    float metallic = 0.0f;               ///< 0..1
+    float roughness = 1.0f;              ///< 0..1, GGX alpha is its square
+    float specular = 1.0f;               ///< weight of the dielectric interface, 0..1
+    float ior = 1.5f;                    ///< index of refraction of the dielectric interface, >= 1
+    Rgb emission;                        ///< radiance of the front, W m^-2 sr^-1
+    bool emits_from_both_sides = false;  ///< the back with the front's radiance
+    std::uint16_t light_group = 0;       ///< group that its light is counted in
+    MaterialTextures textures;           ///< multiply what stands above, point by point
+    float alpha = 1.0f;         ///< 0..1, times that of textures.base_color; only masks use it
+    float alpha_cutoff = 0.0f;  ///< points with less alpha are not there; 0: all are
 
+    /// True when its emission is not black, whatever its texture.
     [[nodiscard]] bool emits() const { return !is_black(emission); }
     /// How it reflects without textures and vertex colours.
     [[nodiscard]] MaterialFactors factors() const {
@@ -32,6 +33,7 @@ struct Material {
     }
     /// True when it may have holes.
     [[nodiscard]] bool is_masked() const { return alpha_cutoff > 0.0f; }
+    /// True when it has no specular part. Textures do not change that, because they multiply.
     [[nodiscard]] bool is_lambertian() const { return metallic == 0.0f && specular == 0.0f; }
 };
 

@@ -18,16 +18,16 @@ namespace mir {
 /// from a file. Right-handed, +y up, metres, linear Rec. 709. WorldGeometry and LightTable are made
 /// from it; both check it.
 struct Scene {
-    std::string name;
-    std::vector<Mesh> meshes;
-    std::vector<Instance> instances;
-    std::vector<Material> materials;
-    std::vector<TextureImage> images;  ///< of the textures of materials
-    std::vector<PointLight> point_lights;
-    std::vector<SpotLight> spot_lights;
-    std::vector<DirectionalLight> directional_lights;
-    std::optional<Environment> environment;  ///< light from all around; none: black
-    std::vector<Camera> cameras;
+    std::string name;                                  ///< for messages and files
+    std::vector<Mesh> meshes;                          ///< each once, however often it is placed
+    std::vector<Instance> instances;                   ///< what is seen: a mesh without one is not
+    std::vector<Material> materials;                   ///< by Mesh::material
+    std::vector<TextureImage> images;                  ///< of the textures of materials
+    std::vector<PointLight> point_lights;              ///< without extent: no ray meets them
+    std::vector<SpotLight> spot_lights;                ///< without extent: no ray meets them
+    std::vector<DirectionalLight> directional_lights;  ///< from outside; no ray meets them
+    std::optional<Environment> environment;            ///< light from all around; none: black
+    std::vector<Camera> cameras;  ///< by RenderSettings::camera; none: there is no view to render
 
     /// Adds a mesh together with one instance of it; returns the index of the mesh.
     std::uint32_t place(Mesh mesh, const Mat4& to_world = Mat4(1.0f)) {

@@ -14,6 +14,7 @@ namespace mir {
 /// material, light or camera, and not with names. Not cryptographic. Source: FNV-1a, 64 bits.
 class SceneHash {
  public:
+    /// Reads all of the scene once, which may end afterwards.
     explicit SceneHash(const Scene& scene) {
         // The sizes first: without them a light could pass for one of another kind.
         add_each(scene.meshes.size(), scene.instances.size(), scene.materials.size(),
@@ -48,6 +49,7 @@ class SceneHash {
                      c.lens_radius, c.focus_distance);
     }
 
+    /// 16 hexadecimal digits in lower case.
     [[nodiscard]] std::string hex() const {
         constexpr char digits[] = "0123456789abcdef";
         std::string text(16, '0');

@@ -16,13 +16,14 @@ struct Texture {
     static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
     std::uint32_t image = none;  ///< index into Scene::images
-    Wrap wrap_u = Wrap::repeat;
-    Wrap wrap_v = Wrap::repeat;
-    bool nearest = false;  ///< the texel that a point lies in, instead of a bilinear mean
-    Vec2 u_axis{1, 0};     ///< what the mesh's u adds to (u, v) of the image
-    Vec2 v_axis{0, 1};     ///< what the mesh's v adds
-    Vec2 offset{0};
+    Wrap wrap_u = Wrap::repeat;  ///< beyond the left and right edges
+    Wrap wrap_v = Wrap::repeat;  ///< beyond the upper and lower edges
+    bool nearest = false;        ///< the texel that a point lies in, instead of a bilinear mean
+    Vec2 u_axis{1, 0};           ///< what the mesh's u adds to (u, v) of the image
+    Vec2 v_axis{0, 1};           ///< what the mesh's v adds
+    Vec2 offset{0};              ///< added to (u, v) of the image
 
+    /// False when it changes nothing.
     [[nodiscard]] MIR_HD bool is_set() const { return image != none; }
     /// Where coordinates of a mesh lie in the image: (0, 0) top left, (1, 1) bottom right.
     [[nodiscard]] MIR_HD Vec2 place(Vec2 uv) const {
@@ -38,6 +39,7 @@ struct MaterialTextures {
     Texture emission;            ///< sRGB; multiplies Material::emission
     float normal_scale = 1.0f;   ///< of x and y of `normal`
 
+    /// True when it makes the reflectance vary. Normal maps, which turn it, do not count.
     [[nodiscard]] MIR_HD bool changes_reflection() const {
         return base_color.is_set() || metallic_roughness.is_set();
     }

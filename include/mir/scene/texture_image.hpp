@@ -15,9 +15,9 @@ namespace mir {
 /// A picture for textures: `texels` in rows from the top, each red + green 2^8 + blue 2^16 +
 /// alpha 2^24 in 8 bits. What the codes mean is up to who looks them up.
 struct TextureImage {
-    std::string name;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::string name;                   ///< for messages and files
+    std::uint32_t width = 0;            ///< columns, 1 to 65536
+    std::uint32_t height = 0;           ///< rows, 1 to 65536
     std::vector<std::uint32_t> texels;  ///< width x height
 };
 

@@ -44,6 +44,7 @@ class TextureTable {
     [[nodiscard]] TextureView<Space::host> view() const {
         return {images_.data(), texel_values().data()};
     }
+    /// By Texture::image. Valid as long as view().
     [[nodiscard]] std::span<const TexelView> images() const { return images_; }
 
  private:

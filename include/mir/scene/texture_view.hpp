@@ -10,19 +10,19 @@ namespace mir {
 
 /// What kernels read of a TextureImage.
 struct TexelView {
-    const std::uint32_t* texels = nullptr;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    const std::uint32_t* texels = nullptr;  ///< as in TextureImage
+    std::uint32_t width = 0;                ///< columns
+    std::uint32_t height = 0;               ///< rows
 };
 
 /// What kernels read of a scene's images: lookups with the same bits on host and device. A view;
 /// thread-safe. Without mip maps: one lookup is a mean of the four texels around a point.
 template <Space S>
 struct TextureView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< where the arrays lie
 
-    const TexelView* images = nullptr;
-    const float* values = nullptr;  ///< texel_values()
+    const TexelView* images = nullptr;  ///< by Texture::image
+    const float* values = nullptr;      ///< texel_values()
 
     /// Colour and alpha of a texture at coordinates of a mesh, 0..1.
     /// @pre texture.is_set() and its image has texels.

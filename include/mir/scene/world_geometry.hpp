@@ -5,6 +5,8 @@
 #include "mir/core/limits.hpp"
 #include "mir/core/raw_allocator.hpp"
 #include "mir/scene/alpha_mask_table.hpp"
+#include "mir/scene/bounds.hpp"
+#include "mir/scene/detail/check_mesh.hpp"
 #include "mir/scene/geometry_view.hpp"
 #include "mir/scene/scene.hpp"
 
@@ -15,20 +17,6 @@
 #include <vector>
 
 namespace mir {
-
-/// Axis-aligned box. Empty until a point is added.
-struct Bounds {
-    Vec3 low{std::numeric_limits<float>::infinity()};
-    Vec3 high{-std::numeric_limits<float>::infinity()};
-
-    void add(Vec3 p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
-    [[nodiscard]] Vec3 centre() const { return 0.5f * (low + high); }
-    [[nodiscard]] float diagonal() const { return empty() ? 0.0f : glm::length(high - low); }
-};
 
 /// All instances of a scene as triangles in world space: what ray engines are built from and what
 /// turns their answers (triangle, barycentrics) into surface points. Immutable once made; const use
@@ -67,6 +55,7 @@ class WorldGeometry {
     /// Of the materials; empty when none is masked.
     [[nodiscard]] std::span<const AlphaMask> masks() const { return alpha_masks_->masks(); }
 
+    /// Vertices of all instances, one instance behind the other, metres.
     [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
     /// Unit normals of the vertices, zero where their mesh has none.
     [[nodiscard]] std::span<const Vec3> normals() const { return normals_; }
@@ -74,13 +63,17 @@ class WorldGeometry {
     [[nodiscard]] std::span<const Vec2> texture_coordinates() const { return texture_coordinates_; }
     /// Of the vertices, white where their mesh has none; empty when no mesh has any.
     [[nodiscard]] std::span<const Rgb> colors() const { return colors_; }
+    /// Indices into positions(), in the order of instances and of their meshes.
     [[nodiscard]] std::span<const TriangleIndices> triangles() const { return triangles_; }
     /// Material of each triangle.
     [[nodiscard]] std::span<const std::uint32_t> materials() const { return materials_; }
+    /// Index into Scene::materials.
     [[nodiscard]] std::uint32_t material_of(std::uint32_t triangle) const {
         return materials_[triangle];
     }
+    /// Of all vertices, those that no triangle uses included; metres.
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    /// Number of triangles that were left out, because they have no area.
     [[nodiscard]] std::uint64_t dropped_triangles() const { return dropped_; }
 
     /// Corner `k` (0..2) of a triangle, metres.
@@ -158,69 +151,6 @@ inline float ray_offset_of(const Bounds& bounds) {
     const float magnitude = larger(max_abs(bounds.low), max_abs(bounds.high));
     const float unseen = max_abs(bounds.high - bounds.low) * 0x1p-14f;
     return larger(magnitude * 0x1p-20f, smaller(magnitude * 0x1p-16f, unseen));
-}
-
-inline void check_attributes(const Mesh& mesh) {
-    const auto check = [&](const char* what, std::size_t count, auto&& is_good) {
-        if (count == 0) return;
-        if (count != mesh.positions.size())
-            throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': it has " +
-                                                      std::to_string(count) + " " + what + " for " +
-                                                      std::to_string(mesh.positions.size()) +
-                                                      " positions; give one each or none");
-        for (std::size_t i = 0; i < count; ++i)
-            if (!is_good(i))
-                throw Error(ErrorCode::invalid_input,
-                            "mesh '" + mesh.name + "': number " + std::to_string(i) + " of its " +
-                                what + " is not finite or not a colour; repair the file");
-    };
-    check("texture coordinates", mesh.texture_coordinates.size(), [&](std::size_t i) {
-        const Vec2 uv = mesh.texture_coordinates[i];
-        return std::isfinite(uv.x) && std::isfinite(uv.y);
-    });
-    check("colors", mesh.colors.size(), [&](std::size_t i) {
-        const Rgb c = mesh.colors[i];
-        const auto is_share = [](float x) { return x >= 0.0f && x <= 1.0f; };
-        return is_share(c.r) && is_share(c.g) && is_share(c.b);
-    });
-}
-
-inline void check_mesh(const Scene& scene, const Mesh& mesh) {
-    const auto fail = [&](const std::string& what) {
-        throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': " + what);
-    };
-    if (mesh.material >= scene.materials.size())
-        fail("material " + std::to_string(mesh.material) + " does not exist (the scene has " +
-             std::to_string(scene.materials.size()) + "); add it or correct the index");
-    if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
-        fail("it has " + std::to_string(mesh.normals.size()) + " normals for " +
-             std::to_string(mesh.positions.size()) + " positions; give one each or none");
-    check_attributes(mesh);
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-        if (!is_finite(mesh.positions[i]))
-            fail("position " + std::to_string(i) +
-                 " is not finite (nothing can be built around it); repair the file");
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (std::uint32_t v : mesh.triangles[i])
-            if (v >= mesh.positions.size())
-                fail("triangle " + std::to_string(i) + " uses vertex " + std::to_string(v) +
-                     " of " + std::to_string(mesh.positions.size()) + "; repair the indices");
-}
-
-inline void check_instances(const Scene& scene, const Limits& limits) {
-    std::uint64_t triangles = 0;
-    std::uint64_t vertices = 0;
-    for (const Instance& instance : scene.instances) {
-        if (instance.mesh >= scene.meshes.size())
-            throw Error(ErrorCode::invalid_input,
-                        "an instance names mesh " + std::to_string(instance.mesh) +
-                            ", but the scene has " + std::to_string(scene.meshes.size()) +
-                            "; correct the index");
-        triangles += scene.meshes[instance.mesh].triangles.size();
-        vertices += scene.meshes[instance.mesh].positions.size();
-    }
-    check_limit(triangles, limits.triangles, "triangles");
-    check_limit(vertices, limits.vertices, "vertices");
 }
 
 /// Elements that are placed together: enough to hide what a thread costs.

@@ -14,18 +14,23 @@ namespace mir::sched {
 /// Given a KnownVisibility it traces no ray.
 template <Executor E>
 struct Cpu {
-    E& executor;
+    E& executor;                 ///< runs blocks of luxels
     Monitor* monitor = nullptr;  ///< may be null
 
     /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
     class Pipeline {
      public:
+        /// Reads `in` and writes the radiance of luxels, W m^-2 sr^-1, to `image`. `monitor` may be
+        /// null.
         Pipeline(const In& in, Image<Rgb>& image, E& executor, Monitor* monitor)
             : in_(in), image_(image), executor_(executor), monitor_(monitor) {}
 
+        /// Only notes the tile.
         void submit(TileIndex t) { detail::append_blocks(blocks_, t, in_.gbuffer.tiles()[t]); }
 
+        /// Computes all tiles that were submitted, block by block on the executor.
+        /// @throws Error(cancelled) when the monitor asks to stop.
         void finish() {
             executor_.for_each(blocks_.size(), [this](std::size_t i) { run(blocks_[i]); });
         }
@@ -66,6 +71,7 @@ struct Cpu {
         std::vector<detail::Block> blocks_;
     };
 
+    /// A pipeline for one image, whose size is that of the G-buffer.
     template <class In>
     Pipeline<In> open(const In& in, Image<Rgb>& image) const {
         static_assert(AccessibleFrom<decltype(in.visibility), Space::host>,

@@ -18,19 +18,23 @@ namespace mir::sched {
 /// ray.
 template <Executor E>
 struct CpuBlocks {
-    E& executor;
-    Monitor* monitor = nullptr;  ///< may be null
-    InstructionSet instructions = best_instruction_set();
+    E& executor;                                           ///< runs blocks of luxels
+    Monitor* monitor = nullptr;                            ///< may be null
+    InstructionSet instructions = best_instruction_set();  ///< of its loops; changes no bit
 
     /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
     class Pipeline {
      public:
+        /// Reads `in` and writes the radiance of luxels, W m^-2 sr^-1, to `image`.
         Pipeline(const In& in, Image<Rgb>& image, const CpuBlocks& scheduler)
             : in_(in), image_(image), scheduler_(scheduler) {}
 
+        /// Only notes the tile.
         void submit(TileIndex t) { detail::append_blocks(blocks_, t, in_.gbuffer.tiles()[t]); }
 
+        /// Computes all tiles that were submitted, block by block on the executor.
+        /// @throws Error(cancelled) when the monitor asks to stop.
         void finish() {
             scheduler_.executor.for_each(blocks_.size(), [this](std::size_t i) {
                 const detail::Block block = blocks_[i];
@@ -64,6 +68,7 @@ struct CpuBlocks {
         std::vector<detail::Block> blocks_;
     };
 
+    /// A pipeline for one image, whose size is that of the G-buffer. It refers to this scheduler.
     template <class In>
     Pipeline<In> open(const In& in, Image<Rgb>& image) const {
         static_assert(AccessibleFrom<decltype(in.visibility), Space::host>,

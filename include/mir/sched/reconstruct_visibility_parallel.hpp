@@ -16,13 +16,15 @@ namespace mir::sched {
 /// every bit. Not thread-safe; several may share a backend.
 template <Backend B>
 struct ReconstructVisibilityParallel {
-    B backend;
+    B backend;                   ///< where luxels are lit
     Monitor* monitor = nullptr;  ///< may be null
 
     /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
     class Pipeline {
      public:
+        /// Takes memory of the backend for up to three tiles and starts to copy the VPLs.
+        /// @throws What the backend throws when it has no memory left.
         Pipeline(const In& in, Image<Rgb>& image, const ReconstructVisibilityParallel& scheduler)
             : in_(in),
               vpls_(scheduler.backend, in.vpls),
@@ -35,6 +37,8 @@ struct ReconstructVisibilityParallel {
             vpls_.send(copy_);
         }
 
+        /// Starts a tile's work. Waits for the third tile before, which it writes to the image.
+        /// @throws Error(cancelled) when the monitor asks to stop; what the backend throws.
         void submit(TileIndex t) {
             auto& slot = ring_.acquire(t);
             ring_.upload_hits(slot, copy_);
@@ -58,6 +62,8 @@ struct ReconstructVisibilityParallel {
                                                     slot.words.data(), in_.shading, slot.sums()});
             ring_.send_back(slot, compute_);
         }
+        /// Waits for the tiles that are still on their way and writes them to the image.
+        /// @throws What the backend throws when its work failed.
         void finish() { ring_.drain(); }
 
      private:
@@ -73,6 +79,7 @@ struct ReconstructVisibilityParallel {
         typename B::Queue compute_;
     };
 
+    /// A pipeline for one image, whose size is that of the G-buffer.
     template <class In>
     Pipeline<In> open(const In& in, Image<Rgb>& image) const {
         detail::check_pairing<In, B>();

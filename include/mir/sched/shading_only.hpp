@@ -18,7 +18,7 @@ namespace mir::sched {
 /// Not thread-safe; several may share a backend.
 template <Backend B, Executor E>
 struct ShadingOnly {
-    B backend;
+    B backend;                   ///< where luxels are shaded
     E& executor;                 ///< traces and adds
     Monitor* monitor = nullptr;  ///< may be null
 
@@ -26,9 +26,15 @@ struct ShadingOnly {
     template <class In>
     class Pipeline {
      public:
+        /// Takes memory of the backend for tiles and two planes of radiance and starts to copy the
+        /// VPLs.
+        /// @throws What the backend throws when it has no memory left.
         Pipeline(const In& in, Image<Rgb>& image, const ShadingOnly& scheduler);
 
+        /// Computes the tile and writes it to the image before it returns.
+        /// @throws Error(cancelled) when the monitor asks to stop; what the backend throws.
         void submit(TileIndex t);
+        /// Nothing is left to do.
         void finish() {}
 
      private:
@@ -63,6 +69,7 @@ struct ShadingOnly {
         typename B::Queue compute_;
     };
 
+    /// A pipeline for one image, whose size is that of the G-buffer. It refers to this scheduler.
     template <class In>
     Pipeline<In> open(const In& in, Image<Rgb>& image) const {
         static_assert(AccessibleFrom<decltype(in.visibility), Space::host>,

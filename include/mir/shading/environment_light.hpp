@@ -8,18 +8,20 @@ namespace mir {
 
 /// Light of the environment at a luxel, estimated from `samples` directions drawn by luminance:
 /// f L_e cos / p averaged over the samples, with shadow rays to outside the scene. The samples of
-/// all luxels of a pixel are one Kronecker sequence with a random shift per pixel, as those of
-/// EmitterLight. Unbiased. Host and device.
+/// luxels that share are one Kronecker sequence with a random shift, as those of EmitterLight.
+/// Directions that all luxels share are VPLs at infinity. Unbiased. Host and device.
 template <Bsdf B, Visibility V>
 class EnvironmentLight {
  public:
-    static constexpr Space space = space_of_lights<V>;
+    static constexpr Space space = space_of_lights<V>;  ///< memory that the environment lies in
 
+    /// `samples` per luxel, 0 for no light. What the view reads must outlive it.
     EnvironmentLight(const LightTableView<space>& lights, V visibility, std::uint32_t samples)
         : environment_(lights.environment),
           reach_(4.0f * lights.radius),
           visibility_(visibility),
           samples_(samples) {}
+    /// The environment of lights of the host, which must outlive it.
     EnvironmentLight(const LightTable& lights, V visibility,
                      std::uint32_t samples) requires(space == Space::host)
         : EnvironmentLight(lights.view(), visibility, samples) {}
@@ -34,7 +36,7 @@ class EnvironmentLight {
         return mean_of_samples(
             hit.position, visibility_, samples_,
             [&](std::uint32_t k, PacketOfLight& packet, std::uint32_t place) {
-                const auto i = static_cast<float>(k * shared.shares + shared.share);
+                const std::uint32_t i = k * shared.shares + shared.share;
                 const EnvironmentSample from = environment_.sample(kronecker_point(shift, i));
                 packet.set(place, outside(hit.position, from.direction), unshadowed(hit, s, from));
             });

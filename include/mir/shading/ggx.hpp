@@ -36,6 +36,7 @@ struct HalfVector {
     float along = 0.0f;           ///< its component along the normal: n.wi + n.wo
     float across_squared = 0.0f;  ///< the square of the rest, with all digits for narrow lobes
 
+    /// |wi + wo|^2, least_squared to 4.
     [[nodiscard]] MIR_HD float squared() const {
         return larger(across_squared + along * along, least_squared);
     }

@@ -8,7 +8,7 @@ namespace mir {
 /// Directions into which a surface reflects most, roughly: density (1 + 2 k) / (4 pi (1 + k x)^2)
 /// per steradian, x = 1 - cos of the angle to the axis. A value.
 struct ReflectionLobe {
-    static constexpr float largest_sharpness = 16384.0f;
+    static constexpr float largest_sharpness = 16384.0f;  ///< narrower lobes count as this one
 
     Vec3 axis{0, 0, 1};      ///< unit
     float sharpness = 0.0f;  ///< k, to largest_sharpness; 0: there is no lobe

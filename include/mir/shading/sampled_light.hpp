@@ -29,9 +29,9 @@ struct SharedSamples {
 /// Light that up to a packet of points would bring to a luxel. A small value; not shared by
 /// threads.
 struct PacketOfLight {
-    PointPacket points{};
-    Rgb light[PointPacket::width];
-    std::uint32_t active = 0;  ///< bits of the points that bring any
+    PointPacket points{};           ///< where light comes from, metres; shadow rays end there
+    Rgb light[PointPacket::width];  ///< if nothing is in its way, W m^-2 sr^-1; read where active
+    std::uint32_t active = 0;       ///< bits of the points that bring any
 
     /// Sets point `k`, which may bring nothing.
     MIR_HD void set(std::uint32_t k, Vec3 target, Rgb from_target) {
@@ -79,10 +79,14 @@ MIR_HD Rgb mean_of_samples(Vec3 origin, const V& visibility, std::uint32_t sampl
 }
 
 /// Place in the unit square of the i-th point of the Kronecker sequence of the plastic number,
-/// shifted by `shift`. Source: Roberts, "The unreasonable effectiveness of quasirandom sequences",
+/// shifted by `shift`. The products wrap around as integers, so that no point loses digits, however
+/// late it comes. Source: Roberts, "The unreasonable effectiveness of quasirandom sequences",
 /// 2018.
-MIR_HD inline Vec2 kronecker_point(Vec2 shift, float i) {
-    return glm::fract(shift + i * Vec2(0.7548776662f, 0.5698402910f));
+MIR_HD inline Vec2 kronecker_point(Vec2 shift, std::uint32_t i) {
+    const std::uint32_t x = i * 3242174889u;  // 2^32 / 1.3247.., the plastic number
+    const std::uint32_t y = i * 2447445414u;  // and / its square
+    return glm::fract(shift +
+                      Vec2(static_cast<float>(x >> 8u), static_cast<float>(y >> 8u)) * 0x1p-24f);
 }
 
 }  // namespace mir

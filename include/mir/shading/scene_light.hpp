@@ -13,11 +13,13 @@ namespace mir {
 template <Bsdf B, Visibility V>
 class EmitterLight {
  public:
-    static constexpr Space space = space_of_lights<V>;
+    static constexpr Space space = space_of_lights<V>;  ///< memory that the lights lie in
 
+    /// `samples` per luxel, 0 for no light. What the views read must outlive it.
     EmitterLight(const LightTableView<space>& lights, const GeometryView<space>& geometry,
                  V visibility, std::uint32_t samples)
         : lights_(lights), geometry_(geometry), visibility_(visibility), samples_(samples) {}
+    /// The lights of the host and their geometry, which must outlive it.
     EmitterLight(const LightTable& lights, V visibility,
                  std::uint32_t samples) requires(space == Space::host)
         : EmitterLight(lights.view(), lights.geometry().view(), visibility, samples) {}
@@ -46,9 +48,10 @@ class EmitterLight {
     /// Sample `k` of the luxel: its lamps interleave with those of the pixel's other luxels.
     [[nodiscard]] MIR_HD EmitterSample sample(Shift shift, SharedSamples shared,
                                               std::uint32_t k) const {
-        const auto i = static_cast<float>(k * shared.shares + shared.share);
+        const std::uint32_t i = k * shared.shares + shared.share;
         const auto n = static_cast<float>(samples_ * shared.shares);
-        return lights_.sample_emitter(geometry_, smaller((i + shift.pick) / n, 0x1.fffffep-1f),
+        const float lamp = (static_cast<float>(i) + shift.pick) / n;
+        return lights_.sample_emitter(geometry_, smaller(lamp, 0x1.fffffep-1f),
                                       kronecker_point(shift.uv, i));
     }
 
@@ -78,10 +81,12 @@ class EmitterLight {
 template <Bsdf B, Visibility V>
 class DeltaLight {
  public:
-    static constexpr Space space = space_of_lights<V>;
+    static constexpr Space space = space_of_lights<V>;  ///< memory that the lights lie in
 
+    /// What the view reads must outlive it.
     DeltaLight(const LightTableView<space>& lights, V visibility)
         : lights_(lights), visibility_(visibility) {}
+    /// The lights of the host, which must outlive it.
     DeltaLight(const LightTable& lights, V visibility) requires(space == Space::host)
         : DeltaLight(lights.view(), visibility) {}
 

@@ -17,6 +17,7 @@ namespace mir {
 template <Bsdf B>
 class SurfaceTable {
  public:
+    /// What a luxel knows of its surface.
     using Surface = mir::Surface<typename B::Params>;
 
     /// @throws Error(invalid_input) as TextureTable does.
@@ -30,7 +31,9 @@ class SurfaceTable {
     [[nodiscard]] SurfaceTableView<Space::host, B> view() const {
         return {entries_.data(), textures_.view()};
     }
+    /// Images that the materials refer to.
     [[nodiscard]] const TextureTable& textures() const { return textures_; }
+    /// By material, in the order of Scene::materials.
     [[nodiscard]] std::span<const SurfaceEntry<B>> entries() const { return entries_; }
 
     /// Surface data of a point for light that leaves along the unit vector `wo`.
@@ -38,6 +41,7 @@ class SurfaceTable {
         return view().surface(p, wo);
     }
 
+    /// How a material reflects without its textures and vertex colours.
     [[nodiscard]] const typename B::Params& params(std::uint32_t material) const {
         return view().params(material);
     }
@@ -45,6 +49,7 @@ class SurfaceTable {
     [[nodiscard]] float mean_albedo(std::uint32_t material) const {
         return entries_[material].mean_albedo;
     }
+    /// True when a material reflects alike in all directions (Material::is_lambertian()).
     [[nodiscard]] bool is_lambertian(std::uint32_t material) const {
         return view().is_lambertian(material);
     }

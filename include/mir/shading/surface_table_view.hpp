@@ -23,23 +23,24 @@ concept TexturedBsdf = Bsdf<B> && requires(const MaterialFactors& factors) {
 /// One material in the parameters of a Bsdf.
 template <Bsdf B>
 struct SurfaceEntry {
-    typename B::Params params;
-    Rgb emission;               ///< radiance, W m^-2 sr^-1
-    bool both_sides = false;    ///< emits from the back too
-    bool lambertian = true;     ///< see Material::is_lambertian()
-    float mean_albedo = 0.0f;   ///< luminance of the reflectance at a typical angle, 0..1
-    MaterialFactors factors{};  ///< what textures multiply
-    MaterialTextures textures{};
+    typename B::Params params;    ///< without textures and vertex colours
+    Rgb emission;                 ///< radiance, W m^-2 sr^-1
+    bool both_sides = false;      ///< emits from the back too
+    bool lambertian = true;       ///< see Material::is_lambertian()
+    float mean_albedo = 0.0f;     ///< luminance of the reflectance at a typical angle, 0..1
+    MaterialFactors factors{};    ///< what textures multiply
+    MaterialTextures textures{};  ///< of the material; may be none
 };
 
 /// What kernels read of a SurfaceTable. A view; thread-safe.
 template <Space S, Bsdf B>
 struct SurfaceTableView {
-    static constexpr Space space = S;
+    static constexpr Space space = S;  ///< memory that the arrays lie in
+    /// What a luxel knows of its surface.
     using Surface = mir::Surface<typename B::Params>;
 
     const SurfaceEntry<B>* entries = nullptr;  ///< by material
-    TextureView<S> textures;
+    TextureView<S> textures;                   ///< that entries refer to
 
     /// Surface data of a point for light that leaves along the unit vector `wo`.
     [[nodiscard]] MIR_HD Surface surface(const SurfacePoint& p, Vec3 wo) const {
@@ -62,6 +63,7 @@ struct SurfaceTableView {
         if (!entries[p.material].textures.normal.is_set()) return p.shading_normal;
         return bent_normal(p, wo);
     }
+    /// True when the material reflects alike in all directions (Material::is_lambertian()).
     [[nodiscard]] MIR_HD bool is_lambertian(std::uint32_t material) const {
         return entries[material].lambertian;
     }

@@ -23,12 +23,15 @@ MIR_HD inline float geometry_term(Vec3 wi, float inverse, Vec3 luxel_normal, Vec
 /// RemovedByBound measures.
 template <Bsdf B>
 struct VplShading {
+    /// What it reads of a luxel.
     using Surface = mir::Surface<typename B::Params>;
 
     float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
 
+    /// False where f is zero: no ray is worth its while.
     [[nodiscard]] MIR_HD bool reflects(const Surface& s) const { return !B::is_black(s.bsdf); }
 
+    /// Radiance towards the viewer, W m^-2 sr^-1, as if nothing lay between.
     // Inlined by force: a call would keep loops over luxels from being vectorised.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
@@ -44,10 +47,12 @@ struct VplShading {
 /// VplShading + RemovedByBound = unbounded shading.
 template <Bsdf B>
 struct RemovedByBound {
+    /// What it reads of a luxel.
     using Surface = mir::Surface<typename B::Params>;
 
     float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
 
+    /// Radiance towards the viewer, W m^-2 sr^-1; 0 where G is no larger than the bound.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
         const Vec3 d = vpl.position - hit.position;
@@ -58,6 +63,7 @@ struct RemovedByBound {
         return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * excess;
     }
 
+    /// False where f is zero: no ray is worth its while.
     [[nodiscard]] MIR_HD bool reflects(const Surface& s) const { return !B::is_black(s.bsdf); }
 
     /// No luxel farther than this from a VPL can lose anything: G <= 1/d^2.

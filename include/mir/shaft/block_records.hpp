@@ -9,19 +9,19 @@ namespace mir {
 /// What the cascade of the host knows about the 256 luxels of a block: their positions in packets
 /// of sixteen, and records of the block and of its packets. Made once per block, for all VPLs.
 struct BlockRecords {
-    static constexpr std::uint32_t packets = BlockMask::packets;
+    static constexpr std::uint32_t packets = BlockMask::packets;  ///< of a block, 16 luxels each
 
     /// A cluster as a shaft's end and as a pyramid's base.
     struct Cluster {
-        ClusterRecord record;
-        detail::ClusterBox box;
-        bool within = false;  ///< reach; false as well for clusters without luxels
+        ClusterRecord record;    ///< its box and half-space
+        detail::ClusterBox box;  ///< the record's box by centre and half edges, metres
+        bool within = false;     ///< reach; false as well for clusters without luxels
     };
 
-    PointPacket points[packets];
-    Cluster packet[packets];
-    Cluster all;
-    float sigma = 0.0f;  ///< of the scene, metres
+    PointPacket points[packets];  ///< positions in blocked order, metres
+    Cluster packet[packets];      ///< of each packet alone
+    Cluster all;                  ///< of the whole block
+    float sigma = 0.0f;           ///< of the scene, metres
 
     /// Of the first 256 luxels of `hits`, finite or not. `reach` as for the hierarchy and `sigma`
     /// as for records of clusters, metres.

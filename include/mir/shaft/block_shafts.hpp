@@ -10,8 +10,8 @@ namespace mir {
 /// VPLs first .. first + count - 1 of a set: what the kernels of shafts take at a time, so that
 /// their queues have room for all pairs.
 struct VplBatch {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
+    std::uint32_t first = 0;  ///< its place in the set
+    std::uint32_t count = 0;  ///< at least 1
 };
 
 /// Decides pairs of 256 luxels and a VPL: kernel for groups, a block per lane, neighbouring blocks
@@ -19,30 +19,34 @@ struct VplBatch {
 /// ones as they are, facing masks (FacingPass), and queues the rest.
 template <Space S, VplSet P>
 struct BlockShafts {
+    /// Thread blocks that a multiprocessor of a GPU is to hold at least.
     static constexpr std::uint32_t resident_blocks = 8;
+    /// Words of visibility of a block and a VPL.
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
     static constexpr std::uint32_t most_triangles = 32;  ///< tested for a pair
 
     /// What a group works in.
     struct Workspace {
-        LeafColumns<16> leaves;
+        LeafColumns<16> leaves;  ///< that the lanes' shafts meet
     };
 
     const ClusterRecord* blocks = nullptr;  ///< of 256 luxels
-    std::uint32_t block_count = 0;
-    P vpls;
-    VplBatch batch;
-    QuantisedBvhView<S> bvh;
-    float sigma = 0.0f;              ///< of the scene, metres, as for the records
-    std::uint32_t most_nodes = 0;    ///< visited by a shaft
-    std::uint32_t* words = nullptr;  ///< as VisibilityWords
-    WorkQueue<OpenPair> open;        ///< blocks; has room for all
+    std::uint32_t block_count = 0;          ///< records
+    P vpls;                                 ///< all, not those of the batch alone
+    VplBatch batch;                         ///< whose pairs are decided
+    QuantisedBvhView<S> bvh;                ///< of the scene
+    float sigma = 0.0f;                     ///< of the scene, metres, as for the records
+    std::uint32_t most_nodes = 0;           ///< visited by a shaft
+    std::uint32_t* words = nullptr;         ///< as VisibilityWords
+    WorkQueue<OpenPair> open;               ///< blocks; has room for all
 
     /// Groups that cover all pairs.
     [[nodiscard]] static std::uint32_t groups(std::uint32_t blocks, VplBatch batch) {
         return (blocks + LaneGroup::width - 1) / LaneGroup::width * batch.count;
     }
 
+    /// Group `i` < groups(): VPL batch.first + i % batch.count and the 32 blocks from
+    /// 32 (i / batch.count) on.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
         const VplIndex j = batch.first + i % batch.count;
         const std::uint32_t first = i / batch.count * LaneGroup::width;

@@ -12,25 +12,28 @@ namespace mir {
 template <Space S, VplSet P>
 struct ClusterLists {
     static constexpr std::uint32_t most_triangles = 192;  ///< of a pair
+    /// Partial triangles that are kept until luxels are asked; more are asked about in turns.
     static constexpr std::uint32_t most_forms = 2 * LaneGroup::width;
+    /// As BlockShafts::resident_blocks.
     static constexpr std::uint32_t resident_blocks = 10;
 
     /// What a group works in.
     struct Workspace {
-        SegmentForms forms[most_forms];  ///< of triangles that are partial
-        std::uint32_t triangles[most_triangles];
+        SegmentForms forms[most_forms];           ///< of triangles that are partial
+        std::uint32_t triangles[most_triangles];  ///< of a pair, by place in the hierarchy
     };
 
-    SoaView<const Hit> hits;
+    SoaView<const Hit> hits;                  ///< in cluster order
     const ClusterRecord* clusters = nullptr;  ///< of 32 luxels
-    P vpls;
-    WideBvhView<S> bvh;
-    float sigma = 0.0f;              ///< of the scene, metres, as for the records
-    std::uint32_t* words = nullptr;  ///< as VisibilityWords
-    WorkQueue<ListedPair> listed;    ///< to decide
-    const MetLeaves* pool = nullptr;
-    WorkQueue<OpenPair> open;  ///< left to single segments; has room for all
+    P vpls;                                   ///< those of the words
+    WideBvhView<S> bvh;                       ///< of the scene
+    float sigma = 0.0f;                       ///< of the scene, metres, as for the records
+    std::uint32_t* words = nullptr;           ///< as VisibilityWords
+    WorkQueue<ListedPair> listed;             ///< to decide
+    const MetLeaves* pool = nullptr;          ///< leaves that `listed` refers to: LeafPool::leaves
+    WorkQueue<OpenPair> open;                 ///< left to single segments; has room for all
 
+    /// Takes pairs from `listed` until none is left: any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace& space) const {
         const std::uint32_t count = listed.size();
         std::uint32_t next = listed.take(group, 1);

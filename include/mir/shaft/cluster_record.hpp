@@ -18,9 +18,9 @@ inline constexpr std::uint32_t block_luxels = 256;  ///< of a block
 struct alignas(16) ClusterRecord {
     AffineRow front{0, 0, 0, 1};  ///< at least 2 sigma at every luxel, up to rounding; metres
     Vec3 low{0};                  ///< of the luxels' box grown by sigma, metres
-    Vec3 high{0};
-    std::uint32_t luxels = 0;  ///< that are not empty; the box says nothing when there are none
-    std::uint32_t unused = 0;  ///< so that the third word is written whole
+    Vec3 high{0};                 ///< of the same box
+    std::uint32_t luxels = 0;     ///< that are not empty; the box says nothing when there are none
+    std::uint32_t unused = 0;     ///< so that the third word is written whole
 };
 
 /// True when the proofs of docs/shafts.md hold for the cluster's luxels: segments to others may be
@@ -106,11 +106,12 @@ MIR_HD inline float least_at(AffineRow row, const SoaView<const Hit>& hits, std:
 /// One run of luxels, one record: kernel over all clusters of one size. Luxels beyond the last one
 /// are padding, that is empty, and are there to be read.
 struct ClusterRecords {
-    SoaView<const Hit> hits;  ///< in cluster order
-    std::uint32_t run = 32;   ///< luxels of a cluster
-    float sigma = 0.0f;       ///< of the scene, metres
-    ClusterRecord* records = nullptr;
+    SoaView<const Hit> hits;           ///< in cluster order
+    std::uint32_t run = 32;            ///< luxels of a cluster
+    float sigma = 0.0f;                ///< of the scene, metres
+    ClusterRecord* records = nullptr;  ///< one for each cluster
 
+    /// Cluster `i`: luxels i run to i run + run - 1.
     MIR_HD void operator()(std::uint32_t i) const {
         records[i] = cluster_record(hits, i * run, run, sigma);
     }

@@ -7,8 +7,8 @@ namespace mir {
 
 /// Memory for the leaves that shafts meet.
 struct LeafPool {
-    MetLeaves* leaves = nullptr;
-    std::uint32_t capacity = 0;
+    MetLeaves* leaves = nullptr;    ///< `capacity` of them
+    std::uint32_t capacity = 0;     ///< leaves that there is room for
     std::uint32_t* used = nullptr;  ///< starts at 0
 };
 
@@ -18,26 +18,30 @@ struct LeafPool {
 /// which there is no room without.
 template <Space S, VplSet P>
 struct ClusterShafts {
+    /// As BlockShafts::resident_blocks.
     static constexpr std::uint32_t resident_blocks = 6;
+    /// Words of visibility of a block and a VPL.
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
+    /// Blocks that a group takes together, a cluster per lane.
     static constexpr std::uint32_t blocks_at_once = LaneGroup::width / block_words;
 
     /// What a group works in.
     struct Workspace {
-        LeafColumns<32> leaves;
+        LeafColumns<32> leaves;  ///< that the lanes' shafts meet
     };
 
     const ClusterRecord* clusters = nullptr;  ///< of 32 luxels
-    P vpls;
-    QuantisedBvhView<S> bvh;
-    float sigma = 0.0f;                    ///< of the scene, metres, as for the records
-    std::uint32_t most_nodes = 0;          ///< visited by a shaft
-    const std::uint32_t* words = nullptr;  ///< as VisibilityWords
-    WorkQueue<OpenPair> blocks;            ///< to decide
-    WorkQueue<ListedPair> listed;
-    LeafPool pool;
-    WorkQueue<OpenPair> open;  ///< clusters, left to single segments; has room for all
+    P vpls;                                   ///< those of the words
+    QuantisedBvhView<S> bvh;                  ///< of the scene
+    float sigma = 0.0f;                       ///< of the scene, metres, as for the records
+    std::uint32_t most_nodes = 0;             ///< visited by a shaft
+    const std::uint32_t* words = nullptr;     ///< as VisibilityWords
+    WorkQueue<OpenPair> blocks;               ///< to decide
+    WorkQueue<ListedPair> listed;  ///< clusters with all leaves of their shafts; may run full
+    LeafPool pool;                 ///< for the leaves of `listed`; may run full
+    WorkQueue<OpenPair> open;      ///< clusters, left to single segments; has room for all
 
+    /// Takes pairs from `blocks` until none is left: any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace& space) const {
         const std::uint32_t count = blocks.size();
         for (std::uint32_t first = blocks.take(group, blocks_at_once); first < count;

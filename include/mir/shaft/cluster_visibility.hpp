@@ -14,12 +14,13 @@ namespace mir {
 /// mir/accel/ do. Thread-safe; both must outlive it.
 template <Visibility V>
 struct ClusterVisibility {
-    static constexpr Space space = V::space;
+    static constexpr Space space = V::space;  ///< of hierarchy and engine
 
-    QuantisedBvhView<V::space> bvh;
-    float sigma = 0.0f;  ///< of the scene (accept_box.hpp), metres
-    V segments;
+    QuantisedBvhView<V::space> bvh;  ///< of all triangles, for shafts
+    float sigma = 0.0f;              ///< of the scene (accept_box.hpp), metres
+    V segments;                      ///< the engine
 
+    /// What the engine says; no shaft is asked.
     [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return segments.visible(a, b); }
 };
 

@@ -14,16 +14,17 @@ namespace mir {
 /// clusters each, a luxel of each per lane; VPLs are read 32 at a time.
 template <VplSet P>
 struct FacingPass {
+    /// Clusters of a group, and so words for each VPL.
     static constexpr std::uint32_t words_at_once = 4;
 
     /// What a group works in: VPLs.
     struct Workspace {
-        AffineRow positions[LaneGroup::width];
-        AffineRow normals[LaneGroup::width];
+        AffineRow positions[LaneGroup::width];  ///< of 32 VPLs, metres; w is not used
+        AffineRow normals[LaneGroup::width];    ///< of the same; w is not used
     };
 
-    SoaView<const Hit> hits;  ///< a multiple of 128
-    P vpls;
+    SoaView<const Hit> hits;         ///< a multiple of 128
+    P vpls;                          ///< a word of each cluster for each
     std::uint32_t* words = nullptr;  ///< as VisibilityWords; all are written
 
     /// Groups that cover all luxels.
@@ -31,6 +32,7 @@ struct FacingPass {
         return luxels / (cluster_luxels * words_at_once);
     }
 
+    /// Clusters 4 i to 4 i + 3 and all VPLs.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
         Words<Hit> luxels;
         for (std::uint32_t w = 0; w < words_at_once; ++w)

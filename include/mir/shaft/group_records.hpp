@@ -15,11 +15,12 @@ struct GroupRecords {
     /// Groups need no memory.
     struct Workspace {};
 
-    SoaView<const Hit> hits;
+    SoaView<const Hit> hits;             ///< in cluster order
     std::uint32_t run = cluster_luxels;  ///< a multiple of 32
     float sigma = 0.0f;                  ///< of the scene, metres
-    ClusterRecord* records = nullptr;
+    ClusterRecord* records = nullptr;    ///< one for each run
 
+    /// Run `i`: luxels i run to i run + run - 1.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace&) const {
         const detail::ClusterSum sum = sum_of(group, i * run);
         ClusterRecord cluster;

@@ -11,14 +11,17 @@ namespace mir {
 /// Leaves of one node of a wide hierarchy, in one word: the node and a bit for each slot. Empty
 /// slots may be among them.
 struct MetLeaves {
-    static constexpr std::uint32_t most_nodes = 1u << 24;
+    static constexpr std::uint32_t most_nodes = 1u << 24;  ///< nodes with larger numbers do not fit
 
-    std::uint32_t bits = 0;
+    std::uint32_t bits = 0;  ///< number of the node, then a bit for each of eight slots
 
+    /// Leaves of node `node` < most_nodes in the slots whose bits are set.
     [[nodiscard]] MIR_HD static MetLeaves of(std::uint32_t node, std::uint32_t slots) {
         return {node << WideNode::width | slots};
     }
+    /// Number of the node.
     [[nodiscard]] MIR_HD std::uint32_t node() const { return bits >> WideNode::width; }
+    /// Bit k: slot k is among them.
     [[nodiscard]] MIR_HD std::uint32_t slots() const {
         return bits & ((1u << WideNode::width) - 1u);
     }
@@ -33,9 +36,9 @@ static_assert(WideNode::width == 8);
 /// Leaves that the shafts of a group's lanes meet, a column per lane.
 template <std::uint32_t Capacity>
 struct LeafColumns {
-    static constexpr std::uint32_t capacity = Capacity;
+    static constexpr std::uint32_t capacity = Capacity;  ///< nodes of a column
 
-    MetLeaves met[Capacity][LaneGroup::width];
+    MetLeaves met[Capacity][LaneGroup::width];  ///< met[k][lane]: the k-th node of that lane
 };
 
 /// How far the search of one lane has come.
@@ -49,17 +52,19 @@ enum class LeafSearchState : std::uint8_t {
 /// A lane's walk of its shaft through a wide hierarchy, a node per step. Leaves are listed without
 /// a look at their triangles: lanes that test triangles in between lose step.
 struct LeafSearch {
-    LeafSearchState state;
+    LeafSearchState state;  ///< begin() sets it
     std::uint32_t listed;   ///< nodes with leaves that the shaft meets
     std::uint32_t visited;  ///< nodes
-    std::uint32_t node;
-    std::uint32_t waiting;
-    detail::WaitingSlots stack[WideBvhOptions::depth_limit];
+    std::uint32_t node;     ///< visited next
+    std::uint32_t waiting;  ///< nodes on the stack
+    detail::WaitingSlots stack[WideBvhOptions::depth_limit];  ///< of the way down
 
+    /// Starts at the root, or does nothing where `on` is false. Before it no member has a value.
     MIR_HD void begin(bool on) {
         state = on ? LeafSearchState::running : LeafSearchState::off;
         listed = visited = waiting = node = 0;
     }
+    /// True while nodes are left and there were not too many.
     [[nodiscard]] MIR_HD bool is_running() const { return state == LeafSearchState::running; }
 };
 

@@ -39,8 +39,8 @@ struct Pyramid {
 /// sigma for the plane and of sigma (1 + |u| + |v| at the apex + gradients times lengths) for the
 /// edges. docs/shafts.md derives 1.31 and 3.69 of them.
 struct OcclusionMargins {
-    static constexpr float plane = 2.0f;
-    static constexpr float edge = 4.0f;
+    static constexpr float plane = 2.0f;  ///< of the distance from the plane
+    static constexpr float edge = 4.0f;   ///< of U, V and W
 };
 
 namespace detail {

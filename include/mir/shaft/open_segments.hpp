@@ -16,12 +16,13 @@ struct OpenSegments {
     /// Groups need no memory.
     struct Workspace {};
 
-    SoaView<const Hit> hits;
-    P vpls;
-    V visibility;
+    SoaView<const Hit> hits;         ///< in cluster order
+    P vpls;                          ///< those of the words
+    V visibility;                    ///< asked VPL first, where both face each other
     std::uint32_t* words = nullptr;  ///< as VisibilityWords
     WorkQueue<OpenPair> open;        ///< clusters
 
+    /// Takes pairs from `open` until none is left: any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace&) const {
         const std::uint32_t count = open.size();
         for (std::uint32_t at = open.take(group, 1); at < count; at = open.take(group, 1))

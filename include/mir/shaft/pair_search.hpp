@@ -20,11 +20,12 @@ enum class PairState : std::uint8_t {
 /// Source: Haines and Wallace, "Shaft culling for efficient ray-traced radiosity", Eurographics
 /// Workshop on Rendering 1991.
 struct CandidateList {
-    static constexpr std::uint32_t capacity = 64;
+    static constexpr std::uint32_t capacity = 64;  ///< triangles at most
 
-    std::uint32_t triangle[capacity];
-    std::uint32_t size = 0;
+    std::uint32_t triangle[capacity];  ///< the first `size` have a value
+    std::uint32_t size = 0;            ///< triangles listed
 
+    /// Lists one more. There must be room: not checked.
     MIR_HD void add(std::uint32_t t) { triangle[size++] = t; }
 };
 

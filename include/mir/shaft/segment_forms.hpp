@@ -12,13 +12,13 @@ namespace mir {
 /// names: occlusion.hpp. Aligned so that the device moves it in four words, and without defaults,
 /// which would be written for every triangle that is tested.
 struct alignas(16) SegmentForms {
-    AffineRow beyond;  ///< s': distance beyond the plane as seen from the apex, metres
-    AffineRow u;       ///< U and V, metres
-    AffineRow v;
-    float depth;   ///< S: distance of the apex from the plane, metres
-    float margin;  ///< of U, V and W, metres
-    std::uint32_t triangle;
-    std::uint32_t unused;  ///< so that the fourth word is written whole
+    AffineRow beyond;        ///< s': distance beyond the plane as seen from the apex, metres
+    AffineRow u;             ///< U, metres
+    AffineRow v;             ///< V, metres
+    float depth;             ///< S: distance of the apex from the plane, metres
+    float margin;            ///< of U, V and W, metres
+    std::uint32_t triangle;  ///< place in the hierarchy, for hits_segment(); the caller sets it
+    std::uint32_t unused;    ///< so that the fourth word is written whole
 
     /// Of a triangle of which nothing is sure.
     [[nodiscard]] MIR_HD static SegmentForms unsure() {

@@ -21,8 +21,8 @@ struct alignas(16) Shaft {
 /// What rounding may add to a share t when planes are single precision numbers: differences,
 /// reciprocals and products round to 5 units of 2^-24 of t in all; the rest is for underflow.
 struct FloatPlaneSlack {
-    static constexpr float relative = 1.00001f;
-    static constexpr float absolute = 1e-7f;
+    static constexpr float relative = 1.00001f;  ///< factor of t
+    static constexpr float absolute = 1e-7f;     ///< added to that
 };
 
 namespace detail {

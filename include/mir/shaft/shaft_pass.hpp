@@ -16,7 +16,9 @@ struct ShaftLimits {
 
 /// Nobody is told what became of pairs.
 struct UnwatchedPairs {
+    /// Of 256 luxels and a VPL.
     MIR_HD void block(PairState) const {}
+    /// Of 32 luxels and a VPL.
     MIR_HD void cluster(PairState) const {}
 };
 
@@ -32,18 +34,20 @@ struct UnwatchedPairs {
 /// that are left or through the hierarchy.
 template <Space S, VplSet P, class Watch = UnwatchedPairs>
 struct ShaftPass {
+    /// Words of visibility of a block and a VPL.
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
 
     SoaView<const Hit> hits;  ///< in cluster order, padded to whole blocks with empty luxels
     const ClusterRecord* blocks = nullptr;    ///< of 256 luxels
     const ClusterRecord* clusters = nullptr;  ///< of 32 luxels
-    P vpls;
-    WideBvhView<S> bvh;
-    float sigma = 0.0f;  ///< of the scene, metres, as for the records
-    ShaftLimits limits;
-    std::uint32_t* words = nullptr;
-    Watch watch;
+    P vpls;                                   ///< all of the set
+    WideBvhView<S> bvh;                       ///< of the scene
+    float sigma = 0.0f;                       ///< of the scene, metres, as for the records
+    ShaftLimits limits;              ///< of the searches; change how long they take and no bit
+    std::uint32_t* words = nullptr;  ///< as VisibilityWords; all are written
+    Watch watch;                     ///< told what became of pairs; called through const
 
+    /// Pair `i`: block i / vpls.size() and VPL i % vpls.size().
     MIR_HD void operator()(std::uint32_t i) const {
         const std::uint32_t block = i / vpls.size();
         const VplIndex j = i % vpls.size();

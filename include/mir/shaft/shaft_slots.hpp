@@ -13,6 +13,7 @@ namespace mir {
 /// by the signs of rates is decided here, once for the whole walk. On the host.
 class SlotShaft {
  public:
+    /// Of a shaft, which need not outlive it.
     explicit SlotShaft(const Shaft& shaft) : shaft_(shaft) {
         for (int axis = 0; axis < 3; ++axis) {
             const bool leaves_high = shaft.leaves[axis] > 0.0f;

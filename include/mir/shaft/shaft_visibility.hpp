@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/packet_visibility.hpp"
 #include "mir/shaft/block_cascade.hpp"
 
 namespace mir {
@@ -10,27 +11,33 @@ namespace mir {
 /// hits_segment() asked of every triangle. A shaft is decided by whole triangles, so where some are
 /// masked blocks are asked by packets. The hierarchy must outlive it. Thread-safe.
 struct ShaftVisibility {
-    static constexpr Space space = Space::host;
+    static constexpr Space space = Space::host;  ///< of the hierarchy
 
     /// What is known of the luxels of a block.
     struct Block {
-        BlockRecords records;
-        InstructionSet instructions;
+        BlockRecords records;         ///< positions and boxes
+        InstructionSet instructions;  ///< that visible_block() may use
     };
 
-    WideBvhView<Space::host> bvh;
+    WideBvhView<Space::host> bvh;          ///< of the scene
     const TriangleLanes* lanes = nullptr;  ///< make_triangle_lanes() of its triangles; not read
                                            ///< where some are masked
-    CascadeLimits limits;
-    AlphaMaskView<Space::host> mask{};
+    CascadeLimits limits;                  ///< of the searches of shafts; change no bit
+    AlphaMaskView<Space::host> mask{};     ///< which points of triangles are there
 
+    /// True when no triangle hides the points (metres) from each other: !is_hidden(). The same
+    /// bit when they change places.
     [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b, mask); }
 
+    /// As PacketVisibility says, bit k being visible(origin, point k); by the widest registers of
+    /// the processor.
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const {
-        return visible_in_packet(bvh, origin, points, active, mask);
+        return detail::ask_packet(bvh, origin, points, active, mask);
     }
 
+    /// What visible_block() wants to know of 256 luxels. A copy: nothing of `luxels` is kept.
+    /// visible_block() runs by instructions of `set`.
     [[nodiscard]] Block block(const SoaView<const Hit>& luxels, InstructionSet set) const {
         return {BlockRecords(luxels, bvh.reach, sigma_of_reach(bvh.reach)), set};
     }

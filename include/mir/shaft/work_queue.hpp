@@ -9,11 +9,12 @@ namespace mir {
 /// changes from run to run, so nothing may depend on it.
 template <class T>
 struct WorkQueue {
-    T* items = nullptr;
-    std::uint32_t capacity = 0;
+    T* items = nullptr;              ///< the first size() are there
+    std::uint32_t capacity = 0;      ///< items that there is room for
     std::uint32_t* count = nullptr;  ///< that were to be added; starts at 0
     std::uint32_t* taken = nullptr;  ///< by the kernel that empties it; starts at 0
 
+    /// Items in the queue, once the kernel that adds to it has ended.
     [[nodiscard]] MIR_HD std::uint32_t size() const {
         return *count < capacity ? *count : capacity;
     }
@@ -42,12 +43,12 @@ struct WorkQueue {
 /// A run of luxels and a VPL whose visibility is still to be decided.
 struct alignas(8) OpenPair {
     std::uint32_t cluster = 0;  ///< number of the run, of 32 or of 256 luxels as the kernel says
-    std::uint32_t vpl = 0;
+    std::uint32_t vpl = 0;      ///< its place in the set
 };
 
 /// A pair of 32 luxels and a VPL with all leaves that its shaft meets, in a pool.
 struct alignas(16) ListedPair {
-    OpenPair pair;
+    OpenPair pair;            ///< of a cluster of 32 luxels
     std::uint32_t first = 0;  ///< place in the pool
     std::uint32_t nodes = 0;  ///< with leaves
 };

@@ -13,9 +13,9 @@ namespace mir::validation {
 
 /// Where the line origin + t direction meets the plane of a triangle.
 struct LineHit {
-    double t = 0.0;
-    double u = 0.0;
-    double v = 0.0;
+    double t = 0.0;  ///< place on the line, in lengths of `direction`
+    double u = 0.0;  ///< weight of the triangle's second vertex
+    double v = 0.0;  ///< weight of its third
 
     /// How far inside the triangle the point lies, in barycentric units; negative outside.
     [[nodiscard]] double inside() const { return std::min(std::min(u, v), 1.0 - u - v); }
@@ -25,8 +25,10 @@ struct LineHit {
 /// Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 2(1), 1997.
 class Referee {
  public:
+    /// A vector of doubles: products of coordinates round far below single precision.
     using Double3 = mir::detail::Double3;
 
+    /// The geometry must outlive it. Masks of its materials are not looked at.
     explicit Referee(const WorldGeometry& geometry) : geometry_(&geometry) {}
 
     /// Answer to "is a hidden from b", with the margin by which it holds.
@@ -36,6 +38,7 @@ class Referee {
         /// every triangle is missed by at least that much.
         double margin = -std::numeric_limits<double>::infinity();
 
+        /// True when nothing lies on the segment.
         [[nodiscard]] bool visible() const { return margin < 0.0; }
         /// Single precision cannot be expected to know.
         [[nodiscard]] bool doubtful(double below) const { return std::fabs(margin) < below; }
@@ -59,14 +62,15 @@ class Referee {
 
     /// The first triangle along a ray.
     struct Closest {
-        std::uint32_t triangle = none;
-        LineHit hit;
+        std::uint32_t triangle = none;  ///< index into WorldGeometry; none: the ray meets nothing
+        LineHit hit;                    ///< where it is met; t is in metres
         /// Distance in barycentric units from the closest decision that could have gone otherwise:
         /// an edge of this triangle or of one before it.
         double margin = std::numeric_limits<double>::infinity();
         double runner_up = std::numeric_limits<double>::infinity();  ///< t of the second triangle
     };
 
+    /// Asks all triangles, in their order; of equally near ones the first is taken.
     [[nodiscard]] Closest closest(const Ray& ray) const {
         Closest best;
         best.hit.t = std::numeric_limits<double>::infinity();
@@ -88,7 +92,7 @@ class Referee {
         return best;
     }
 
-    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;  ///< no triangle
 
     /// Where a line meets the plane of triangle `i`; nothing when they are parallel.
     [[nodiscard]] std::optional<LineHit> line(std::uint32_t i, Double3 origin,

@@ -36,7 +36,9 @@ class Report {
 
     /// True when something was checked and every axiom held.
     [[nodiscard]] bool passed() const { return checks_ > 0 && findings_.empty(); }
+    /// Checks made, those that held included.
     [[nodiscard]] std::size_t checks() const { return checks_; }
+    /// What broke, in the order of the checks.
     [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
     /// A line per finding, "axiom: found"; empty when there is none.

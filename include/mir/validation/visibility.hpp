@@ -14,8 +14,8 @@ namespace mir::validation {
 
 /// Two points that are asked about.
 struct Segment {
-    Vec3 a{0};
-    Vec3 b{0};
+    Vec3 a{0};  ///< one end, metres; asked first
+    Vec3 b{0};  ///< the other end, metres
 };
 
 /// Barycentric margin below which single precision may see a segment either way.

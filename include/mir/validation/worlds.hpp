@@ -12,9 +12,10 @@ namespace mir::validation {
 
 /// A scene together with its triangles in world space.
 struct World {
-    Scene scene;
-    WorldGeometry geometry;
+    Scene scene;             ///< what `geometry` was made of
+    WorldGeometry geometry;  ///< its triangles
 
+    /// @throws What WorldGeometry throws of the scene.
     explicit World(Scene s) : scene(std::move(s)), geometry(scene) {}
 };
 

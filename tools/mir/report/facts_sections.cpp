@@ -27,9 +27,18 @@ void add_vpl_settings(FactRows& rows, const mir::RenderSettings& s,
                       const mir::RenderStatistics& statistics) {
     rows.push_back({"VPLs", std::to_string(statistics.vpls) + " placed, " + std::to_string(s.vpls) +
                                 " wanted"});
-    rows.push_back({"direct light",
-                    s.direct == mir::DirectLight::vpl ? "by VPLs on lamps" : "by lamp samples"});
-    rows.push_back({"bound", bound_text(s, statistics)});
+    rows.push_back({"direct light", s.direct == mir::DirectLight::vpl
+                                        ? "by VPLs on lamps and at infinity"
+                                        : "by lamp samples"});
+    if (s.vsl.enabled)
+        rows.push_back({"spheres", "mean radius " + number(statistics.vsl_radius) + " m"});
+    else
+        rows.push_back({"bound", bound_text(s, statistics)});
+    if (s.glossy.enabled)
+        rows.push_back({"lobes of VPLs", "kept down to roughness " +
+                                             number(double(s.glossy.least_roughness)) + ", " +
+                                             percent(double(statistics.widened_share)) +
+                                             " of the VPLs' light through widened ones"});
     rows.push_back({"normalisation", statistics.normalisation});
     if (s.sampler == mir::SamplerKind::metropolis)
         rows.push_back({"stride", std::to_string(s.metropolis.stride) + " mutations"});

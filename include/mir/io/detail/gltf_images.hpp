@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/io/detail/gltf_check.hpp"
-#include "mir/io/detail/image_size.hpp"
+#include "mir/io/detail/image_decoder.hpp"
 #include "mir/io/detail/read_file.hpp"
 #include "mir/io/detail/text_number.hpp"
 #include "mir/scene/scene.hpp"
@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -49,9 +48,9 @@ class GltfImages {
         : model_(model),
           folder_(std::move(folder)),
           budget_(budget),
-          limits_(limits),
           scene_(scene),
-          report_(report) {}
+          report_(report),
+          decoder_(limits, report) {}
 
     /// Index into Scene::images; nothing, and counted once, when the file is missing or neither PNG
     /// nor JPEG.
@@ -72,11 +71,10 @@ class GltfImages {
     const tinygltf::Model& model_;
     std::filesystem::path folder_;
     FileBudget& budget_;
-    const Limits& limits_;
     Scene& scene_;
     SceneReport& report_;
+    ImageDecoder decoder_;
     std::map<std::size_t, std::optional<std::uint32_t>> indices_;
-    std::uint64_t texels_ = 0;
 };
 
 inline std::optional<std::uint32_t> GltfImages::read(std::size_t at) {
@@ -102,27 +100,10 @@ inline std::optional<std::uint32_t> GltfImages::read(std::size_t at) {
 inline std::optional<std::uint32_t> GltfImages::decode(std::span<const unsigned char> bytes,
                                                        const tinygltf::Image& from,
                                                        const std::string& place) {
-    if (!is_png(bytes) && !is_jpeg(bytes)) {
-        ++report_.ignored["image that is neither PNG nor JPEG"];
-        return std::nullopt;
-    }
-    const std::uint64_t texels = checked_texels(bytes, place);
-    check_limit(texels_ += texels, limits_.pixels, "pixels");
-    tinygltf::Image decoded;
-    std::string error;
-    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
-        !tinygltf::LoadImageData(&decoded, 0, &error, nullptr, 0, 0, bytes.data(),
-                                 static_cast<int>(bytes.size()), nullptr) ||
-        decoded.component != 4 || (decoded.bits != 8 && decoded.bits != 16))
-        gltf_fail(place, "it cannot be decoded (" +
-                             (error.empty() ? std::string("unknown reason") : "broken data") +
-                             "); repair or export the image again");
-    TextureImage to;
-    to.name = from.name.empty() ? from.uri : from.name;
-    to.width = static_cast<std::uint32_t>(decoded.width);
-    to.height = static_cast<std::uint32_t>(decoded.height);
-    to.texels = texels_of(decoded.image, decoded.bits == 16 ? 2 : 1);
-    scene_.images.push_back(std::move(to));
+    std::optional<TextureImage> image =
+        decoder_.decode(bytes, from.name.empty() ? from.uri : from.name, place);
+    if (!image) return std::nullopt;
+    scene_.images.push_back(std::move(*image));
     return static_cast<std::uint32_t>(scene_.images.size() - 1);
 }
 

@@ -31,15 +31,34 @@ struct ImageSize {
     std::uint64_t height = 0;
 };
 
+/// Four bytes of a PNG image, the largest first.
+inline std::uint64_t png_number(ByteSpan bytes, std::size_t at) {
+    std::uint64_t n = 0;
+    for (std::size_t i = 0; i < 4; ++i) n = n << 8 | bytes[at + i];
+    return n;
+}
+
 /// Source: W3C, PNG specification, 11.2.2 (IHDR comes first).
 inline ImageSize png_size(ByteSpan bytes) {
-    const auto number = [&](std::size_t at) {
-        std::uint64_t n = 0;
-        for (std::size_t i = 0; i < 4; ++i) n = n << 8 | bytes[at + i];
-        return n;
-    };
     if (bytes.size() < 24) return {};
-    return {number(16), number(20)};
+    return {png_number(bytes, 16), png_number(bytes, 20)};
+}
+
+/// Refuses a PNG image of which a chunk announces more bytes than there are: the decoder takes
+/// memory for them before it looks. Source: W3C, PNG specification, 5.3 (chunks).
+/// @throws Error(invalid_input)
+inline void check_png_chunks(ByteSpan bytes, const std::string& place) {
+    constexpr std::size_t mark = 8;
+    constexpr std::size_t around = 12;  // length, type and checksum
+    for (std::size_t at = mark; at + around <= bytes.size();) {
+        const std::uint64_t length = png_number(bytes, at);
+        if (length > bytes.size() - at - around)
+            fail_at(place, "it is no image (its chunk at byte " + std::to_string(at) +
+                               " announces " + std::to_string(length) + " bytes, of which " +
+                               std::to_string(bytes.size() - at - around) +
+                               " are there); repair or export the image again");
+        at += around + static_cast<std::size_t>(length);
+    }
 }
 
 /// Source: ITU-T T.81, annex B: segments up to the first start of frame.
@@ -77,6 +96,7 @@ inline std::uint64_t checked_texels(ByteSpan bytes, const std::string& place) {
         fail_at(place, "it is no image (its " + std::to_string(bytes.size()) + " bytes announce " +
                            std::to_string(size.width) + " x " + std::to_string(size.height) +
                            " pixels); repair or export the image again");
+    if (is_png(bytes)) check_png_chunks(bytes, place);
     return size.width * size.height;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/io/detail/obj_text.hpp"
+#include "mir/io/detail/obj_textures.hpp"
 #include "mir/io/detail/read_file.hpp"
 #include "mir/io/detail/text_encoding.hpp"
 #include "mir/scene/scene.hpp"
@@ -33,13 +34,14 @@ inline float roughness_of_phong(float exponent) {
 /// Reads the material libraries of one OBJ file through tinyobjloader and converts what they hold.
 class ObjMaterials : public tinyobj::MaterialReader {
  public:
-    ObjMaterials(const ObjText& text, std::filesystem::path folder, FileBudget& budget,
-                 Scene& scene, SceneReport& report)
+    ObjMaterials(const ObjText& text, const std::filesystem::path& folder, FileBudget& budget,
+                 const Limits& limits, Scene& scene, SceneReport& report)
         : text_(text),
-          folder_(std::move(folder)),
+          folder_(folder),
           budget_(budget),
           scene_(scene),
-          report_(report) {}
+          report_(report),
+          textures_(folder, budget, limits, scene, report) {}
 
     /// Called by tinyobjloader for the first name behind `mtllib`: reads all libraries named there,
     /// or the one whose name has blanks. True: no other names need to be tried.
@@ -57,6 +59,10 @@ class ObjMaterials : public tinyobj::MaterialReader {
 
  private:
     using Keys = std::set<std::string, std::less<>>;
+    /// What a material of the library says: its keywords, and the images among them that are read.
+    struct Given : Keys {
+        std::map<std::string, ObjTextureUse, std::less<>> images;
+    };
 
     [[nodiscard]] bool exists(const std::string& library) const {
         std::error_code failure;
@@ -67,6 +73,7 @@ class ObjMaterials : public tinyobj::MaterialReader {
     bool check_numbers(std::string_view keyword, std::string_view line, const std::string& place);
     [[nodiscard]] Material convert(const tinyobj::material_t& from, const std::string& library);
     void interface_of(const tinyobj::material_t& from, const Keys& given, Material& to);
+    void textures_of(const Given& given, Material& to);
     void note_unused(const tinyobj::material_t& from, const Keys& given);
     [[nodiscard]] Rgb factors(const float (&channels)[3], const char* what) {
         return {unit_factor(channels[0], what, place_, report_),
@@ -80,7 +87,8 @@ class ObjMaterials : public tinyobj::MaterialReader {
     Scene& scene_;
     SceneReport& report_;
     std::map<std::string, std::uint32_t> indices_;
-    std::map<std::string, Keys> given_;  ///< keywords of each material of the library
+    ObjTextures textures_;
+    std::map<std::string, Given> given_;  ///< by the names of the library's materials
     std::string place_;
 };
 
@@ -103,6 +111,7 @@ inline bool ObjMaterials::operator()(const std::string&, std::vector<tinyobj::ma
 inline void ObjMaterials::read(const std::string& library) {
     const std::string text = plain_lines(text_of(read_whole_file(folder_ / library, budget_)));
     given_.clear();
+    textures_.begin_library(library);
     std::istringstream stream(checked(text, library));
     std::map<std::string, int> by_name;
     std::vector<tinyobj::material_t> materials;
@@ -123,23 +132,26 @@ inline std::string ObjMaterials::checked(const std::string& text, const std::str
     std::istringstream stream(text);
     std::string kept;
     std::string line;
-    Keys* keys = nullptr;
+    Given* given = nullptr;
     for (std::size_t number = 1; std::getline(stream, line); ++number) {
         const std::string_view word = keyword_of(line);
         if (word.empty()) continue;
         const std::string_view rest = std::string_view(line).substr(
             static_cast<std::size_t>(word.data() - line.data()) + word.size());
         if (word == "newmtl") {
-            keys = &given_[trimmed(rest)];
+            given = &given_[trimmed(rest)];
             kept += line + '\n';
             continue;
         }
-        if (keys != nullptr) keys->emplace(word);
-        if (check_numbers(word, rest, library + ", line " + std::to_string(number)) ||
-            word == "illum")
-            kept += line + '\n';
-        // A colour texture changes what Kd is when it is not given; its options are not used.
-        if (word == "map_Kd") kept += "map_Kd x\n";
+        const std::string place = library + ", line " + std::to_string(number);
+        if (given != nullptr) {
+            given->emplace(word);
+            if (word == "map_Kd" || word == "map_Ke" || word == "map_d" || word == "norm") {
+                const std::string key(word);
+                given->images.try_emplace(key, read_texture_use(key, rest, place, report_));
+            }
+        }
+        if (check_numbers(word, rest, place) || word == "illum") kept += line + '\n';
     }
     return kept;
 }
@@ -171,12 +183,12 @@ inline Material ObjMaterials::convert(const tinyobj::material_t& from, const std
     Material to;
     to.name = trimmed(from.name);
     place_ = library + ", material '" + to.name + "'";
-    const Keys& given = given_[to.name];
-    to.base_color = given.contains("Kd") || given.contains("map_Kd") ? factors(from.diffuse, "Kd")
-                                                                     : Rgb{0.8f, 0.8f, 0.8f};
+    const Given& given = given_[to.name];
+    if (given.contains("Kd")) to.base_color = factors(from.diffuse, "Kd");
     to.emission = {checked_amount(from.emission[0], "Ke", place_),
                    checked_amount(from.emission[1], "Ke", place_),
                    checked_amount(from.emission[2], "Ke", place_)};
+    textures_of(given, to);
     interface_of(from, given, to);
     note_unused(from, given);
     return to;
@@ -202,10 +214,28 @@ inline void ObjMaterials::interface_of(const tinyobj::material_t& from, const Ke
     if (from.ior > 1.0f) to.ior = checked_float(from.ior, "Ni", place_);
 }
 
+/// Images multiply Kd and Ke, which are one where only the image is given.
+inline void ObjMaterials::textures_of(const Given& given, Material& to) {
+    const auto texture = [&](const char* key) {
+        const auto found = given.images.find(key);
+        return found == given.images.end() ? Texture{} : textures_.find(found->second);
+    };
+    MaterialTextures& t = to.textures;
+    t.base_color = texture("map_Kd");
+    if (const auto mask = given.images.find("map_d");
+        mask != given.images.end() && textures_.cut(t.base_color, mask->second))
+        to.alpha_cutoff = 0.5f;
+    if (t.base_color.is_set() && !given.contains("Kd")) to.base_color = {1.0f, 1.0f, 1.0f};
+    t.emission = texture("map_Ke");
+    if (t.emission.is_set() && !given.contains("Ke")) to.emission = {1.0f, 1.0f, 1.0f};
+    t.normal = texture("norm");
+    if (t.normal.is_set()) t.normal_scale = given.images.find("norm")->second.bump;
+}
+
 inline void ObjMaterials::note_unused(const tinyobj::material_t& from, const Keys& given) {
-    constexpr std::array<std::string_view, 16> read = {
-        "Ka",    "Kd", "Ks", "Ke", "Ns", "Ni",     "Pr",        "Pm",
-        "illum", "d",  "Tr", "Tf", "Kt", "newmtl", "sharpness", "map_Ka"};
+    constexpr std::array<std::string_view, 20> read = {
+        "Ka", "Kd", "Ks", "Ke",     "Ns",        "Ni",     "Pr",     "Pm",     "illum", "d",
+        "Tr", "Tf", "Kt", "newmtl", "sharpness", "map_Ka", "map_Kd", "map_Ke", "map_d", "norm"};
     for (const std::string& key : given)
         if (std::find(read.begin(), read.end(), key) == read.end())
             ++report_.ignored["MTL " + in_quotes(key)];

@@ -44,24 +44,29 @@ class ObjMeshes {
     void finish();
 
  private:
-    /// Vertex and normal, counted from zero; -1: no normal.
+    /// Counted from zero; -1: none.
     struct Corner {
         std::int64_t vertex = 0;
         std::int64_t normal = -1;
+        std::int64_t coordinate = -1;
         friend bool operator==(const Corner&, const Corner&) = default;
     };
     struct CornerHash {
         std::size_t operator()(const Corner& c) const {
-            return std::hash<std::int64_t>()(c.vertex * 1'000'003 + c.normal);
+            constexpr std::uint64_t prime = 1'000'003;
+            const auto word = [](std::int64_t n) { return static_cast<std::uint64_t>(n); };
+            return std::hash<std::uint64_t>()(
+                (word(c.coordinate) * prime + word(c.normal)) * prime + word(c.vertex));
         }
     };
     struct Part {
         Mesh mesh;
+        bool is_textured = false;  ///< others have no texture coordinates
         std::unordered_map<Corner, std::uint32_t, CornerHash> vertices;
     };
 
     [[nodiscard]] std::int64_t resolve(int index, std::size_t count, const char* what) const;
-    [[nodiscard]] Corner corner_of(const tinyobj::index_t& index) const;
+    [[nodiscard]] Corner corner_of(const tinyobj::index_t& index, const Part& part) const;
     Part& part();
     std::uint32_t vertex_of(Part& part, const Corner& corner);
     [[nodiscard]] std::uint32_t material();
@@ -96,14 +101,21 @@ inline std::int64_t ObjMeshes::resolve(int index, std::size_t count, const char*
     return at;
 }
 
-inline ObjMeshes::Corner ObjMeshes::corner_of(const tinyobj::index_t& index) const {
+inline ObjMeshes::Corner ObjMeshes::corner_of(const tinyobj::index_t& index,
+                                              const Part& part) const {
     Corner corner;
     corner.vertex = resolve(index.vertex_index, text_.positions().size(), "vertex");
     // Zero stands for "not given" here.
     if (index.normal_index != 0)
         corner.normal = resolve(index.normal_index, text_.normals().size(), "normal");
-    if (index.texcoord_index != 0)
-        (void)resolve(index.texcoord_index, text_.texture_coordinates(), "texture coordinate");
+    if (index.texcoord_index == 0) {
+        if (part.is_textured) ++report_.ignored["textured corner without texture coordinates"];
+        return corner;
+    }
+    const std::int64_t coordinate =
+        resolve(index.texcoord_index, text_.texture_coordinates().size(), "texture coordinate");
+    // Elsewhere corners that differ in them alone stay one vertex.
+    if (part.is_textured) corner.coordinate = coordinate;
     return corner;
 }
 
@@ -121,6 +133,9 @@ inline ObjMeshes::Part& ObjMeshes::part() {
         parts_.emplace_back();
         parts_.back().mesh.name = group_;
         parts_.back().mesh.material = material();
+        const MaterialTextures& t = scene_.materials[material()].textures;
+        parts_.back().is_textured =
+            t.base_color.is_set() || t.emission.is_set() || t.normal.is_set();
     }
     return *(part_ = &parts_[at->second]);
 }
@@ -137,6 +152,13 @@ inline std::uint32_t ObjMeshes::vertex_of(Part& part, const Corner& corner) {
         corner.normal < 0
             ? Vec3(0.0f)
             : unit_direction(text_.normals()[static_cast<std::size_t>(corner.normal)]));
+    // Rows of images count from the top here.
+    if (corner.coordinate >= 0) {
+        const Vec2 uv = text_.texture_coordinates()[static_cast<std::size_t>(corner.coordinate)];
+        mesh.texture_coordinates.emplace_back(uv.x, 1.0f - uv.y);
+    } else if (part.is_textured) {
+        mesh.texture_coordinates.emplace_back(0.0f);
+    }
     return next;
 }
 
@@ -149,7 +171,7 @@ inline void ObjMeshes::add_face(const tinyobj::index_t* corners, std::size_t cou
     face_.clear();
     outline_.clear();
     for (std::size_t i = 0; i < count; ++i) {
-        const Corner corner = corner_of(corners[i]);
+        const Corner corner = corner_of(corners[i], to);
         if (corner.normal < 0 && text_.is_smooth() && !counted_smooth_) {
             ++report_.ignored["smoothing groups without normals (shaded flat)"];
             counted_smooth_ = true;

@@ -30,7 +30,10 @@ class ObjText : public std::streambuf {
     /// Of the vertices, linear; all white when has_colors() is false.
     [[nodiscard]] const std::vector<Rgb>& colors() const { return colors_; }
     [[nodiscard]] bool has_colors() const { return has_colors_; }
-    [[nodiscard]] std::size_t texture_coordinates() const { return texture_coordinates_; }
+    /// (0, 0) is the lower left of an image, (1, 1) the upper right.
+    [[nodiscard]] const std::vector<Vec2>& texture_coordinates() const {
+        return texture_coordinates_;
+    }
 
     /// Names behind the last "mtllib".
     [[nodiscard]] const std::string& libraries() const { return libraries_; }
@@ -48,7 +51,9 @@ class ObjText : public std::streambuf {
     void vertex(std::string_view numbers);
     void normal(std::string_view numbers);
     void corners(std::string_view words) const;
-    std::size_t read(std::string_view line, const char* what, std::array<float, 8>& numbers);
+    void texture_coordinate(std::string_view numbers);
+    std::size_t read(std::string_view line, const char* what, std::array<float, 8>& numbers,
+                     std::size_t least = 3);
 
     std::string text_;
     const Limits& limits_;
@@ -57,7 +62,7 @@ class ObjText : public std::streambuf {
     std::vector<Rgb> colors_;
     std::vector<Vec3> normals_;
     bool has_colors_ = false;
-    std::size_t texture_coordinates_ = 0;
+    std::vector<Vec2> texture_coordinates_;
     std::size_t at_ = 0;
     std::size_t line_ = 0;
     std::string libraries_;
@@ -105,7 +110,7 @@ inline void ObjText::check(std::size_t begin, std::size_t end) {
         if (word == "f") return corners(rest);
         if (word == "v") vertex(rest);
         if (word == "vn") normal(rest);
-        if (word == "vt") ++texture_coordinates_;
+        if (word == "vt") texture_coordinate(rest);
         blank_from(0);
     } else if (is({"l", "p"})) {
         ignore(word == "l" ? "lines" : "points");
@@ -121,7 +126,7 @@ inline void ObjText::check(std::size_t begin, std::size_t end) {
 
 /// Numbers of a statement, eight at most; returns how many there are.
 inline std::size_t ObjText::read(std::string_view line, const char* what,
-                                 std::array<float, 8>& numbers) {
+                                 std::array<float, 8>& numbers, std::size_t least) {
     std::size_t count = 0;
     for_each_word(line, [&](std::string_view word) {
         if (count == numbers.size()) return;
@@ -132,9 +137,10 @@ inline std::size_t ObjText::read(std::string_view line, const char* what,
         if (!number->rest.empty()) ignore("characters behind a number");
         numbers[count++] = checked_float(number->value, what, place());
     });
-    if (count < 3)
+    if (count < least)
         fail_at(place(), std::string(what) + " has " + std::to_string(count) +
-                             " numbers instead of 3; repair or export the file again");
+                             " numbers instead of " + std::to_string(least) +
+                             "; repair or export the file again");
     return count;
 }
 
@@ -153,6 +159,13 @@ inline void ObjText::normal(std::string_view numbers) {
     std::array<float, 8> n{};
     (void)read(numbers, "a normal", n);
     normals_.emplace_back(n[0], n[1], n[2]);
+}
+
+inline void ObjText::texture_coordinate(std::string_view numbers) {
+    std::array<float, 8> n{};
+    (void)read(numbers, "a texture coordinate", n, 1);
+    check_limit(texture_coordinates_.size() + 1, limits_.vertices, "vertices");
+    texture_coordinates_.emplace_back(n[0], n[1]);
 }
 
 /// Every word has to be one to three whole numbers between slashes.

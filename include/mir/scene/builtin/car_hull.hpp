@@ -62,6 +62,7 @@ struct LowerHull {
 
 /// The windows' hull: narrower towards the roof, with raked ends.
 struct CabinHull {
+    /// As LowerHull: below 0 inside, above 0 outside.
     float operator()(Vec3 p) const {
         const float up = p.y - 0.9f;
         const float front = -0.88f + 1.55f * up;
@@ -78,10 +79,10 @@ struct CabinHull {
 /// surface has one coordinate `a` around the box (z along the side +x, then around the ends to the
 /// other side) and one coordinate `b` upwards (y up to the box' top, then over its edge).
 struct Core {
-    float half_width = 0.0f;
-    float front = 0.0f;  ///< z
-    float rear = 0.0f;   ///< z
-    float top = 0.0f;    ///< y
+    float half_width = 0.0f;  ///< x of the sides, metres
+    float front = 0.0f;       ///< z
+    float rear = 0.0f;        ///< z
+    float top = 0.0f;         ///< y
 
     static constexpr float turn = 0.4f;                ///< metres of `a` per radian at a corner
     static constexpr float roll = 0.3f;                ///< metres of `b` per radian at the top
@@ -89,6 +90,7 @@ struct Core {
 
     /// `a` in the middle of the nose or the tail.
     [[nodiscard]] float nose() const { return front - corner - half_width; }
+    /// The same at the other end.
     [[nodiscard]] float tail() const { return rear + corner + half_width; }
     /// `b` where a point is straight above the box.
     [[nodiscard]] float above() const { return top + 0.5f * pi * roll; }

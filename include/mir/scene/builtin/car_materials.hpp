@@ -7,12 +7,12 @@ namespace mir::builtin {
 
 /// Indices of what a car is made of.
 struct CarMaterials {
-    std::uint32_t paint = 0;
-    std::uint32_t trim = 0;  ///< dark plastic
-    std::uint32_t rubber = 0;
-    std::uint32_t metal = 0;  ///< bright and brushed: rims, grille, pipes
-    std::uint32_t fabric = 0;
-    std::uint32_t tail = 0;  ///< tail lamps, switched off
+    std::uint32_t paint = 0;   ///< of the bodywork
+    std::uint32_t trim = 0;    ///< dark plastic
+    std::uint32_t rubber = 0;  ///< of the tyres
+    std::uint32_t metal = 0;   ///< bright and brushed: rims, grille, pipes
+    std::uint32_t fabric = 0;  ///< of seats and linings
+    std::uint32_t tail = 0;    ///< tail lamps, switched off
 };
 
 /// Opaque material under an interface of the given roughness.

@@ -11,8 +11,8 @@ namespace mir::builtin {
 
 /// A line across a panel, in the coordinates (a, b) of a Core or (x, z) of a deck.
 struct Rib {
-    Vec2 low{0};
-    Vec2 high{0};
+    Vec2 low{0};   ///< lower end
+    Vec2 high{0};  ///< upper end
 };
 
 /// Grid of parameters between ribs, cells about `cell` metres wide. A loop ends where it starts.
@@ -45,10 +45,10 @@ inline SurfaceGrid parameters(std::span<const Rib> ribs, float cell, bool loop) 
 
 /// How a panel is cut: size of its cells, thickness and depth below the hull, metres.
 struct Cut {
-    float cell = 0.0226f;
-    float thickness = 0.012f;
-    float inset = 0.0f;
-    bool loop = false;
+    float cell = 0.0226f;      ///< width of a cell, metres
+    float thickness = 0.012f;  ///< metres
+    float inset = 0.0f;        ///< depth of the front below the hull, metres
+    bool loop = false;         ///< the panel goes around and closes on itself
 };
 
 /// Part of a hull's side between ribs in (a, b) of its core.

@@ -10,11 +10,12 @@ namespace mir::builtin {
 
 /// Points of a surface, row by row; the front is where (next row) x (next column) points.
 struct SurfaceGrid {
-    std::uint32_t columns = 0;
-    std::uint32_t rows = 0;
-    bool loop = false;  ///< the last column is followed by the first
-    std::vector<Vec3> points;
+    std::uint32_t columns = 0;  ///< vertices in a row, at least 2
+    std::uint32_t rows = 0;     ///< at least 2
+    bool loop = false;          ///< the last column is followed by the first
+    std::vector<Vec3> points;   ///< columns x rows, metres
 
+    /// The vertex of column `c` and row `r`, unchecked.
     [[nodiscard]] Vec3 at(std::uint32_t c, std::uint32_t r) const {
         return points[r * columns + c];
     }

@@ -11,10 +11,11 @@ namespace mir::builtin {
 /// Section of a tyre of 0.335 m radius and 0.24 m width as (distance from the axle, x), clockwise
 /// from the inner bead on; between points `tread_begin` and `tread_end` it touches the road.
 struct TyreSection {
-    static constexpr std::uint32_t tread_begin = 12;
-    static constexpr std::uint32_t tread_end = 40;
-    static constexpr std::uint32_t points = 64;
+    static constexpr std::uint32_t tread_begin = 12;  ///< first point of the tread
+    static constexpr std::uint32_t tread_end = 40;    ///< one beyond its last point
+    static constexpr std::uint32_t points = 64;       ///< of the whole section, which is closed
 
+    /// Point `i`, which is less than `points`, metres.
     static Vec2 at(std::uint32_t i) {
         const float half = 0.12f;
         if (i >= 52) {  // inside, from bead to bead

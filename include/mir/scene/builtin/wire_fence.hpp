@@ -8,11 +8,11 @@ namespace mir::builtin {
 /// Woven wire: a parallelogram with corners p, p + a, p + a + b, p + b whose wires lie `mesh`
 /// metres apart and pass over and under each other in turn.
 struct Fence {
-    Vec3 p{0};
-    Vec3 a{0};
-    Vec3 b{0};
-    float mesh = 0.0677f;
-    float radius = 0.0028f;
+    Vec3 p{0};               ///< a corner, metres
+    Vec3 a{0};               ///< one side, metres
+    Vec3 b{0};               ///< the other side, metres
+    float mesh = 0.0677f;    ///< from wire to wire, metres
+    float radius = 0.0028f;  ///< of a wire, metres
 };
 
 /// Adds the wires along `a`. With a and b exchanged it adds those along `b`, which are lifted to

@@ -30,23 +30,27 @@ inline constexpr std::array<std::pair<std::string_view, HostScheduler>, 5> host_
 /// A scheduler of the host that is chosen while the program runs; the image is the same.
 template <Executor E>
 struct AnyScheduler {
-    HostScheduler kind;
-    E& executor;
+    HostScheduler kind;          ///< which of the schedulers
+    E& executor;                 ///< of all of them; host backends run on it too
     Monitor* monitor = nullptr;  ///< may be null
 
     /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
     class Pipeline {
      public:
+        /// Opens the pipeline of the kind that was chosen, on a scheduler of its own.
+        /// @throws What that pipeline throws.
         Pipeline(const In& in, Image<Rgb>& image, const AnyScheduler& chosen)
             : schedulers_(chosen), pipeline_(open(in, image, chosen.kind)) {}
         Pipeline(const Pipeline&) = delete;
         Pipeline& operator=(const Pipeline&) = delete;
         ~Pipeline() = default;
 
+        /// As that pipeline does.
         void submit(TileIndex t) {
             std::visit([t](auto& p) { p.submit(t); }, pipeline_);
         }
+        /// As that pipeline does.
         void finish() {
             std::visit([](auto& p) { p.finish(); }, pipeline_);
         }
@@ -94,6 +98,7 @@ struct AnyScheduler {
         Any pipeline_;
     };
 
+    /// A pipeline for one image, whose size is that of the G-buffer.
     template <class In>
     Pipeline<In> open(const In& in, Image<Rgb>& image) const {
         return {in, image, *this};

@@ -22,8 +22,8 @@ namespace mir::cpu {
 /// Finds closest hits through Embree. Model of ShortRayCaster; a handle that the EmbreeScene
 /// outlives.
 struct EmbreeRayCaster {
-    RTCScene scene = nullptr;
-    const WorldGeometry* geometry = nullptr;
+    RTCScene scene = nullptr;                 ///< belongs to the EmbreeScene
+    const WorldGeometry* geometry = nullptr;  ///< of the same triangles
 
     /// `reach` in metres: nothing farther is found.
     [[nodiscard]] std::optional<SurfacePoint> closest_hit(
@@ -43,7 +43,9 @@ class EmbreeScene {
     explicit EmbreeScene(const WorldGeometry& geometry,
                          std::int64_t max_bytes = std::numeric_limits<std::int64_t>::max());
 
+    /// Visibility that reads this scene.
     [[nodiscard]] EmbreeVisibility visibility() const { return {scene_.get()}; }
+    /// Ray caster that reads this scene and its geometry.
     [[nodiscard]] EmbreeRayCaster ray_caster() const { return {scene_.get(), geometry_}; }
 
     /// For callers that measure Embree itself.

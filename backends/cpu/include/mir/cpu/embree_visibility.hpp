@@ -11,10 +11,11 @@ namespace mir::cpu {
 /// Segment visibility through Embree, one at a time or sixteen from one origin. Model of
 /// Visibility and PacketVisibility; a handle that the EmbreeScene outlives, usable from any thread.
 struct EmbreeVisibility {
-    static constexpr Space space = Space::host;
+    static constexpr Space space = Space::host;  ///< asked by the host alone
 
-    RTCScene scene = nullptr;
+    RTCScene scene = nullptr;  ///< belongs to the EmbreeScene
 
+    /// Tests the closed segment by one ray from `a`, with Embree's robust intersector.
     [[nodiscard]] bool visible(Vec3 a, Vec3 b) const {
         const Vec3 d = b - a;
         RTCRay ray{};
@@ -30,6 +31,8 @@ struct EmbreeVisibility {
         return ray.tfar >= 0.0f;
     }
 
+    /// As PacketVisibility says, by one packet of sixteen rays from `origin`. Segments that touch
+    /// an edge or a vertex to the last bit may be judged otherwise than by visible().
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const {
         RTCRay16 rays;

@@ -18,6 +18,9 @@ class TbbExecutor {
     explicit TbbExecutor(unsigned threads = 0)
         : arena_(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads)) {}
 
+    /// Calls body(i) once for each i in [0, n), in any order, on the arena's threads; returns when
+    /// all are done. An exception of a body reaches the caller; bodies that have not begun by then
+    /// may be left out.
     template <class Body>
     void for_each(std::size_t n, Body&& body) {
         HandOver edge;
@@ -33,6 +36,7 @@ class TbbExecutor {
                               });
         });
     }
+    /// Threads of the arena, at least 1.
     [[nodiscard]] std::size_t concurrency() const {
         return static_cast<std::size_t>(arena_.max_concurrency());
     }

@@ -24,12 +24,16 @@ namespace mir::cuda {
 /// image can be made.
 class Backend {
  public:
-    static constexpr Space space = Space::device;
+    static constexpr Space space = Space::device;  ///< kernels read memory of the GPU
+    /// Memory of the GPU.
     template <class T>
     using Buffer = cuda::Buffer<T>;
+    /// Pinned memory of the host.
     template <class T>
     using HostBuffer = PinnedBuffer<T>;
+    /// What Queue::record() gives.
     using Event = cuda::Event;
+    /// A stream of the GPU.
     using Queue = cuda::Queue;
 
     /// The backend of a device that select_device() gave. `hook` may refuse allocations.

@@ -21,7 +21,9 @@ class Buffer {
 
     /// Device address of the first element; null when there is none.
     [[nodiscard]] T* data() { return static_cast<T*>(block_.data()); }
+    /// The same to read.
     [[nodiscard]] const T* data() const { return static_cast<const T*>(block_.data()); }
+    /// Number of elements.
     [[nodiscard]] std::size_t size() const { return size_; }
 
  private:

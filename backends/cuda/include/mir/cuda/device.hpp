@@ -11,12 +11,12 @@ namespace mir::cuda {
 
 /// A GPU as its driver describes it.
 struct Device {
-    int ordinal = 0;  ///< its number in this process, see CUDA_VISIBLE_DEVICES
-    std::string name;
-    int major = 0;  ///< compute capability, for example 9
-    int minor = 0;  ///< and 0
-    std::uint64_t memory_bytes = 0;
-    std::uint32_t multiprocessors = 0;
+    int ordinal = 0;                    ///< its number in this process, see CUDA_VISIBLE_DEVICES
+    std::string name;                   ///< as the driver spells it
+    int major = 0;                      ///< compute capability, for example 9
+    int minor = 0;                      ///< and 0
+    std::uint64_t memory_bytes = 0;     ///< of the GPU in all, taken or not
+    std::uint32_t multiprocessors = 0;  ///< streaming multiprocessors
 };
 
 /// Version of CUDA as NVIDIA counts it: 1000 major + 10 minor; 0 for none.

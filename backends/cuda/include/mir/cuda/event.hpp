@@ -18,7 +18,9 @@ class Event {
     }
     Event(const Event&) = delete;
     Event& operator=(const Event&) = delete;
+    /// `other` is no event afterwards: it may end or be assigned to.
     Event(Event&& other) noexcept { swap(other); }
+    /// What this was ends; `other` is no event afterwards.
     Event& operator=(Event&& other) noexcept {
         Event moved(std::move(other));
         swap(moved);

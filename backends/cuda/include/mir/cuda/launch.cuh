@@ -9,6 +9,7 @@
 #include <cuda_runtime.h>
 
 #include <algorithm>
+#include <string>
 
 namespace mir::cuda {
 
@@ -95,11 +96,36 @@ __global__ void __launch_bounds__(threads_of_groups<Kernel>, resident_blocks<Ker
     if (i < n) kernel(LaneGroup{}, i, spaces[warp]);
 }
 
+/// Refuses a kernel whose arguments have other sizes for the device's compiler than for the host's:
+/// they do not agree about members that are [[no_unique_address]], and such a kernel would read its
+/// arguments at the wrong places. Members that move within the same size go unseen. Asks nothing
+/// before CUDA 12.4, which knew no answer.
+template <class... Arguments>
+void check_argument_layout([[maybe_unused]] void (*kernel)(Arguments...)) {
+#if CUDART_VERSION >= 12040
+    std::size_t index = 0;
+    for (const std::size_t here : {sizeof(Arguments)...}) {
+        std::size_t offset = 0;
+        std::size_t there = 0;
+        check(cudaFuncGetParamInfo(reinterpret_cast<const void*>(kernel), index++, &offset, &there),
+              "asking for the size of a kernel's argument");
+        if (here != there)
+            throw Error(ErrorCode::internal,
+                        "a kernel's argument has " + std::to_string(here) +
+                            " bytes for the host's compiler and " + std::to_string(there) +
+                            " for the device's; keep members that are [[no_unique_address]] out of "
+                            "kernels");
+    }
+#endif
+}
+
 /// Starts a kernel in `blocks` blocks of `threads` threads. The status is the launch's own: an
 /// error that the caller's CUDA code left behind is not taken for ours.
 template <class... Expected, class... Given>
 void launch(std::uint32_t blocks, std::uint32_t threads, cudaStream_t stream,
             void (*kernel)(Expected...), const Given&... arguments) {
+    // Once is enough: kernels of the same types have arguments of the same sizes.
+    [[maybe_unused]] static const bool same_layout = (check_argument_layout(kernel), true);
     cudaLaunchConfig_t config{};
     config.gridDim = dim3(blocks);
     config.blockDim = dim3(threads);

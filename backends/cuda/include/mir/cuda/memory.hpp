@@ -32,6 +32,7 @@ using AllocationHook = std::function<bool(MemoryKind kind, std::size_t bytes)>;
 /// for the next image: all together never more than twice what was once in use. Thread-safe.
 class Memory {
  public:
+    /// Of the GPU of that ordinal; takes nothing yet. Without a `hook` nothing is refused.
     explicit Memory(int device, AllocationHook hook = {})
         : device_(device), hook_(std::move(hook)) {}
     Memory(const Memory&) = delete;
@@ -188,7 +189,9 @@ class MemoryBlock {
     }
     MemoryBlock(const MemoryBlock&) = delete;
     MemoryBlock& operator=(const MemoryBlock&) = delete;
+    /// `other` holds nothing afterwards.
     MemoryBlock(MemoryBlock&& other) noexcept { swap(other); }
+    /// Gives back what this held; `other` holds nothing afterwards.
     MemoryBlock& operator=(MemoryBlock&& other) noexcept {
         MemoryBlock(std::move(other)).swap(*this);
         return *this;
@@ -197,6 +200,7 @@ class MemoryBlock {
         if (data_ != nullptr) memory_->give_back(kind_, data_, bytes_);
     }
 
+    /// The first byte, in the memory of its kind; null for none.
     [[nodiscard]] void* data() const { return data_; }
 
  private:

@@ -26,7 +26,9 @@ class Queue {
 
     Queue(const Queue&) = delete;
     Queue& operator=(const Queue&) = delete;
+    /// `other` is no queue afterwards: it may end or be assigned to.
     Queue(Queue&& other) noexcept { swap(other); }
+    /// Waits for the work of what this was; `other` is no queue afterwards.
     Queue& operator=(Queue&& other) noexcept {
         Queue moved(std::move(other));
         swap(moved);
@@ -126,7 +128,9 @@ class Queue {
         check(cudaStreamSynchronize(stream_), "work on the GPU");
     }
 
+    /// CUDA's handle: the caller's stream, or one that this object destroys.
     [[nodiscard]] cudaStream_t stream() const { return stream_; }
+    /// Ordinal of its device; -1 when moved from.
     [[nodiscard]] int device() const { return device_; }
 
  private:

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/visibility.hpp"
+#include "mir/core/instruction_set.hpp"
+
+#include <cstdint>
+
+namespace mir::detail {
+
+/// visible_in_packet(tree, origin, points, active, mask) by the widest registers that this
+/// processor has, whoever asks. Not inlined: a walk is much longer than a call, and is compiled for
+/// each instruction set once instead of anew for every caller.
+template <class Tree, class... Mask>
+[[nodiscard, gnu::noinline]] std::uint32_t ask_packet(const Tree& tree, Vec3 origin,
+                                                      const PointPacket& points,
+                                                      std::uint32_t active, const Mask&... mask) {
+    std::uint32_t seen = 0;
+    run_with(best_instruction_set(),
+             [&] { seen = visible_in_packet(tree, origin, points, active, mask...); });
+    return seen;
+}
+
+}  // namespace mir::detail
