@@ -5,6 +5,7 @@
 #include "images/support.hpp"
 #include "mir/runtime/all_renderers.hpp"
 #include "support/catch.hpp"
+#include "support/masked_scene.hpp"
 #include "support/named_scene.hpp"
 
 namespace {
@@ -25,6 +26,35 @@ mir::RenderResult render(const mir::Scene& scene, mir::Acceleration acceleration
 }
 
 }  // namespace
+
+TEST_CASE("The processor chooses its structure by how many pairs a triangle serves") {
+    mir::RenderSettings s = mirtest::small_settings(32, 16);
+    const auto used = [&s](const mir::Scene& scene) {
+        return mirtest::render(scene, s).statistics.acceleration;
+    };
+    // 1888 triangles: 512 pairs for each are 943 VPLs of this image.
+    const mir::Scene sphere = mir::builtin::make("sphere");
+    CHECK(used(sphere) == "embree");
+    s.vpls = 943;
+    CHECK(used(sphere) == "embree");
+    s.vpls = 944;
+    CHECK(used(sphere) == "bvh");
+    s.luxels_per_pixel = 4;
+    s.vpls = 236;
+    CHECK(used(sphere) == "bvh");
+    s.acceleration = mir::Acceleration::embree;
+    CHECK(used(sphere) == "embree");
+    s.acceleration = mir::Acceleration::automatic;
+    s.integrator = mir::Integrator::path;
+    s.path.samples = 1;
+    CHECK(used(sphere) == "embree");
+    s.integrator = mir::Integrator::vpl;
+    mir::Scene masked = mir::builtin::make("cornell-box");
+    CHECK(used(masked) == "bvh");
+    mirtest::hang_curtain(masked, mir::lambertian("curtain", {0.7f, 0.6f, 0.5f}), 6,
+                          {-0.7f, 1.3f, -0.6f}, {1.4f, 0, 0}, {0, 0, 1.2f});
+    CHECK(used(masked) == "embree");
+}
 
 TEST_CASE("The kd-tree and the wide hierarchy with shafts draw the same bits", "[extended]") {
     for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {

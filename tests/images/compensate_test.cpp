@@ -162,7 +162,7 @@ TEST_CASE("every ray engine traces back the same light") {
     };
     const mir::RenderResult tree = with(mir::Acceleration::kd_tree);
     const mir::RenderResult bvh = with(mir::Acceleration::bvh);
-    const mir::RenderResult embree = with(mir::Acceleration::automatic);
+    const mir::RenderResult embree = with(mir::Acceleration::embree);
     CHECK(same_bits(tree.indirect, bvh.indirect));
     CHECK(tree.statistics.residual_luminance == bvh.statistics.residual_luminance);
     // Paths that meet an edge part.

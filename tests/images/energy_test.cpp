@@ -19,6 +19,7 @@ mir::RenderSettings few_chains() {
     mir::RenderSettings s = small_settings(40, 96);
     s.image = {40, 30};
     s.sampler = mir::SamplerKind::metropolis;
+    s.acceleration = mir::Acceleration::embree;  // the engine of Studio
     s.bound.kind = mir::BoundPolicy::Kind::automatic;
     s.direct_samples = 1;
     s.max_bounce = 8;

@@ -11,7 +11,7 @@ using namespace mirtest;
 
 namespace {
 
-constexpr std::array accelerations{mir::Acceleration::automatic, mir::Acceleration::kd_tree,
+constexpr std::array accelerations{mir::Acceleration::embree, mir::Acceleration::kd_tree,
                                    mir::Acceleration::bvh};
 
 /// A white unit square under the sun, E = pi, below a checkerboard of 8 x 8 fields of the same

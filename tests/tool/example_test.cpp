@@ -15,6 +15,7 @@ TEST_CASE("the example made of headers draws what the program draws, in every bi
                      "--direct",         "vpl",
                      "--bound",          "1",
                      "--filter",         "box",
+                     "--accel",          "embree",
                      "--vpls",           "1024",
                      "--quiet",          "-o",
                      folder / "tool.exr"};

@@ -304,10 +304,10 @@ void add_execution(CLI::App& app, RenderOptions& o) {
         app, "--accel", s.acceleration,
         {{"auto", mir::Acceleration::automatic},
          {"kdtree", mir::Acceleration::kd_tree},
-         {"bvh", mir::Acceleration::bvh}},
-        "What rays are traced through: the kd-tree, the wide hierarchy with shafts, "
-        "or the best for the machine (default): Embree's hierarchy, or on a GPU shafts and "
-        "the kd-tree");
+         {"bvh", mir::Acceleration::bvh},
+         {"embree", mir::Acceleration::embree}},
+        "What rays are traced through: the kd-tree, the wide hierarchy with shafts, Embree "
+        "(processor only), or the fastest for the picture (default)");
     app.add_option("--scheduler", s.scheduler,
                    "cpu-blocks, tuned (default of the processor); cpu, the plain loop; os, rc or "
                    "rcvp (default of GPUs), the paper's; the picture is the same")

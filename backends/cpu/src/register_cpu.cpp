@@ -28,6 +28,21 @@ RenderResult render_with(const HostRender& r, const HostEngine& engine) {
     return render_by_vpls<B>(r, engine);
 }
 
+/// Luxels times VPLs, for each triangle, from which shafts save more time than our hierarchy takes
+/// longer to build than Embree's (docs/performance.md, "A whole frame").
+constexpr double shafts_pay = 512;
+
+/// Paths and discs ask ray by ray, which Embree answers fastest; so do luxels where masks forbid
+/// shafts.
+Acceleration structure_of(const HostRender& render) {
+    const RenderSettings& s = render.settings;
+    if (s.acceleration != Acceleration::automatic) return s.acceleration;
+    const double triangles = static_cast<double>(render.geometry.triangles().size());
+    const bool asks_blocks = s.integrator == Integrator::vpl && !render.geometry.is_masked();
+    return asks_blocks && pairs(s) >= shafts_pay * triangles ? Acceleration::bvh
+                                                             : Acceleration::embree;
+}
+
 class CpuRenderer : public Renderer {
  public:
     CpuRenderer(std::string_view name, HostScheduler scheduler)
@@ -68,11 +83,12 @@ class CpuRenderer : public Renderer {
     }
 
     static RenderResult trace(const HostRender& render) {
-        switch (render.settings.acceleration) {
+        switch (structure_of(render)) {
             case Acceleration::kd_tree:
                 return trace_by<KdTreeScene>("kdtree", render, render.executor);
             case Acceleration::bvh:
                 return trace_by<ShaftScene>("bvh", render, render.executor);
+            case Acceleration::embree:
             case Acceleration::automatic:
                 break;
         }

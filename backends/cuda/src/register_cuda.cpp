@@ -34,10 +34,6 @@ constexpr Structures for_masks{"bvh", false, false};
 /// the host takes to build it (docs/performance.md, "A whole frame"). Bits are the same.
 constexpr double kd_tree_pays = 13e9;
 
-double pairs(const RenderSettings& settings) {
-    return static_cast<double>(settings.image.area()) * settings.luxels_per_pixel * settings.vpls;
-}
-
 Structures structures_of(const Scene& scene, const RenderSettings& settings) {
     if (is_masked(scene)) return for_masks;
     switch (settings.acceleration) {
@@ -46,6 +42,7 @@ Structures structures_of(const Scene& scene, const RenderSettings& settings) {
         case Acceleration::bvh:
             return hierarchy;
         case Acceleration::automatic:
+        case Acceleration::embree:  // refused before
             break;
     }
     return pairs(settings) < kd_tree_pays ? hierarchy : both;
@@ -92,6 +89,10 @@ class CudaRenderer : public Renderer {
     RenderResult render(const Scene& scene, const RenderSettings& settings,
                         Monitor* monitor) const override {
         settings.validate();
+        if (settings.acceleration == Acceleration::embree)
+            throw Error(ErrorCode::unsupported,
+                        "Embree traces on the processor only (this backend traces on a GPU); use "
+                        "--accel bvh, or --backend cpu");
         std::vector<std::string> warnings = check_scene(scene, settings);
         StageClock clock;
         // Beside the GPU: it takes as long as a stage.

@@ -7,7 +7,7 @@
 #include "mir/core/instruction_set.hpp"
 #include "mir/data/visibility_matrix.hpp"
 #include "mir/normalise/detail/response_bands.hpp"
-#include "mir/sched/detail/luxel_block.hpp"
+#include "mir/sched/detail/lit_vpls.hpp"
 
 #include <bit>
 
@@ -34,38 +34,42 @@ class ResponseSum {
     [[nodiscard]] std::vector<ImageResponse> mean() const { return bands_.mean(sums_); }
 
  private:
-    /// VPLs that one task sums: enough to pay for reading a block, few enough to share out.
-    static constexpr std::uint32_t vpls_per_task = 32;
-
     detail::ResponseBands bands_;
     std::vector<ImageResponse> sums_;
 };
 
 namespace detail {
 
-/// Sum over one block of what a VPL does to its luxels.
+/// VPLs that one task sums: enough to pay for reading a block, few enough to share out.
+inline constexpr std::uint32_t vpls_per_task = 32;
+static_assert(vpls_per_task <= sched::detail::LitVpls::capacity);
+
+/// Adds what VPLs first .. last - 1, those of a task, do to the luxels of one block to their sums.
 template <VplSet P, KnownVisibility V, Shading F>
-ImageResponse block_response(const sched::detail::LuxelBlock<F>& block, const P& vpls, VplIndex j,
-                             const V& bits, const F& shading) {
+void add_block(const sched::detail::LuxelBlock<F>& block, const P& vpls, const V& bits,
+               const F& shading, VplIndex first, VplIndex last, ImageResponse* sums) {
     using namespace sched::detail;
-    Vpl unit = vpls[j];
-    unit.intensity = {1.0f, 1.0f, 1.0f};
-    BlockRadiance lanes;
-    ImageResponse sum;
-    for (std::uint32_t group = 0; group < groups_per_block; ++group) {
-        const std::uint32_t lit = known_mask(block, group, j, bits);
-        if (lit == 0) continue;
-        const std::uint32_t first = group * group_size;
-        add_shaded(starting_at(block.hits, first), starting_at(block.surfaces, first), unit,
-                   shading, lit, lanes.r, lanes.g, lanes.b);
-        sum.lit_luxels += static_cast<std::uint64_t>(std::popcount(lit));
+    GroupRadiance lanes[vpls_per_task];
+    LitVpls lit_vpls;
+    for (VplIndex j = first; j < last; ++j) {
+        const BlockMask lit = known_mask(block, j, bits);
+        Vpl unit = vpls[j];
+        unit.intensity = {1.0f, 1.0f, 1.0f};
+        lit_vpls.add(unit, lit);
+        for (const std::uint32_t mask : lit.packet)
+            sums[j].lit_luxels += static_cast<std::uint64_t>(std::popcount(mask));
     }
-    for (std::uint32_t k = 0; k < group_size; ++k) {
-        sum.r += static_cast<double>(lanes.r[k]);
-        sum.g += static_cast<double>(lanes.g[k]);
-        sum.b += static_cast<double>(lanes.b[k]);
+    lit_vpls.shade_each(block, shading, lanes);
+    for (VplIndex j = first; j < last; ++j) {
+        const GroupRadiance& of_vpl = lanes[j - first];
+        ImageResponse sum;
+        for (std::uint32_t k = 0; k < group_size; ++k) {
+            sum.r += static_cast<double>(of_vpl.r[k]);
+            sum.g += static_cast<double>(of_vpl.g[k]);
+            sum.b += static_cast<double>(of_vpl.b[k]);
+        }
+        sums[j] += sum;
     }
-    return sum;
 }
 
 /// Adds the blocks of one row of blocks of a band, left to right, for VPLs first .. last - 1.
@@ -83,8 +87,7 @@ void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shad
             const sched::detail::Block place{t, row_of_tile * layout.blocks_x + x};
             const sched::detail::LuxelBlock<F> block(view.hits, view.surfaces, place, shading);
             if (block.bounds.empty) continue;
-            for (VplIndex j = first; j < last; ++j)
-                sums[j] += block_response(block, vpls, j, bits, shading);
+            add_block(block, vpls, bits, shading, first, last, sums);
         }
     }
 }
@@ -98,12 +101,12 @@ void ResponseSum::add_band(const G& gbuffer, P vpls, V bits, const F& shading, E
     const std::uint32_t count = vpls.size();
     const std::uint32_t rows =
         (gbuffer.extent().height + BlockedLayout::side - 1) / BlockedLayout::side;
-    const std::uint32_t tasks = (count + vpls_per_task - 1) / vpls_per_task;
+    const std::uint32_t tasks = (count + detail::vpls_per_task - 1) / detail::vpls_per_task;
     std::vector<ImageResponse> row_sums(std::size_t{rows} * count);
     executor.for_each(std::size_t{rows} * tasks, [&](std::size_t i) {
         const auto row = static_cast<std::uint32_t>(i / tasks);
-        const VplIndex first = static_cast<std::uint32_t>(i % tasks) * vpls_per_task;
-        const VplIndex last = std::min(first + vpls_per_task, count);
+        const VplIndex first = static_cast<std::uint32_t>(i % tasks) * detail::vpls_per_task;
+        const VplIndex last = std::min(first + detail::vpls_per_task, count);
         ImageResponse* sums = row_sums.data() + std::size_t{row} * count;
         run_with(instructions, [&] {
             detail::add_block_row(gbuffer, vpls, bits, shading, row, first, last, sums);

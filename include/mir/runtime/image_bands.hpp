@@ -86,6 +86,7 @@ class ImageBands {
     static constexpr Extent default_tile{256, 256};
 
     [[nodiscard]] std::uint32_t choose_rows(std::uint32_t vpls) const;
+    [[nodiscard]] std::uint64_t matrix_bytes(std::uint32_t vpls) const;
 
     Context context_;
     Extent tile_;
@@ -103,11 +104,18 @@ std::uint32_t ImageBands<B, Engine, E>::choose_rows(std::uint32_t vpls) const {
     const std::uint64_t least = pixel * BlockedLayout::side;
     const std::uint64_t least_bytes = saturating_mul(
         VisibilityMatrix::bytes_for({{0, 0, luxels().width, BlockedLayout::side}}, vpls), pixel);
-    const std::uint64_t fitting =
-        context_.settings.limits.visibility_bytes / std::max<std::uint64_t>(least_bytes, 1);
+    const std::uint64_t fitting = matrix_bytes(vpls) / std::max<std::uint64_t>(least_bytes, 1);
     const std::uint64_t fitting_rows = saturating_mul(std::max<std::uint64_t>(fitting, 1), least);
     return static_cast<std::uint32_t>(
         std::min({rows, fitting_rows, std::uint64_t{luxels().height}}));
+}
+
+/// Of the matrix of one band. The host gains nothing by larger ones when bands are not kept.
+template <Bsdf B, class Engine, Executor E>
+std::uint64_t ImageBands<B, Engine, E>::matrix_bytes(std::uint32_t vpls) const {
+    const std::uint64_t limit = context_.settings.limits.visibility_bytes;
+    if (BandEngine<Engine> || fit_together(vpls)) return limit;
+    return std::min(limit, std::uint64_t{1} << 30);
 }
 
 template <Bsdf B, class Engine, Executor E>

@@ -28,10 +28,10 @@ enum class BackendKind {
 
 /// What finds out where rays end.
 enum class Acceleration {
-    automatic,  ///< the backend's own choice: Embree on the processor; shafts, and the kd-tree for
-                ///< single segments, on a GPU
+    automatic,  ///< the backend's own choice, by the number of pairs of luxel and VPL
     kd_tree,    ///< the kd-tree of this library, the same bits on every backend
-    bvh         ///< its wide bounding volume hierarchy, with shafts; the kd-tree's bits
+    bvh,        ///< its wide bounding volume hierarchy, with shafts; the kd-tree's bits
+    embree      ///< Embree, on the processor only: rays that graze an edge may end otherwise
 };
 
 /// What makes the picture.
@@ -181,6 +181,11 @@ struct RenderSettings {
     }
 };
 
+/// Luxels of the image times VPLs: the contributions of a pass, in a number that does not overflow.
+[[nodiscard]] inline double pairs(const RenderSettings& settings) {
+    return static_cast<double>(settings.image.area()) * settings.luxels_per_pixel * settings.vpls;
+}
+
 namespace detail {
 
 /// There must be light that can be shown, or traced back.
@@ -267,6 +272,8 @@ inline void RenderSettings::validate() const {
     metropolis.validate();
     expects(path.samples > 0 && path.samples <= 1u << 24,
             "camera paths per luxel must be 1 to 16777216");
+    expects(path.directions >= 1 && path.directions <= 65536,
+            "paths that go on from a first hit must be 1 to 65536");
     expects(sampler == SamplerKind::instant_radiosity || max_bounce < max_path_edges,
             "samplers of whole paths hold at most 63 reflections; lower the largest bounce or use "
             "instant radiosity");

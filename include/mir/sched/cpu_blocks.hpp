@@ -6,12 +6,14 @@
 #include "mir/core/monitor.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sched/detail/block_list.hpp"
+#include "mir/sched/detail/lit_vpls.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
 
 namespace mir::sched {
 
 /// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
-/// luxels are found, their rays traced, and the lit ones shaded, sixteen to a register. A
+/// luxels are found and their rays traced; the lit ones of some VPLs are shaded together, sixteen
+/// luxels to a register. A
 /// BlockVisibility is asked for whole blocks, others for packets of sixteen rays that start at the
 /// VPL. Same image as sched::Cpu in every bit where those faces give the bits of the single one,
 /// provided that the caller compiles with -ffp-contract=off. Given a KnownVisibility it traces no
@@ -49,9 +51,9 @@ struct CpuBlocks {
 
         void run(detail::Block b) const;
         template <class LitMask>
-        void add_vpls(const LuxelBlock& block, detail::BlockRadiance& sum,
+        void add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
                       const LitMask& lit_mask) const;
-        void store(detail::Block b, const detail::BlockRadiance& sum) const;
+        void store(detail::Block b, const detail::GroupRadiance* sums) const;
 
         /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing.
         [[nodiscard]] bool is_out_of_reach(const LuxelBlock& block, const Vpl& vpl) const {
@@ -100,48 +102,45 @@ void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
     if (scheduler_.monitor != nullptr) scheduler_.monitor->check();
     const auto view = in_.gbuffer.view(b.tile);
     const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
-    detail::BlockRadiance sum;
+    detail::GroupRadiance sums[detail::groups_per_block];
     if constexpr (KnownVisibility<V>) {
-        add_vpls(block, sum, [&](VplIndex j, const Vpl&) {
+        add_vpls(block, sums, [&](VplIndex j, const Vpl&) {
             return detail::known_mask(block, j, in_.visibility);
         });
     } else {
         const detail::BlockSight<V> sight(block, in_.visibility, scheduler_.instructions);
-        add_vpls(block, sum, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
+        add_vpls(block, sums, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
     }
-    store(b, sum);
+    store(b, sums);
 }
 
 /// Adds all VPLs; `lit_mask(j, vpl)` says to which luxels of the block.
 template <Executor E>
 template <class In>
 template <class LitMask>
-void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::BlockRadiance& sum,
+void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
                                           const LitMask& lit_mask) const {
+    detail::LitVpls batch;
     for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
         const Vpl vpl = in_.vpls[j];
         if (is_out_of_reach(block, vpl)) continue;
-        const BlockMask mask = lit_mask(j, vpl);
-        for (std::uint32_t group = 0; group < detail::groups_per_block; ++group) {
-            const std::uint32_t lit = mask.packet[group];
-            if (lit == 0) continue;
-            const std::uint32_t first = group * detail::group_size;
-            detail::add_shaded(detail::starting_at(block.hits, first),
-                               detail::starting_at(block.surfaces, first), vpl, in_.shading, lit,
-                               sum.r + first, sum.g + first, sum.b + first);
-        }
+        batch.add(vpl, lit_mask(j, vpl));
+        if (batch.is_full()) batch.shade(block, in_.shading, sums);
     }
+    batch.shade(block, in_.shading, sums);
 }
 
 template <Executor E>
 template <class In>
-void CpuBlocks<E>::Pipeline<In>::store(detail::Block b, const detail::BlockRadiance& sum) const {
+void CpuBlocks<E>::Pipeline<In>::store(detail::Block b, const detail::GroupRadiance* sums) const {
     const Tile tile = in_.gbuffer.tiles()[b.tile];
     const Tile area = BlockedLayout::of(tile).block_area(tile, b.block);
     for (std::uint32_t y = 0; y < area.height; ++y)
         for (std::uint32_t x = 0; x < area.width; ++x) {
             const LuxelIndex i = BlockedLayout::inside(x, y);
-            image_(tile.x + area.x + x, tile.y + area.y + y) = {sum.r[i], sum.g[i], sum.b[i]};
+            const detail::GroupRadiance& sum = sums[i / detail::group_size];
+            const std::uint32_t k = i % detail::group_size;
+            image_(tile.x + area.x + x, tile.y + area.y + y) = {sum.r[k], sum.g[k], sum.b[k]};
         }
     if (scheduler_.monitor != nullptr)
         scheduler_.monitor->contributions +=

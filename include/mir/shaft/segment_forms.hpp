@@ -3,7 +3,7 @@
 
 #include "mir/accel/triangle_rows.hpp"
 
-#include <limits>
+#include <cmath>
 
 namespace mir {
 
@@ -21,9 +21,7 @@ struct alignas(16) SegmentForms {
     std::uint32_t unused;    ///< so that the fourth word is written whole
 
     /// Of a triangle of which nothing is sure.
-    [[nodiscard]] MIR_HD static SegmentForms unsure() {
-        return {{}, {}, {}, 0.0f, std::numeric_limits<float>::infinity(), 0, 0};
-    }
+    [[nodiscard]] MIR_HD static SegmentForms unsure() { return {{}, {}, {}, 0.0f, INFINITY, 0, 0}; }
 };
 
 namespace detail {

@@ -17,8 +17,16 @@ namespace mir::detail {
 
 /// Box around a part of an accept triangle, metres.
 struct PartBox {
-    Double3 low{INFINITY};
-    Double3 high{-INFINITY};
+    Double3 low;
+    Double3 high;
+
+    /// Of no point. Number by number: nvcc 13.0 complains about vectors that are constants.
+    MIR_HD PartBox() {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = INFINITY;
+            high[axis] = -INFINITY;
+        }
+    }
 
     MIR_HD void add(Double3 p) {
         low = smaller_axes(low, p);

@@ -9,6 +9,7 @@
 #include "mir/data/soa.hpp"
 #include "mir/sched/detail/block_list.hpp"
 
+#include <array>
 #include <limits>
 
 namespace mir::sched::detail {
@@ -18,11 +19,11 @@ inline constexpr std::uint32_t group_size = PointPacket::width;
 inline constexpr std::uint32_t groups_per_block = BlockMask::packets;
 static_assert(groups_per_block * group_size == BlockedLayout::block_size);
 
-/// Radiance of one block while VPLs are added to it, structure of arrays.
-struct alignas(64) BlockRadiance {
-    float r[BlockedLayout::block_size] = {};
-    float g[BlockedLayout::block_size] = {};
-    float b[BlockedLayout::block_size] = {};
+/// Radiance of the luxels of a group while VPLs are added to it, structure of arrays.
+struct alignas(64) GroupRadiance {
+    float r[group_size] = {};
+    float g[group_size] = {};
+    float b[group_size] = {};
 };
 
 /// What the luxels of a block have in common, for tests that throw whole blocks away. Every test is
@@ -213,30 +214,31 @@ BlockMask known_mask(const HitBlock& block, VplIndex j, const V& known) {
     return mask;
 }
 
+/// Bit k of lane k, from memory: not every instruction set shifts lanes by different counts.
+inline constexpr auto lane_bits = [] {
+    std::array<std::uint32_t, group_size> bits{};
+    for (std::uint32_t k = 0; k < group_size; ++k) bits[k] = 1u << k;
+    return bits;
+}();
+
 /// Adds the VPL to the luxels of a group whose bit is set in `lit`. Every lane is computed and
 /// unlit ones add zero: the loop becomes one pass over vector registers.
 template <Shading F>
 [[gnu::always_inline]] inline void add_shaded(SoaView<const Hit> hits,
                                               SoaView<const typename F::Surface> surfaces, Vpl vpl,
-                                              F shade, std::uint32_t lit, float* r, float* g,
-                                              float* b) {
-    // Own arrays first: stores that might alias the inputs would forbid vectorising.
-    float red[group_size];
-    float green[group_size];
-    float blue[group_size];
+                                              F shade, std::uint32_t lit,
+                                              GroupRadiance& __restrict sum) {
+    // Without the promise that the sum is no input, a compiler takes the lanes one by one.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC ivdep
 #endif
     for (std::uint32_t k = 0; k < group_size; ++k) {
         const Rgb c = shade(hits.load(k), surfaces.load(k), vpl);
-        const bool on = (lit & (1u << k)) != 0;
-        red[k] = on ? c.r : 0.0f;
-        green[k] = on ? c.g : 0.0f;
-        blue[k] = on ? c.b : 0.0f;
+        const bool on = (lit & lane_bits[k]) != 0;
+        sum.r[k] += on ? c.r : 0.0f;
+        sum.g[k] += on ? c.g : 0.0f;
+        sum.b[k] += on ? c.b : 0.0f;
     }
-    for (std::uint32_t k = 0; k < group_size; ++k) r[k] += red[k];
-    for (std::uint32_t k = 0; k < group_size; ++k) g[k] += green[k];
-    for (std::uint32_t k = 0; k < group_size; ++k) b[k] += blue[k];
 }
 
 }  // namespace mir::sched::detail
