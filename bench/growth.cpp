@@ -28,7 +28,7 @@ constexpr std::uint32_t sphere_triangles[] = {2'000, 20'000, 200'000, 2'000'000,
 constexpr mir::Extent images[] = {
     {816, 612}, {1152, 864}, {1632, 1224}, {2304, 1728}, {3264, 2448}};
 
-/// The paper's room with a sphere of about as many triangles.
+/// The scene `sphere` with a sphere of about as many triangles.
 mir::Scene room_with_sphere(std::uint32_t triangles) {
     mir::Scene scene = mir::builtin::make("sphere");
     const auto side = static_cast<std::uint32_t>(std::lround(std::sqrt(triangles)));
@@ -97,7 +97,7 @@ const int registered = [] {
     for (const Machine& machine : machines) {
         for (const std::string& scene : mirbench::scenes_of_run()) add_sweeps(machine, scene);
         for (const std::uint32_t triangles : sphere_triangles)
-            add(machine, "room/triangles:" + std::to_string(triangles),
+            add(machine, "builtin:sphere/triangles:" + std::to_string(triangles),
                 [machine, triangles](benchmark::State& state) {
                     grow(state, machine, room_with_sphere(triangles), usual_settings(machine));
                 });

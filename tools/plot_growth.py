@@ -24,7 +24,7 @@ def read(files):
         with open(name, encoding="utf-8") as file:
             runs = json.load(file)["benchmarks"]
         for run in runs:
-            match = re.match(r"growth/(\w+)/(.+)/(\w+):(\d+)/", run["name"])
+            match = re.match(r"growth/(\w+)/(.+)/(\w+):(\d+)/iterations", run["name"])
             if not match:
                 sys.exit(f"{name}: '{run['name']}' is no picture of a sweep (it is no output of "
                          "bench_growth); give one that is")

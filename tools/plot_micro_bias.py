@@ -58,7 +58,9 @@ def style():
 
 
 def number(value):
-    """As a label: large numbers in whole ones."""
+    """As a label: large numbers in whole ones, millions short."""
+    if value >= 1e6:
+        return f"{value / 1e6:.2g} M"
     return f"{value:,.0f}".replace(",", "\u2009") if value >= 100 else f"{value:.2g}"
 
 

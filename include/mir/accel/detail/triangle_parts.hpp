@@ -20,6 +20,8 @@ struct PartBox {
     Double3 low;
     Double3 high;
 
+    MIR_HD PartBox(Double3 l, Double3 h) : low(l), high(h) {}
+
     /// Of no point. Number by number: nvcc 13.0 complains about vectors that are constants.
     MIR_HD PartBox() {
         for (int axis = 0; axis < 3; ++axis) {
