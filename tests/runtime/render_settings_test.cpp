@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "mir/runtime/settings.hpp"
+#include "support/catch.hpp"
+
+TEST_CASE("counts of the path tracer are checked before anything is rendered") {
+    mir::RenderSettings s;
+    s.integrator = mir::Integrator::path;
+    for (const std::uint32_t most : {1u, 65536u}) {
+        s.path.directions = most;
+        CHECK_NOTHROW(s.validate());
+    }
+    for (const std::uint32_t wrong : {0u, 65537u}) {
+        s.path.directions = wrong;
+        CHECK_THROWS_AS(s.validate(), mir::Error);
+    }
+    s.path.directions = 1;
+    for (const std::uint32_t wrong : {0u, (1u << 24) + 1}) {
+        s.path.samples = wrong;
+        CHECK_THROWS_AS(s.validate(), mir::Error);
+    }
+}
+
+TEST_CASE("pairs of a pass are counted without overflow") {
+    mir::RenderSettings s;
+    s.image = {16384, 16384};
+    s.luxels_per_pixel = 64;
+    s.vpls = 4'000'000;
+    CHECK(mir::pairs(s) == 16384.0 * 16384.0 * 64.0 * 4e6);
+}
