@@ -40,7 +40,7 @@ mir::Scene room_with_sphere(std::uint32_t triangles) {
 }
 
 void grow(benchmark::State& state, const Machine& machine, const mir::Scene& scene,
-          mir::RenderSettings settings) {
+          const mir::RenderSettings& settings) {
     const auto renderer = mirbench::renderer_of(machine.backend, state);
     if (!renderer) return;
     if (machine.backend == mir::BackendKind::cuda)  // loads kernels and takes memory
