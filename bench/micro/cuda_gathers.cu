@@ -37,7 +37,8 @@ class CudaGathers final : public GpuGathers {
             const mir::BufferGather<B::space, Lambert, side.value> gather{
                 tree_.view(), radiance_.data(), options};
             return seconds_of([&](const auto& tile, std::uint32_t luxels) {
-                queue_.for_each_group(luxels, mir::BufferGatherPass{tile, gather, 0});
+                const mir::BufferGatherPass pass{tile, gather, 0};
+                queue_.for_each_group(luxels / pass.luxels, pass);
             });
         });
     }

@@ -68,25 +68,28 @@ struct GroupVisit {
         group.each([&](std::uint32_t lane) { values[lane] = space.words[width - 1 - lane]; });
         const std::uint32_t odd =
             group.ballot([&](std::uint32_t lane) { return values[lane] % 2 == 1; });
+        const std::uint32_t any =
+            group.any_bits([&](std::uint32_t lane) { return 1u << values[lane] % 32; });
         const std::uint32_t sum = group.sums_before(values);
         const std::uint32_t last = group.broadcast(values, 17);
         static_cast<void>(group.add(*lanes, mir::LaneGroup::count(mir::LaneGroup::all)));
         group.each([&](std::uint32_t lane) {
             if (lane == 0)
-                out[i] += odd + sum + last + (odd != 0 ? mir::LaneGroup::lowest(odd) : 0);
+                out[i] += odd + any + sum + last + (odd != 0 ? mir::LaneGroup::lowest(odd) : 0);
         });
     }
 
     /// What comes out, written without groups.
     static std::uint32_t expected(std::uint32_t i) {
-        std::uint32_t odd = 0, sum = 0, last = 0, lowest = 0;
+        std::uint32_t odd = 0, any = 0, sum = 0, last = 0, lowest = 0;
         for (std::uint32_t lane = 32; lane-- > 0;) {
             const std::uint32_t value = scrambled(i + 31 - lane) % 100;
             if (value % 2 == 1) odd |= 1u << lane, lowest = lane;
+            any |= 1u << value % 32;
             sum += value;
             if (lane < 17) last += value;
         }
-        return odd + sum + last + lowest;
+        return odd + any + sum + last + lowest;
     }
 };
 

@@ -5,6 +5,8 @@
 #include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
 
+#include <memory>
+
 using namespace mirtest;
 using mir::SurfelHit;
 using mir::SurfelTree;
@@ -12,58 +14,117 @@ using mir::Vec3;
 
 namespace {
 
-/// Texels of a buffer that do not hold the nearest of all nodes at which the walk for it ends and
+/// Texels of buffer k that do not hold the nearest of all nodes at which the walk for it ends and
 /// which their direction meets.
-template <class Buffer>
-std::uint32_t wrong_texels(const Buffer& buffer, const SurfelTree& tree, mir::SurfelRay point,
-                           float threshold, std::uint32_t& met) {
+template <class Buffers>
+std::uint32_t wrong_texels(const Buffers& buffers, std::uint32_t k, const SurfelTree& tree,
+                           mir::SurfelRay point, float threshold, std::uint32_t& met) {
     std::uint32_t wrong = 0;
-    const float share = threshold / static_cast<float>(buffer.size());
-    for (std::uint32_t i = 0; i < buffer.size(); ++i) {
-        point.direction = buffer.direction(i);
+    const float share = threshold / static_cast<float>(buffers.size());
+    for (std::uint32_t i = 0; i < buffers.size(); ++i) {
+        point.direction = buffers.direction(k, i);
         const SurfelHit truth = mirtest::brute_force_cut(tree, point, [&](std::uint32_t node) {
-            return buffer.ends_at(tree.view(), node, point, share);
+            return buffers.ends_at(tree.view(), node, k, share);
         });
-        wrong += buffer.distance(i) == truth.t && buffer.node(i) == truth.node ? 0 : 1;
+        wrong += buffers.distance(k, i) == truth.t && buffers.node(k, i) == truth.node ? 0 : 1;
         met += truth.node != SurfelHit::none ? 1 : 0;
     }
     return wrong;
 }
 
+struct Lookout {
+    Vec3 origin;
+    Vec3 normal;
+};
+
+/// A point of a surface, others next to it as luxels are, whose normals may differ, and one
+/// anywhere.
+std::vector<Lookout> lookouts(const World& world, std::uint32_t count, mir::Random& random) {
+    const auto lifted = [&](const mir::SurfacePoint& p) {
+        return mir::lift(p.position, p.geometric_normal, world.geometry.ray_offset());
+    };
+    const mir::SurfacePoint first = random_surface_point(world.geometry, random);
+    const mir::SurfacePoint other = random_surface_point(world.geometry, random);
+    std::vector<Lookout> points{{lifted(first), first.geometric_normal}};
+    while (points.size() < count) {
+        const Vec3 n = glm::normalize(first.geometric_normal + 0.1f * direction(random));
+        points.push_back({points[0].origin + 0.01f * random.next() * direction(random), n});
+    }
+    if (count > 2) points[2] = {lifted(other), other.geometric_normal};
+    return points;
+}
+
 }  // namespace
 
-TEST_CASE("A texel holds the nearest of all nodes that its direction meets, in every bit",
-          "[slow]") {
+TEMPLATE_TEST_CASE_SIG(
+    "A texel holds the nearest of all nodes that its direction meets, in every bit", "[slow]",
+    ((std::uint32_t Side), Side), 8, 24) {
     const World worlds[] = {sphere_in_box(), triangle_soup(60, 980)};
-    const std::uint32_t side = GENERATE(1u, 8u, 24u);
+    const std::uint32_t side = GENERATE(1u, Side);
     const float threshold = GENERATE(0.0f, 0.2f, 4.0f);
     // From all around to so sharp that the rounding of directions spans texels.
     const float sharpness = GENERATE(0.7f, 30.0f, 16384.0f);
     mir::Random random = test_random(981);
     const mir::LaneGroup group;
-    mir::MicroBufferSpace<24> space;
+    const auto space = std::make_unique<mir::MicroBufferSpace<Side>>();
     std::uint32_t wrong = 0;
     std::uint32_t met = 0;
     for (const World& world : worlds) {
         const SurfelTree tree = tree_of(world, 5e-3f);
-        for (int k = 0; k < 2; ++k) {
-            const mir::SurfacePoint p = random_surface_point(world.geometry, random);
-            const Vec3 n = p.geometric_normal;
-            const Vec3 origin = mir::lift(p.position, n, world.geometry.ray_offset());
-            const mir::SurfelRay point{origin, {0, 0, 1}, n};
-            const auto check = [&](const auto& texels) {
-                mir::MicroBuffer buffer(group, space, texels, side, random.next_2d());
-                buffer.draw(tree.view(), origin, n, threshold);
-                wrong += wrong_texels(buffer, tree, point, threshold, met);
-            };
-            // Shading normals need not be those of the surface.
-            check(mir::CosineTexels(glm::normalize(n + 0.3f * direction(random))));
-            const Vec3 axis = k == 0 ? n : glm::normalize(n + direction(random));
-            check(mir::LobeTexels({axis, sharpness}));
-        }
+        const auto check = [&]<class Texels>(mir::MicroPoint<Texels>* memory, auto make_texels) {
+            mir::MicroBuffers buffers(group, *space, memory, side);
+            std::vector<mir::SurfelRay> points;
+            for (const Lookout& at : lookouts(world, space->pictures, random)) {
+                const auto k = static_cast<std::uint32_t>(points.size());
+                buffers.place(k, {at.origin, at.normal, make_texels(at.normal), random.next_2d()});
+                points.push_back({at.origin, {0, 0, 1}, at.normal});
+            }
+            buffers.draw(tree.view(), threshold);
+            for (std::uint32_t k = 0; k < points.size(); ++k)
+                wrong += wrong_texels(buffers, k, tree, points[k], threshold, met);
+        };
+        // Shading normals need not be those of the surface.
+        check(space->even, [&](Vec3 n) {
+            return mir::CosineTexels(glm::normalize(n + 0.3f * direction(random)));
+        });
+        for (const float tilt : {0.0f, 1.0f})
+            check(space->sharp, [&](Vec3 n) {
+                const Vec3 axis = glm::normalize(n + tilt * direction(random));
+                return mir::LobeTexels({axis, sharpness});
+            });
     }
     CHECK(wrong == 0);
     CHECK(met > 0);
+}
+
+TEST_CASE("Directions that meet a sphere lie in the texels that it may cover") {
+    mir::Random random = test_random(988);
+    std::uint32_t outside = 0;
+    double texels = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const mir::CosineTexels map(direction(random));
+        const Vec3 to_centre = (0.1f + random.next()) * direction(random);
+        // From far smaller than a texel to all around.
+        const float radius = glm::length(to_centre) * std::exp(-9.0f * random.next()) * 1.05f;
+        const mir::TexelReach reach = map.reach(to_centre, radius);
+        texels += double(std::max(0.0f, reach.high.x - reach.low.x));
+        for (int j = 0; j < 8; ++j) {
+            const mir::Vec2 u =
+                j < 2 ? random.next_2d()
+                      : glm::clamp(0.5f * (reach.low + reach.high) +
+                                       (random.next_2d() - 0.5f) * (reach.high - reach.low + 0.02f),
+                                   0.0f, 1.0f);
+            const Vec3 wi = map.direction(u);
+            const float along = glm::dot(wi, to_centre);
+            const bool is_met = along > 0.0f && glm::length(along * wi - to_centre) < radius;
+            const bool is_inside = glm::all(glm::greaterThanEqual(u, reach.low)) &&
+                                   glm::all(glm::lessThanEqual(u, reach.high));
+            outside += is_met && !is_inside ? 1 : 0;
+        }
+    }
+    CHECK(outside == 0);
+    // A rectangle of 0.81 of the sphere's angle to either side, which holds it anywhere, has 0.38.
+    CHECK(texels / 20000 < 0.3);
 }
 
 TEST_CASE("Texels of a lobe share the sphere by their density") {

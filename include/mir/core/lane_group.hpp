@@ -69,6 +69,18 @@ class LaneGroup {
 #endif
     }
 
+    /// The bits that are set in f(k) of any lane k.
+    template <class F>
+    [[nodiscard]] MIR_HD std::uint32_t any_bits(const F& f) const {
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
+        return __reduce_or_sync(all, f(own_lane()));
+#else
+        PerLane<std::uint32_t> bits;
+        each([&](std::uint32_t lane) { bits[lane] = f(lane); });
+        return combined(bits, [](std::uint32_t a, std::uint32_t b) { return a | b; });
+#endif
+    }
+
     /// The value of one lane.
     [[nodiscard]] MIR_HD std::uint32_t broadcast(const PerLane<std::uint32_t>& values,
                                                  std::uint32_t lane) const {

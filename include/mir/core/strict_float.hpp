@@ -114,6 +114,17 @@ namespace mir::loose {
 #endif
 }
 
+/// 1 / sqrt(a) with a relative error below 2^-21; `a` between 2^-120 and 2^120.
+[[nodiscard]] MIR_HD inline float inverse_root(float a) {
+#if defined(__CUDA_ARCH__)
+    float estimate = 0.0f;
+    asm("rsqrt.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
+    return estimate;
+#else
+    return 1.0f / std::sqrt(a);
+#endif
+}
+
 /// a * b + c, rounded once or twice.
 [[nodiscard]] MIR_HD inline float mul_add(float a, float b, float c) {
 #if defined(__CUDA_ARCH__)

@@ -24,13 +24,13 @@ struct GatherOptions {
     StopShape shape = StopShape::disc;  ///< what a ray meets where it stops at a node
 };
 
-/// Which directions the texels of a MicroBuffer stand for.
+/// Which directions the texels of a micro-buffer stand for.
 enum class BufferWarp {
     hemisphere,  ///< the hemisphere above the surface, by its cosine
     importance   ///< and into the lobe of glossy surfaces, by a second buffer
 };
 
-/// How light is gathered by a MicroBuffer.
+/// How light is gathered by a micro-buffer.
 struct BufferGatherOptions {
     static constexpr std::uint32_t largest_side = 24;  ///< texels that a group has room for
 

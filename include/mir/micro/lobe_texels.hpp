@@ -8,17 +8,23 @@
 
 namespace mir {
 
-/// Texels of a MicroBuffer that share a ReflectionLobe evenly: around its axis from left to right,
+/// Texels of a micro-buffer that share a ReflectionLobe evenly: around its axis from left to right,
 /// away from it from bottom to top. Host and device.
 class LobeTexels {
  public:
     /// Whether the left and the right border of the square are one.
     static constexpr bool goes_around = true;
 
+    /// Around +z, as even as can be.
+    LobeTexels() = default;
     /// `lobe` is sharper than 0.
     MIR_HD explicit LobeTexels(const ReflectionLobe& lobe)
         : frame_(Frame::around(lobe.axis)), k_(lobe.sharpness) {}
 
+    /// True when the same places of the square are the same directions.
+    [[nodiscard]] MIR_HD bool is_like(const LobeTexels& other) const {
+        return frame_.normal == other.frame_.normal && k_ == other.k_;
+    }
     /// Unit, in the world.
     [[nodiscard]] MIR_HD Vec3 direction(Vec2 u) const {
         const float part = 2.0f * u.y / (1.0f + 2.0f * k_);
@@ -35,9 +41,16 @@ class LobeTexels {
         return density_at(Away(frame_.to_local(sphere.direction), sphere).nearest);
     }
 
-    /// Of directions that meet the sphere; a little more for the rounding of directions, which
-    /// counts as k does in the one axis and near the poles in the other.
-    [[nodiscard]] MIR_HD TexelReach reach(const SeenSphere& sphere) const {
+    /// What largest_density() is at least, of any sphere.
+    [[nodiscard]] MIR_HD float least_density() const { return density_at(2.0f); }
+    /// And at most.
+    [[nodiscard]] MIR_HD float most_density() const { return density_at(0.0f); }
+
+    /// Of directions that meet a sphere whose centre is `to_centre` away; a little more for the
+    /// rounding of directions, which counts as k does in the one axis and near the poles in the
+    /// other.
+    [[nodiscard]] MIR_HD TexelReach reach(Vec3 to_centre, float radius) const {
+        const SeenSphere sphere(to_centre, radius);
         TexelReach reach;
         if (sphere.is_around()) return reach;
         const Vec3 w = frame_.to_local(sphere.direction);
@@ -82,7 +95,7 @@ class LobeTexels {
     }
 
     Frame frame_;
-    float k_;
+    float k_ = 0.0f;
 };
 
 }  // namespace mir

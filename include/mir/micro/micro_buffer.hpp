@@ -1,289 +1,357 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/lane_group.hpp"
-#include "mir/micro/gather_options.hpp"
-#include "mir/micro/surfel_traverse.hpp"
-#include "mir/micro/texel_reach.hpp"
+#include "mir/core/load_whole.hpp"
+#include "mir/micro/detail/point_group.hpp"
+#include "mir/micro/micro_buffer_space.hpp"
 
 #include <cstring>
 
 namespace mir {
 
-/// What a group works in that draws a MicroBuffer of up to `Side` texels in each direction.
-template <std::uint32_t Side>
-struct MicroBufferSpace {
-    static constexpr std::uint32_t side = Side;  ///< most texels in each direction
-    /// Nodes that may wait: fewer make lanes idle, never fail; more leave room for fewer groups.
-    static constexpr std::uint32_t most_waiting = 384;
-
-    std::uint64_t nearest[Side * Side];   ///< of texels: bits of the distance, below them the node
-    Vec3 direction[Side * Side];          ///< of texels, unit
-    std::uint32_t waiting[most_waiting];  ///< stack of nodes still to be looked at
-    std::uint32_t drawn[2 * LaneGroup::width];  ///< nodes where the walk ended
-    // Of up to 32 nodes that are drawn together:
-    SurfelNode node[LaneGroup::width];       ///< copies of those nodes
-    std::uint32_t area[LaneGroup::width];    ///< texels that it may cover
-    std::uint32_t before[LaneGroup::width];  ///< texels of the nodes before
-};
-
-/// A small picture of what is around a point: what each of its texels sees first of a tree of
-/// discs. `Texels` says which directions they stand for, each seen along one of them: a
-/// CosineTexels or LobeTexels. Made by 32 lanes together, in the memory of their group; host and
-/// device, the same bits.
-template <std::uint32_t Side, class Texels>
-class MicroBuffer {
+/// Small pictures of what is around points next to each other: what each of their texels sees first
+/// of a tree of discs, along the directions of its point's `Texels`. Drawn by 32 lanes together, in
+/// the memory of their group; host and device, the same bits, which do not depend on what other
+/// pictures are drawn with one.
+template <class Memory, class Texels>
+class MicroBuffers {
  public:
-    /// Memory of the group, undefined before; holds the picture afterwards.
-    using Workspace = MicroBufferSpace<Side>;
+    /// Memory of the group, a MicroBufferSpace, undefined before; holds the pictures afterwards.
+    using Workspace = Memory;
 
-    /// `side` texels in each direction, 1 to `Side`; `jitter` in [0, 1)^2 is the place of the
-    /// directions inside their texels. What is passed in must outlive it.
-    MIR_HD MicroBuffer(const LaneGroup& group, Workspace& space, const Texels& texels,
-                       std::uint32_t side, Vec2 jitter)
-        : group_(group), space_(space), texels_(texels), side_(side), jitter_(jitter) {
-        const float step = 1.0f / static_cast<float>(side);
-        group.each([&](std::uint32_t lane) {
+    /// Pictures of `side` texels in each direction, 1 to Workspace::side; `points` lies in the
+    /// workspace. What is passed in must outlive it.
+    MIR_HD MicroBuffers(const LaneGroup& group, Workspace& space, MicroPoint<Texels>* points,
+                        std::uint32_t side)
+        : group_(group), space_(space), points_(points), side_(side) {}
+
+    /// Makes picture k, below Workspace::pictures, the empty one of a point.
+    MIR_HD void place(std::uint32_t k, const MicroPoint<Texels>& point) {
+        const float step = 1.0f / static_cast<float>(side_);
+        group_.each([&](std::uint32_t lane) {
+            if (lane == 0) points_[k] = point;
             for (std::uint32_t i = lane; i < size(); i += LaneGroup::width) {
-                space.direction[i] = texels.direction(step * (Vec2(i % side, i / side) + jitter));
-                space.nearest[i] = nothing;
+                space_.direction[k][i] =
+                    point.texels.direction(step * (Vec2(i % side_, i / side_) + point.jitter));
+                space_.nearest[k][i] = nothing;
             }
         });
+        placed_ |= 1u << k;
     }
 
-    /// Number of texels, counted row by row.
+    /// Number of texels of a picture, counted row by row.
     [[nodiscard]] MIR_HD std::uint32_t size() const { return side_ * side_; }
     /// Unit, in the world.
-    [[nodiscard]] MIR_HD Vec3 direction(std::uint32_t texel) const {
-        return space_.direction[texel];
+    [[nodiscard]] MIR_HD Vec3 direction(std::uint32_t k, std::uint32_t texel) const {
+        return space_.direction[k][texel];
     }
-    /// Index of the node that a texel sees first, or SurfelHit::none.
-    [[nodiscard]] MIR_HD std::uint32_t node(std::uint32_t texel) const {
-        return static_cast<std::uint32_t>(space_.nearest[texel]);
+    /// Index of the node that a texel of picture k sees first, or SurfelHit::none.
+    [[nodiscard]] MIR_HD std::uint32_t node(std::uint32_t k, std::uint32_t texel) const {
+        return static_cast<std::uint32_t>(space_.nearest[k][texel]);
     }
     /// Distance of that node, metres.
-    [[nodiscard]] MIR_HD float distance(std::uint32_t texel) const {
-        const auto word = static_cast<std::uint32_t>(space_.nearest[texel] >> 32);
+    [[nodiscard]] MIR_HD float distance(std::uint32_t k, std::uint32_t texel) const {
+        const auto word = static_cast<std::uint32_t>(space_.nearest[k][texel] >> 32);
         float t = 0.0f;
         memcpy(&t, &word, sizeof(t));
         return t;
     }
 
-    /// Draws a tree as seen from `origin`, above the tangent plane of `normal` (SurfelRay::normal),
-    /// in one walk: down to discs, or to nodes at most `threshold` times as large as the texels
-    /// there and at which closest_surfel() would stop. A texel holds the nearest of those that its
-    /// direction meets. Nodes wait on a stack of which every lane takes one; those that are to be
-    /// drawn are drawn 32 together. Source: Ritschel et al. 2009, section 4; nodes are met by all
-    /// texels that they cover, not splatted into one, which leaves holes.
+    /// Draws a tree into all pictures that have a place, in one walk for all of them: down to
+    /// discs, or to nodes at most `threshold` times as large as the texels there and at which
+    /// closest_surfel() would stop. A texel holds the nearest of those that its direction meets.
+    /// Every step is one that all lanes have nodes for, as long as there is one.
+    /// Source: Ritschel et al. 2009, section 4; nodes are met by all texels that they cover, not
+    /// splatted into one, which leaves holes.
     template <Space S>
-    MIR_HD void draw(const SurfelTreeView<S>& tree, Vec3 origin, Vec3 normal, float threshold) {
-        if (tree.empty()) return;
-        const SurfelRay point{origin, {0, 0, 1}, normal};
+    MIR_HD void draw(const SurfelTreeView<S>& tree, float threshold) {
+        if (tree.empty() || placed_ == 0) return;
         const float share = threshold / static_cast<float>(size());
+        const Walk<S> walk{tree, share, {points_, placed_, share}};
         group_.each([&](std::uint32_t lane) {
-            if (lane == 0) space_.waiting[0] = tree.root;
+            if (lane != 0) return;
+            space_.unsure.node[0] = tree.root;
+            space_.unsure.pictures[0] = static_cast<std::uint8_t>(placed_);
         });
-        std::uint32_t waiting = 1;
-        std::uint32_t drawn = 0;
-        while (waiting > 0) {
-            const std::uint32_t taken = portion(waiting);
-            waiting -= taken;
-            const Taken ends = take(tree, point, share, {waiting, taken}, drawn);
-            waiting += 2 * ends.inner;
-            drawn += ends.drawn;
-            if (drawn < LaneGroup::width) continue;
-            drawn -= LaneGroup::width;
-            draw_nodes(tree, point, {drawn, LaneGroup::width});
+        unsure_ = 1;
+        while (waiting_ + unsure_ + ended_ > 0) {
+            const bool may_look = waiting_ == 0 || waiting_ >= room;
+            if (ended_ >= LaneGroup::width || waiting_ + unsure_ == 0)
+                cover(walk);
+            else if (unsure_ >= LaneGroup::width || (unsure_ > 0 && may_look))
+                look(walk);
+            else
+                take(walk);
         }
-        draw_nodes(tree, point, {0, drawn});
+        meet(tree, drawn_);
     }
 
-    /// Whether a walk for a point ends at a node that it does not pass by.
+    /// Whether the walk for picture k ends at a node that it does not pass by.
     template <Space S>
     [[nodiscard]] MIR_HD bool ends_at(const SurfelTreeView<S>& tree, std::uint32_t index,
-                                      const SurfelRay& point, float share) const {
+                                      std::uint32_t k, float share) const {
         const SurfelNode& node = tree.nodes[index];
-        return ends_at(node, point.normal, node.centre - point.origin, share);
+        return ends_at(node, points_[k], node.centre - points_[k].origin, share);
     }
 
  private:
+    using Drawn = typename Workspace::Drawn;
+    using Met = typename Workspace::Met;
+    using Fate = detail::Fate;
+
     /// Infinitely far, SurfelHit::none.
     static constexpr std::uint64_t nothing = 0x7F800000FFFFFFFFull;
+    /// Nodes whose children may wait before nodes are taken one at a time. Behind them there is
+    /// room for what those may add that are unsure then, and for a walk down.
+    static constexpr std::uint32_t room =
+        Workspace::most_waiting - (LaneGroup::width + 2) - SurfelTreeOptions::depth_limit;
 
-    /// A run of places in an array of the workspace.
-    struct Run {
-        std::uint32_t first;
-        std::uint32_t count;
-    };
-
-    /// What became of the nodes that were taken.
-    struct Taken {
-        std::uint32_t inner;  ///< their children wait
-        std::uint32_t drawn;  ///< are to be drawn
-    };
-
-    /// Nodes to take of those that wait: as many as there are lanes, fewer when their children may
-    /// not have room, one when only a walk down by itself is sure to.
-    [[nodiscard]] MIR_HD static std::uint32_t portion(std::uint32_t waiting) {
-        constexpr std::uint32_t room = Workspace::most_waiting - SurfelTreeOptions::depth_limit;
-        const std::uint32_t left = waiting < room ? room - waiting : 1;
-        const std::uint32_t most = waiting < LaneGroup::width ? waiting : LaneGroup::width;
-        return left < most ? left : most;
+    /// As many of `count` as may each add one to those that wait.
+    [[nodiscard]] MIR_HD std::uint32_t portion(std::uint32_t count, std::uint32_t most) const {
+        const std::uint32_t left = waiting_ < room ? room - waiting_ : 1;
+        const std::uint32_t some = count < most ? count : most;
+        return some < left ? some : left;
     }
 
-    /// Looks at a run of nodes that no longer wait. Children of inner nodes take their places,
-    /// nodes where the walk ends those behind `drawn`.
+    /// What a walk asks of all nodes.
     template <Space S>
-    MIR_HD Taken take(const SurfelTreeView<S>& tree, const SurfelRay& point, float share, Run run,
-                      std::uint32_t drawn) {
+    struct Walk {
+        const SurfelTreeView<S>& tree;
+        float share;  ///< steradians of a texel's node times its density
+        detail::PointGroup group;
+    };
+
+    template <std::uint32_t N>
+    using Shares = typename Workspace::template Shares<N>;
+
+    /// Calls write(place in a list, lane) for the lanes for whose `pictures` there are any, and
+    /// counts them to the list's length.
+    template <class Write>
+    MIR_HD void append(std::uint32_t& length, const LaneGroup::PerLane<std::uint32_t>& pictures,
+                       const Write& write) {
+        const std::uint32_t these =
+            group_.ballot([&](std::uint32_t lane) { return pictures[lane] != 0; });
+        group_.each([&](std::uint32_t lane) {
+            if (pictures[lane] != 0) write(length + LaneGroup::count_before(these, lane), lane);
+        });
+        length += LaneGroup::count(these);
+    }
+
+    /// Adds the node of each lane for whose `pictures` there are any to a list.
+    template <std::uint32_t N>
+    MIR_HD void append(Shares<N>& list, std::uint32_t& length,
+                       const LaneGroup::PerLane<std::uint32_t>& nodes,
+                       const LaneGroup::PerLane<std::uint32_t>& pictures) {
+        append(length, pictures, [&](std::uint32_t i, std::uint32_t lane) {
+            list.node[i] = nodes[lane];
+            list.pictures[i] = static_cast<std::uint8_t>(pictures[lane]);
+        });
+    }
+
+    /// The same of nodes whose children are to be taken.
+    MIR_HD void open(const LaneGroup::PerLane<std::uint32_t>& nodes,
+                     const LaneGroup::PerLane<std::uint32_t>& right,
+                     const LaneGroup::PerLane<std::uint32_t>& pictures) {
+        append(waiting_, pictures, [&](std::uint32_t i, std::uint32_t lane) {
+            space_.waiting.node[i] = nodes[lane];
+            space_.waiting.right[i] = right[lane];
+            space_.waiting.pictures[i] = static_cast<std::uint8_t>(pictures[lane]);
+        });
+    }
+
+    /// Takes the children of up to 16 nodes that wait, one for each lane, and does what is sure
+    /// for all pictures together.
+    template <Space S>
+    MIR_HD void take(const Walk<S>& walk) {
+        const std::uint32_t parents = portion(waiting_, LaneGroup::width / 2);
+        waiting_ -= parents;
         LaneGroup::PerLane<std::uint32_t> nodes;
         LaneGroup::PerLane<std::uint32_t> right;
-        LaneGroup::PerLane<bool> is_inner;
-        LaneGroup::PerLane<bool> is_end;
+        LaneGroup::PerLane<std::uint32_t> opened;
+        LaneGroup::PerLane<std::uint32_t> ended;
+        LaneGroup::PerLane<std::uint32_t> unsure;
         group_.each([&](std::uint32_t lane) {
-            is_inner[lane] = is_end[lane] = false;
-            if (lane >= run.count) return;
-            const std::uint32_t index = nodes[lane] = space_.waiting[run.first + lane];
-            // A copy: a GPU reads it in three pieces, not member by member.
-            const SurfelNode node = tree.nodes[index];
-            const Vec3 to_centre = node.centre - point.origin;
-            if (detail::lies_below(node, point.normal, to_centre,
-                                   detail::padded_radius(node, to_centre)))
-                return;
+            nodes[lane] = opened[lane] = ended[lane] = unsure[lane] = 0;
+            if (lane >= 2 * parents) return;
+            const std::uint32_t parent = waiting_ + lane / 2;
+            const std::uint32_t pictures = space_.waiting.pictures[parent];
+            nodes[lane] =
+                lane % 2 == 0 ? space_.waiting.node[parent] + 1 : space_.waiting.right[parent];
+            const SurfelNode node = load_whole(walk.tree.nodes[nodes[lane]]);
             right[lane] = node.right;
-            const bool ends = ends_at(node, point.normal, to_centre, share);
-            is_inner[lane] = !ends;
-            is_end[lane] = ends && (node.is_leaf() || detail::is_above(point, to_centre));
+            const Fate fate = fate_of(node, pictures, walk);
+            opened[lane] = fate == Fate::opened ? pictures : 0;
+            ended[lane] = fate == Fate::ended ? pictures : 0;
+            unsure[lane] = fate == Fate::unsure ? pictures : 0;
         });
-        const std::uint32_t inner =
-            group_.ballot([&](std::uint32_t lane) { return is_inner[lane]; });
-        const std::uint32_t ends = group_.ballot([&](std::uint32_t lane) { return is_end[lane]; });
-        group_.each([&](std::uint32_t lane) {
-            if (is_inner[lane]) {
-                std::uint32_t* out =
-                    space_.waiting + run.first + 2 * LaneGroup::count_before(inner, lane);
-                out[0] = right[lane];
-                out[1] = nodes[lane] + 1;
-            }
-            if (is_end[lane])
-                space_.drawn[drawn + LaneGroup::count_before(ends, lane)] = nodes[lane];
-        });
-        return {LaneGroup::count(inner), LaneGroup::count(ends)};
+        open(nodes, right, opened);
+        append(space_.ended, ended_, nodes, ended);
+        append(space_.unsure, unsure_, nodes, unsure);
     }
 
-    [[nodiscard]] MIR_HD bool ends_at(const SurfelNode& node, Vec3 normal, Vec3 to_centre,
-                                      float share) const {
+    /// What becomes of a node in all pictures for which it is looked at.
+    template <Space S>
+    [[nodiscard]] MIR_HD Fate fate_of(const SurfelNode& node, std::uint32_t pictures,
+                                      const Walk<S>& walk) const {
+        if constexpr (Workspace::pictures == 1)
+            return look_at(node, 0, walk.share);
+        else
+            return pictures == placed_ ? walk.group.fate(node) : Fate::unsure;
+    }
+
+    /// Looks at nodes that are unsure, one for each lane, for one picture after another: it is
+    /// passed by, to be drawn, or its children wait.
+    template <Space S>
+    MIR_HD void look(const Walk<S>& walk) {
+        const std::uint32_t count = portion(unsure_, LaneGroup::width);
+        unsure_ -= count;
+        LaneGroup::PerLane<std::uint32_t> nodes;
+        LaneGroup::PerLane<std::uint32_t> right;
+        LaneGroup::PerLane<std::uint32_t> opened;
+        LaneGroup::PerLane<std::uint32_t> ended;
+        group_.each([&](std::uint32_t lane) {
+            nodes[lane] = opened[lane] = ended[lane] = 0;
+            if (lane >= count) return;
+            nodes[lane] = space_.unsure.node[unsure_ + lane];
+            const std::uint32_t pictures = space_.unsure.pictures[unsure_ + lane];
+            const SurfelNode node = load_whole(walk.tree.nodes[nodes[lane]]);
+            right[lane] = node.right;
+            for (std::uint32_t k = 0; placed_ >> k != 0; ++k) {
+                if ((pictures >> k & 1u) == 0) continue;
+                const Fate seen = look_at(node, k, walk.share);
+                opened[lane] |= seen == Fate::opened ? 1u << k : 0;
+                ended[lane] |= seen == Fate::ended ? 1u << k : 0;
+            }
+        });
+        open(nodes, right, opened);
+        append(space_.ended, ended_, nodes, ended);
+    }
+
+    /// Finds the texels that ended nodes may cover, a node for each lane, in all pictures.
+    template <Space S>
+    MIR_HD void cover(const Walk<S>& walk) {
+        const std::uint32_t count = ended_ < LaneGroup::width ? ended_ : LaneGroup::width;
+        ended_ -= count;
+        LaneGroup::PerLane<std::uint32_t> nodes;
+        LaneGroup::PerLane<std::uint32_t> pictures;
+        LaneGroup::PerLane<SurfelNode> node;
+        LaneGroup::PerLane<TexelReach> reach;
+        LaneGroup::PerLane<bool> is_near;
+        group_.each([&](std::uint32_t lane) {
+            pictures[lane] = 0;
+            if (lane >= count) return;
+            nodes[lane] = space_.ended.node[ended_ + lane];
+            pictures[lane] = space_.ended.pictures[ended_ + lane];
+            node[lane] = load_whole(walk.tree.nodes[nodes[lane]]);
+            reach[lane] = walk.group.reach(first_texels(), node[lane]);
+            is_near[lane] = !walk.group.is_far(node[lane], side_);
+        });
+        for (std::uint32_t k = 0; placed_ >> k != 0; ++k) {
+            LaneGroup::PerLane<TexelRectangle> texels;
+            group_.each([&](std::uint32_t lane) {
+                texels[lane] = {};
+                if ((pictures[lane] >> k & 1u) == 0) return;
+                if (is_near[lane]) reach[lane] = reach_of(node[lane], k);
+                texels[lane] = {reach[lane], points_[k].jitter, side_, Texels::goes_around, k};
+            });
+            const std::uint32_t covers =
+                group_.ballot([&](std::uint32_t lane) { return !texels[lane].is_empty(); });
+            group_.each([&](std::uint32_t lane) {
+                if (!texels[lane].is_empty())
+                    space_.drawn[drawn_ + LaneGroup::count_before(covers, lane)] = {nodes[lane],
+                                                                                    texels[lane]};
+            });
+            drawn_ += LaneGroup::count(covers);
+            if (drawn_ >= LaneGroup::width) meet(walk.tree, LaneGroup::width);
+        }
+    }
+
+    [[nodiscard]] MIR_HD const Texels& first_texels() const {
+        return points_[LaneGroup::lowest(placed_)].texels;
+    }
+
+    /// What becomes of a node in picture k.
+    [[nodiscard]] MIR_HD Fate look_at(const SurfelNode& node, std::uint32_t k, float share) const {
+        const MicroPoint<Texels>& point = points_[k];
+        const Vec3 to_centre = node.centre - point.origin;
+        if (detail::lies_below(node, point.normal, to_centre,
+                               detail::padded_radius(node, to_centre)))
+            return Fate::passed_by;
+        if (!ends_at(node, point, to_centre, share)) return Fate::opened;
+        const bool is_above = glm::dot(point.normal, to_centre) >= 0.0f;
+        return node.is_leaf() || is_above ? Fate::ended : Fate::passed_by;
+    }
+
+    [[nodiscard]] MIR_HD bool ends_at(const SurfelNode& node, const MicroPoint<Texels>& point,
+                                      Vec3 to_centre, float share) const {
         if (node.is_leaf()) return true;
         const float solid_angle =
-            share / texels_.largest_density(SeenSphere(to_centre, node.radius));
-        return detail::stops_at(node, normal, to_centre, cap_sine_squared(solid_angle));
+            share / point.texels.largest_density(SeenSphere(to_centre, node.radius));
+        return detail::stops_at(node, point.normal, to_centre, cap_sine_squared(solid_angle));
     }
 
-    /// Texels that up to 32 nodes may cover are found by a lane for each node, and met by a lane
-    /// for each texel of a node, for nodes cover one texel or many.
+    /// Texels of picture k that a node may cover.
+    [[nodiscard]] MIR_HD TexelReach reach_of(const SurfelNode& node, std::uint32_t k) const {
+        const Vec3 to_centre = node.centre - points_[k].origin;
+        return points_[k].texels.reach(to_centre, detail::padded_radius(node, to_centre));
+    }
+
+    /// The last `count` of the nodes to be drawn, up to 32, are met by a lane for each texel that
+    /// they may cover, for they cover one texel or many.
     template <Space S>
-    MIR_HD void draw_nodes(const SurfelTreeView<S>& tree, const SurfelRay& point, Run run) {
+    MIR_HD void meet(const SurfelTreeView<S>& tree, std::uint32_t count) {
+        drawn_ -= count;
         LaneGroup::PerLane<std::uint32_t> before;
         group_.each([&](std::uint32_t lane) {
-            Area area{};
-            if (lane < run.count) {
-                space_.node[lane] = tree.nodes[space_.drawn[run.first + lane]];
-                area = area_of(space_.node[lane], point.origin);
-            }
-            space_.area[lane] = area.word;
-            before[lane] = area.texels;
+            before[lane] = lane < count ? space_.drawn[drawn_ + lane].texels.size() : 0;
         });
         const std::uint32_t texels = group_.sums_before(before);
-        group_.each([&](std::uint32_t lane) { space_.before[lane] = before[lane]; });
-        for (std::uint32_t first = 0; first < texels; first += LaneGroup::width)
+        group_.each([&](std::uint32_t lane) {
+            if (lane >= count) return;
+            const Drawn own = space_.drawn[drawn_ + lane];
+            const Vec3 origin = points_[own.texels.picture()].origin;
+            const SurfelNode node = load_whole(tree.nodes[own.node]);
+            space_.met[lane] = {{node, own.node, origin}, own.texels, before[lane]};
+        });
+        for (std::uint32_t first = 0; first < texels; first += LaneGroup::width) {
+            const std::uint32_t earlier = LaneGroup::count(group_.ballot(
+                [&](std::uint32_t lane) { return lane < count && before[lane] < first; }));
+            const std::uint32_t starts = group_.any_bits([&](std::uint32_t lane) {
+                const std::uint32_t start = before[lane] - first;
+                return lane < count && start < LaneGroup::width ? 1u << start : 0u;
+            });
             group_.each([&](std::uint32_t lane) {
                 if (first + lane >= texels) return;
-                const std::uint32_t drawn = owner(first + lane);
-                const std::uint32_t texel =
-                    texel_of(space_.area[drawn], first + lane - space_.before[drawn]);
-                SurfelRay ray = point;
-                ray.direction = space_.direction[texel];
-                SurfelHit hit;
-                detail::meet_disc(tree, space_.node[drawn], space_.drawn[run.first + drawn], ray,
-                                  hit);
-                if (hit.node != SurfelHit::none) keep(texel, hit);
+                // The last node whose texels do not start behind this one.
+                const std::uint32_t up_to = LaneGroup::count(starts & ((2u << lane) - 1u));
+                const Met& met = space_.met[earlier + up_to - 1];
+                keep_nearest(tree, met, first + lane - met.before);
             });
+        }
     }
 
-    /// The node to which one of the texels belongs that are counted over all of them: the last with
-    /// no more before it.
-    [[nodiscard]] MIR_HD std::uint32_t owner(std::uint32_t texel) const {
-        std::uint32_t found = 0;
-        for (std::uint32_t step = LaneGroup::width / 2; step > 0; step /= 2)
-            if (space_.before[found + step] <= texel) found += step;
-        return found;
-    }
-
-    /// A rectangle of texels in a word: its first column, row and width, eight bits each.
-    struct Area {
-        std::uint32_t word;
-        std::uint32_t texels;
-    };
-
-    /// Texels that a node may cover.
-    [[nodiscard]] MIR_HD Area area_of(const SurfelNode& node, Vec3 origin) const {
-        const Vec3 to_centre = node.centre - origin;
-        const TexelReach reach =
-            texels_.reach(SeenSphere(to_centre, detail::padded_radius(node, to_centre)));
-        const Span y = inside(span(reach.low.y, reach.high.y, jitter_.y));
-        const Span all_x = span(reach.low.x, reach.high.x, jitter_.x);
-        const Span x = Texels::goes_around ? once_around(all_x) : inside(all_x);
-        if (x.last < x.first || y.last < y.first) return {};
-        const auto width = static_cast<std::uint32_t>(x.last - x.first + 1);
-        const auto height = static_cast<std::uint32_t>(y.last - y.first + 1);
-        const std::uint32_t column = around(static_cast<std::uint32_t>(x.first));
-        return {column | static_cast<std::uint32_t>(y.first) << 8 | width << 16, width * height};
-    }
-
-    /// Number k of a rectangle, row by row.
-    [[nodiscard]] MIR_HD std::uint32_t texel_of(std::uint32_t area, std::uint32_t k) const {
-        const std::uint32_t width = area >> 16;
-        const std::uint32_t row = k / width;
-        const std::uint32_t column = (area & 0xFFu) + (k - row * width);
-        return ((area >> 8 & 0xFFu) + row) * side_ + (column < side_ ? column : column - side_);
-    }
-
-    MIR_HD void keep(std::uint32_t texel, const SurfelHit& hit) {
-        std::uint32_t t = 0;
-        memcpy(&t, &hit.t, sizeof(t));
-        LaneGroup::put_least(space_.nearest[texel], std::uint64_t{t} << 32 | hit.node);
-    }
-
-    /// Texels on an axis; none when the last comes before the first.
-    struct Span {
-        int first;
-        int last;
-    };
-
-    /// Those whose directions lie between two places, `jitter` being theirs inside of texels.
-    [[nodiscard]] MIR_HD Span span(float low, float high, float jitter) const {
-        const auto texels = static_cast<float>(side_);
-        return {static_cast<int>(ceilf(low * texels - jitter)),
-                static_cast<int>(floorf(high * texels - jitter))};
-    }
-    [[nodiscard]] MIR_HD Span inside(Span s) const {
-        const int end = static_cast<int>(side_) - 1;
-        return {s.first > 0 ? s.first : 0, s.last < end ? s.last : end};
-    }
-    [[nodiscard]] MIR_HD Span once_around(Span s) const {
-        const int most = s.first + static_cast<int>(side_) - 1;
-        return {s.first, s.last < most ? s.last : most};
-    }
-    /// Spans start less than two turns below 0.
-    [[nodiscard]] MIR_HD std::uint32_t around(std::uint32_t i) const {
-        return (i + 2 * side_) % side_;
+    /// Meets texel i of those that a node may cover.
+    template <Space S>
+    MIR_HD void keep_nearest(const SurfelTreeView<S>& tree, const Met& met, std::uint32_t i) {
+        const std::uint32_t k = met.texels.picture();
+        const std::uint32_t texel = met.texels.texel(i, side_);
+        const SurfelRay ray{points_[k].origin, space_.direction[k][texel], points_[k].normal};
+        const float t = met.disc.meet(tree, ray).t;
+        if (!(t > 0.0f)) return;
+        std::uint32_t word = 0;
+        memcpy(&word, &t, sizeof(word));
+        LaneGroup::put_least(space_.nearest[k][texel], std::uint64_t{word} << 32 | met.disc.node);
     }
 
     const LaneGroup& group_;
     Workspace& space_;
-    const Texels& texels_;
+    MicroPoint<Texels>* points_;
     std::uint32_t side_;
-    Vec2 jitter_;
+    std::uint32_t placed_ = 0;   ///< pictures, a bit each
+    std::uint32_t waiting_ = 0;  ///< lengths of what lies in the workspace
+    std::uint32_t unsure_ = 0;
+    std::uint32_t ended_ = 0;
+    std::uint32_t drawn_ = 0;
 };
 
 }  // namespace mir

@@ -56,20 +56,53 @@ MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, flo
     return disc.in_piece(off, rounding / fabsf(cosine));
 }
 
-/// Meets a disc of the node's radius across its axis: of a leaf, the disc itself, as far as it lies
-/// in its piece. `node` is what lies at `index`, or a copy of it.
+/// A node as a disc of its radius across its axis, and what all rays from one point share that meet
+/// it: of a leaf, the disc itself, as far as it lies in its piece.
+struct SeenDisc {
+    Vec3 to_centre{0};                       ///< from the point, metres
+    float radius2 = 0.0f;                    ///< square of the radius, square metres
+    Vec3 axis{0, 0, 1};                      ///< unit
+    float height = 0.0f;                     ///< of the centre along the axis, metres
+    std::uint32_t surfel = SurfelHit::none;  ///< of a leaf
+    std::uint32_t node = SurfelHit::none;    ///< index of the node
+
+    SeenDisc() = default;
+    /// `n` is what lies at `index`, or a copy of it.
+    MIR_HD SeenDisc(const SurfelNode& n, std::uint32_t index, Vec3 origin)
+        : to_centre(n.centre - origin),
+          radius2(n.radius * n.radius),
+          axis(n.axis),
+          height(glm::dot(n.axis, to_centre)),
+          surfel(n.is_leaf() ? n.first : SurfelHit::none),
+          node(index) {}
+
+    /// Where a ray meets it.
+    struct Meeting {
+        float t;       ///< distance, metres; 0: nowhere
+        float cosine;  ///< of the ray and the axis
+    };
+
+    /// The ray starts at the point.
+    template <Space S>
+    [[nodiscard]] MIR_HD Meeting meet(const SurfelTreeView<S>& tree, const SurfelRay& ray) const {
+        const float cosine = glm::dot(axis, ray.direction);
+        const float t = height / cosine;
+        const Vec3 off_centre = t * ray.direction - to_centre;
+        if (!(t > 0.0f && length_squared(off_centre) <= radius2)) return {0.0f, cosine};
+        const bool met = surfel == SurfelHit::none ||
+                         meets_piece(tree.surfels[surfel], to_centre, off_centre, cosine, ray);
+        return {met ? t : 0.0f, cosine};
+    }
+};
+
+/// Meets the disc of a node that is not passed by as a whole.
 template <Space S>
 MIR_HD void meet_disc(const SurfelTreeView<S>& tree, const SurfelNode& node, std::uint32_t index,
                       const SurfelRay& ray, SurfelHit& hit) {
-    const Vec3 to_centre = node.centre - ray.origin;
-    const float cosine = glm::dot(node.axis, ray.direction);
-    const float t = glm::dot(node.axis, to_centre) / cosine;
-    const Vec3 off_centre = t * ray.direction - to_centre;
-    if (!(t > 0.0f && length_squared(off_centre) <= node.radius * node.radius)) return;
-    const bool met = node.is_leaf()
-                         ? meets_piece(tree.surfels[node.first], to_centre, off_centre, cosine, ray)
-                         : is_above(ray, to_centre);
-    if (met) take_nearer(hit, t, index, cosine < 0.0f);
+    const SeenDisc disc(node, index, ray.origin);
+    if (!node.is_leaf() && !is_above(ray, disc.to_centre)) return;
+    const SeenDisc::Meeting at = disc.meet(tree, ray);
+    if (at.t > 0.0f) take_nearer(hit, at.t, index, at.cosine < 0.0f);
 }
 
 /// Meets the node's sphere from outside.

@@ -23,16 +23,16 @@ struct SeenSphere {
     [[nodiscard]] MIR_HD bool is_around() const { return !(sine < 1.0f); }
     /// Of the same angle; 0 around the point.
     [[nodiscard]] MIR_HD float cosine() const { return sqrtf(larger(0.0f, 1.0f - sine * sine)); }
-    /// Length of the way between unit vectors to centre and rim, or more: 2 sin(a / 2) is at most
-    /// s (1 + (sqrt(2) - 1) s^2) where sin a = s.
-    [[nodiscard]] MIR_HD float chord() const { return sine * (1.0f + 0.4143f * sine * sine); }
 };
 
-/// A rectangle of the unit square of a MicroBuffer's texels, all of it unless said. On axes that go
-/// around it may reach past 0 or 1.
+/// A rectangle of the unit square of a micro-buffer's texels, all of it unless said. On axes that
+/// go around it may reach past 0 or 1.
 struct TexelReach {
     Vec2 low{0.0f};   ///< least u and v
     Vec2 high{1.0f};  ///< largest u and v
+
+    /// No direction at all.
+    [[nodiscard]] MIR_HD static TexelReach none() { return {Vec2(1.0f), Vec2(0.0f)}; }
 };
 
 }  // namespace mir

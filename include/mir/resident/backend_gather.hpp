@@ -58,7 +58,7 @@ class BackendGather {
                 return [this, pass = BufferGatherPass{tile, by_buffers, 0}](
                            LuxelIndex first, std::uint32_t n) mutable {
                     pass.first = first;
-                    queue_.for_each_group(n, pass);
+                    queue_.for_each_group(n / pass.luxels, pass);
                 };
             });
         });

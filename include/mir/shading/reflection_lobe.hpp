@@ -14,12 +14,16 @@ struct ReflectionLobe {
     float sharpness = 0.0f;  ///< k, to largest_sharpness; 0: there is no lobe
 };
 
-/// The lobe of a BSDF that has one, `B::lobe(params, n, wo)`; none of others.
+/// True of a BSDF that tells its lobe, `B::lobe(params, n, wo)`.
+template <Bsdf B>
+inline constexpr bool has_lobe = requires(const typename B::Params& p, Vec3 n, Vec3 wo) {
+    { B::lobe(p, n, wo) } -> std::same_as<ReflectionLobe>;
+};
+
+/// The lobe of a BSDF that has one; none of others.
 template <Bsdf B>
 [[nodiscard]] MIR_HD ReflectionLobe reflection_lobe(const typename B::Params& p, Vec3 n, Vec3 wo) {
-    if constexpr (requires {
-                      { B::lobe(p, n, wo) } -> std::same_as<ReflectionLobe>;
-                  })
+    if constexpr (has_lobe<B>)
         return B::lobe(p, n, wo);
     else
         return {};
