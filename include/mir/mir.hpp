@@ -287,6 +287,7 @@
 #include "mir/shaft/cluster_record.hpp"
 #include "mir/shaft/cluster_shafts.hpp"
 #include "mir/shaft/cluster_visibility.hpp"
+#include "mir/shaft/facing_bounds.hpp"
 #include "mir/shaft/facing_pass.hpp"
 #include "mir/shaft/group_records.hpp"
 #include "mir/shaft/lane_search.hpp"
