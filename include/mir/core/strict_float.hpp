@@ -96,6 +96,34 @@ namespace mir::strict {
 #endif
 }
 
+/// Square root, rounded once, of a number from 2^-100 to 2^100. What it is for others differs from
+/// device to host: on the device these are the operations that the compiler makes of sqrtf(),
+/// without the branch for numbers out of that range.
+[[nodiscard]] MIR_HD inline float usual_sqrt(float a) {
+#if defined(__CUDA_ARCH__)
+    float estimate = 0.0f;
+    asm("rsqrt.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
+    const float root = __fmul_rn(a, estimate);
+    return __fmaf_rn(__fmaf_rn(-root, root, a), __fmul_rn(0.5f, estimate), root);
+#else
+    return sqrtf(a);
+#endif
+}
+
+/// 1 / sqrt(a), rounded twice, of any number: the bits of 1.0f / sqrtf(a), with one branch on the
+/// device where that has two.
+[[nodiscard]] MIR_HD inline float reciprocal_of_root(float a) {
+#if defined(__CUDA_ARCH__)
+    if (!(a >= 0x1p-100f && a <= 0x1p100f)) return 1.0f / sqrtf(a);
+    const float root = usual_sqrt(a);
+    float estimate = 0.0f;
+    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(root));
+    return __fmaf_rn(estimate, __fmaf_rn(-root, estimate, 1.0f), estimate);
+#else
+    return 1.0f / sqrtf(a);
+#endif
+}
+
 }  // namespace mir::strict
 
 namespace mir::loose {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/triangle_rows.hpp"
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/shading.hpp"
 #include "mir/concepts/vpl_set.hpp"
@@ -14,8 +15,12 @@ namespace mir {
 /// together. Writes W m^-2 sr^-1, VPLs summed in their order: the bits of ShadingPass.
 template <GBuffer G, VplSet P, Shading F>
 struct WordShading {
-    /// Groups need no memory.
-    struct Workspace {};
+    /// What a group works in: 32 VPLs, which all lanes read one after the other.
+    struct Workspace {
+        AffineRow positions[LaneGroup::width];    ///< metres; w is not used
+        AffineRow normals[LaneGroup::width];      ///< w is not used
+        AffineRow intensities[LaneGroup::width];  ///< W sr^-1; w is not used
+    };
 
     G luxels;                              ///< of the tile, whole groups of 32
     P vpls;                                ///< those that `words` knows of, in its order
@@ -24,7 +29,7 @@ struct WordShading {
     SoaView<Rgb> radiance;                 ///< W m^-2 sr^-1 by blocked index
 
     /// Luxels 32 i to 32 i + 31 (blocked indices). Black for those that no bit is set of.
-    MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace&) const {
+    MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
         LaneGroup::PerLane<Hit> hits;
         LaneGroup::PerLane<typename F::Surface> surfaces;
         LaneGroup::PerLane<Rgb> sums;
@@ -38,12 +43,13 @@ struct WordShading {
             LaneGroup::PerLane<std::uint32_t> own;
             group.each([&](std::uint32_t lane) {
                 own[lane] = first + lane < vpls.size() ? own_words[first + lane] : 0u;
+                if (own[lane] != 0) keep(vpls[first + lane], lane, space);
             });
             std::uint32_t seen = group.ballot([&](std::uint32_t lane) { return own[lane] != 0; });
             for (; seen != 0; seen &= seen - 1) {
                 const std::uint32_t k = LaneGroup::lowest(seen);
                 const std::uint32_t lit = group.broadcast(own, k);
-                const Vpl vpl = vpls[first + k];
+                const Vpl vpl = kept(k, space);
                 group.each([&](std::uint32_t lane) {
                     if ((lit >> lane & 1u) != 0)
                         sums[lane] += shade(hits[lane], surfaces[lane], vpl);
@@ -52,6 +58,19 @@ struct WordShading {
         }
         group.each(
             [&](std::uint32_t lane) { radiance.store(i * LaneGroup::width + lane, sums[lane]); });
+    }
+
+ private:
+    MIR_HD static void keep(const Vpl& vpl, std::uint32_t at, Workspace& space) {
+        space.positions[at] = {vpl.position.x, vpl.position.y, vpl.position.z, 0.0f};
+        space.normals[at] = {vpl.normal.x, vpl.normal.y, vpl.normal.z, 0.0f};
+        space.intensities[at] = {vpl.intensity.r, vpl.intensity.g, vpl.intensity.b, 0.0f};
+    }
+    [[nodiscard]] MIR_HD static Vpl kept(std::uint32_t at, const Workspace& space) {
+        const AffineRow p = space.positions[at];
+        const AffineRow n = space.normals[at];
+        const AffineRow j = space.intensities[at];
+        return {{p.x, p.y, p.z}, {n.x, n.y, n.z}, {j.x, j.y, j.z}};
     }
 };
 template <class G, class P, class F>

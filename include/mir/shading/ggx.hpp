@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/strict_float.hpp"
 #include "mir/core/unit_circle.hpp"
 
 namespace mir {
@@ -19,12 +20,13 @@ MIR_HD inline float ggx_d(float cos_h, float alpha) {
     return a2 / (pi * t * t);
 }
 
-/// 0.5 over this is height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo).
+/// 0.5 over this is height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo). `alpha` is
+/// not below min_ggx_alpha.
 /// Source: Heitz, "Understanding the masking-shadowing function", JCGT 3(2), 2014, eq. 99.
 MIR_HD inline float smith_sum(float cos_i, float cos_o, float alpha) {
     const float a2 = alpha * alpha;
-    const float li = cos_o * sqrtf(cos_i * cos_i * (1.0f - a2) + a2);
-    const float lo = cos_i * sqrtf(cos_o * cos_o * (1.0f - a2) + a2);
+    const float li = cos_o * strict::usual_sqrt(cos_i * cos_i * (1.0f - a2) + a2);
+    const float lo = cos_i * strict::usual_sqrt(cos_o * cos_o * (1.0f - a2) + a2);
     return larger(li + lo, 1e-10f);
 }
 
@@ -41,7 +43,7 @@ struct HalfVector {
         return larger(across_squared + along * along, least_squared);
     }
     /// Cosine between it and either direction.
-    [[nodiscard]] MIR_HD float cos_d() const { return 0.5f * sqrtf(squared()); }
+    [[nodiscard]] MIR_HD float cos_d() const { return 0.5f * strict::usual_sqrt(squared()); }
 };
 
 /// `along` is n.wi + n.wo.

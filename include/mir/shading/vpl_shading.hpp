@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/bsdf.hpp"
+#include "mir/core/strict_float.hpp"
 #include "mir/data/luxel.hpp"
 #include "mir/data/vpl.hpp"
 
@@ -36,7 +37,7 @@ struct VplShading {
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
         const Vec3 d = vpl.position - hit.position;
-        const float inverse = 1.0f / sqrtf(length_squared(d));
+        const float inverse = strict::reciprocal_of_root(length_squared(d));
         const Vec3 wi = d * inverse;
         const float g = smaller(geometry_term(wi, inverse, s.normal, vpl.normal), bound);
         return B::eval(s.bsdf, s.normal, wi, s.wo) * (vpl.intensity * g);
@@ -56,7 +57,7 @@ struct RemovedByBound {
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
         const Vec3 d = vpl.position - hit.position;
-        const float inverse = 1.0f / sqrtf(length_squared(d));
+        const float inverse = strict::reciprocal_of_root(length_squared(d));
         const Vec3 wi = d * inverse;
         const float excess = geometry_term(wi, inverse, s.normal, vpl.normal) - bound;
         if (!(excess > 0.0f)) return {};
