@@ -12,8 +12,11 @@ namespace mir {
 template <Space S, VplSet P>
 struct ClusterLists {
     static constexpr std::uint32_t most_triangles = 192;  ///< of a pair
-    /// Partial triangles that are kept until luxels are asked; more are asked about in turns.
-    static constexpr std::uint32_t most_forms = 2 * LaneGroup::width;
+    /// Partial triangles that are kept until luxels are asked; more are asked about in turns. Few,
+    /// because what groups work in is taken from the cache of the nodes and triangles.
+    static constexpr std::uint32_t most_forms = LaneGroup::width;
+    /// Lists that a group takes together: neighbours, which share nodes and triangles.
+    static constexpr std::uint32_t lists_at_once = 4;
     /// As BlockShafts::resident_blocks.
     static constexpr std::uint32_t resident_blocks = 10;
 
@@ -36,22 +39,46 @@ struct ClusterLists {
     /// Takes pairs from `listed` until none is left: any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace& space) const {
         const std::uint32_t count = listed.size();
-        std::uint32_t next = listed.take(group, 1);
+        std::uint32_t next = listed.take(group, lists_at_once);
         while (next < count) {
-            const ListedPair list = listed.items[next];
+            const std::uint32_t first = next;
             // Asked for before it is needed, because the answer takes its time.
-            next = listed.take(group, 1);
-            decide(group, list, space);
+            next = listed.take(group, lists_at_once);
+            const std::uint32_t end = first + lists_at_once < count ? first + lists_at_once : count;
+            for (std::uint32_t at = first; at < end; ++at) decide(group, listed.items[at], space);
         }
     }
 
  private:
     static constexpr std::uint32_t too_many = 0xFFFFFFFFu;
 
-    MIR_HD void decide(const LaneGroup& group, const ListedPair& list, Workspace& space) const {
+    /// The segments of a pair.
+    struct Cone {
+        Pyramid pyramid;
+        LaneGroup::PerLane<Vec3> luxels;  ///< their ends, metres
+    };
+
+    MIR_HD void decide(const LaneGroup& group, ListedPair list, Workspace& space) const {
+        // What is read here arrives while the list is unpacked.
+        const OpenPair pair = list.pair;
+        std::uint32_t& word = words[std::size_t{pair.cluster} * vpls.size() + pair.vpl];
+        const std::uint32_t before = word;
+        const ClusterRecord cluster = clusters[pair.cluster];
+        const Vec3 apex = vpls[pair.vpl].position;
+        Cone cone;
+        group.each([&](std::uint32_t lane) {
+            cone.luxels[lane] = hits.load(pair.cluster * cluster_luxels + lane).position;
+        });
         const std::uint32_t count = unpack(group, list, space);
-        if (count != too_many) return resolve(group, list.pair, count, space);
-        static_cast<void>(open.append(group, 1u, [&](std::uint32_t) { return list.pair; }));
+        if (count == too_many) {
+            static_cast<void>(open.append(group, 1u, [&](std::uint32_t) { return pair; }));
+            return;
+        }
+        cone.pyramid = make_pyramid(cluster, apex, sigma);
+        const std::uint32_t lit = lit_behind_all(group, cone, before, count, space);
+        group.each([&](std::uint32_t lane) {
+            if (lane == 0 && lit != before) word = lit;
+        });
     }
 
     /// Writes the triangles of a pair's leaves to the workspace, a node per lane; returns how many
@@ -96,38 +123,20 @@ struct ClusterLists {
         }
     }
 
-    /// Decides a pair by `count` triangles, which are all that matter.
-    MIR_HD void resolve(const LaneGroup& group, OpenPair pair, std::uint32_t count,
-                        Workspace& space) const {
-        std::uint32_t& word = words[std::size_t{pair.cluster} * vpls.size() + pair.vpl];
-        const std::uint32_t before = word;
-        const ConeOfPair cone{make_pyramid(clusters[pair.cluster], vpls[pair.vpl].position, sigma),
-                              pair.cluster};
-        const std::uint32_t lit = lit_behind_all(group, cone, before, count, space);
-        group.each([&](std::uint32_t lane) {
-            if (lane == 0 && lit != before) word = lit;
-        });
-    }
-
-    /// A pair in numbers.
-    struct ConeOfPair {
-        Pyramid pyramid;
-        std::uint32_t cluster;
-    };
-
     /// Luxels of `lit` whose segments none of the first `count` triangles hits.
-    [[nodiscard]] MIR_HD std::uint32_t lit_behind_all(const LaneGroup& group,
-                                                      const ConeOfPair& pair, std::uint32_t lit,
-                                                      std::uint32_t count, Workspace& space) const {
+    [[nodiscard]] MIR_HD std::uint32_t lit_behind_all(const LaneGroup& group, const Cone& cone,
+                                                      std::uint32_t lit, std::uint32_t count,
+                                                      Workspace& space) const {
         std::uint32_t kept = 0;
         for (std::uint32_t first = 0; first < count; first += LaneGroup::width) {
             LaneGroup::PerLane<Occlusion> found;
             LaneGroup::PerLane<SegmentForms> forms;
             group.each([&](std::uint32_t lane) {
-                found[lane] = Occlusion::none;
-                if (first + lane >= count) return;
-                const std::uint32_t triangle = space.triangles[first + lane];
-                found[lane] = occlusion(bvh.triangles[triangle], pair.pyramid, forms[lane]);
+                // Lanes without a triangle test another's, so that all have forms.
+                const bool is_own = first + lane < count;
+                const std::uint32_t triangle = space.triangles[is_own ? first + lane : first];
+                found[lane] = occlusion(bvh.triangles[triangle], cone.pyramid, forms[lane]);
+                if (!is_own) found[lane] = Occlusion::none;
                 forms[lane].triangle = triangle;
             });
             if (group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::full; }) !=
@@ -136,7 +145,7 @@ struct ClusterLists {
             const std::uint32_t partial =
                 group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::partial; });
             if (kept + LaneGroup::count(partial) > most_forms) {
-                lit = lit_behind(group, pair, lit, kept, space);
+                lit = lit_behind(group, cone, lit, kept, space);
                 kept = 0;
                 if (lit == 0) return 0;
             }
@@ -146,19 +155,16 @@ struct ClusterLists {
             });
             kept += LaneGroup::count(partial);
         }
-        return lit_behind(group, pair, lit, kept, space);
+        return lit_behind(group, cone, lit, kept, space);
     }
 
     /// The same by the first `count` of the triangles that are partial, a luxel per lane.
-    [[nodiscard]] MIR_HD std::uint32_t lit_behind(const LaneGroup& group, const ConeOfPair& pair,
+    [[nodiscard]] MIR_HD std::uint32_t lit_behind(const LaneGroup& group, const Cone& cone,
                                                   std::uint32_t lit, std::uint32_t count,
                                                   const Workspace& space) const {
-        LaneGroup::PerLane<Vec3> luxels;
         LaneGroup::PerLane<Vec3> ends;
-        group.each([&](std::uint32_t lane) {
-            luxels[lane] = hits.load(pair.cluster * cluster_luxels + lane).position;
-            ends[lane] = luxels[lane] - pair.pyramid.centre;
-        });
+        group.each(
+            [&](std::uint32_t lane) { ends[lane] = cone.luxels[lane] - cone.pyramid.centre; });
         const float plane = OcclusionMargins::plane * sigma;
         for (std::uint32_t k = 0; k < count && lit != 0; ++k) {
             const SegmentForms forms = space.forms[k];
@@ -168,18 +174,16 @@ struct ClusterLists {
                 [&](std::uint32_t lane) { return surely_hit(at[lane], forms, plane); });
             const std::uint32_t missed = group.ballot(
                 [&](std::uint32_t lane) { return surely_missed(at[lane], forms, plane); });
-            if ((lit & ~hit & ~missed) != 0)
-                hit |= hit_exactly(group, pair, luxels, forms.triangle);
+            if ((lit & ~hit & ~missed) != 0) hit |= hit_exactly(group, cone, forms.triangle);
             lit &= ~hit;
         }
         return lit;
     }
 
-    [[nodiscard]] MIR_HD std::uint32_t hit_exactly(const LaneGroup& group, const ConeOfPair& pair,
-                                                   const LaneGroup::PerLane<Vec3>& luxels,
+    [[nodiscard]] MIR_HD std::uint32_t hit_exactly(const LaneGroup& group, const Cone& cone,
                                                    std::uint32_t triangle) const {
         return group.ballot([&](std::uint32_t lane) {
-            return hits_segment(bvh.triangles[triangle], pair.pyramid.apex, luxels[lane]);
+            return hits_segment(bvh.triangles[triangle], cone.pyramid.apex, cone.luxels[lane]);
         });
     }
 };

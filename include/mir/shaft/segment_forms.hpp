@@ -7,21 +7,25 @@
 
 namespace mir {
 
+/// An AffineRow without defaults, which the device would write for every triangle that is tested.
+struct alignas(16) PlainRow {
+    float x;  ///< factor of p.x
+    float y;  ///< of p.y
+    float z;  ///< of p.z
+    float w;  ///< value at the origin
+};
+
 /// A triangle as the segments of one pyramid are tested against it: affine functions of the
 /// segments' ends, given by their difference from the centre of the pyramid's base. Source and
-/// names: occlusion.hpp. Aligned so that the device moves it in four words, and without defaults,
-/// which would be written for every triangle that is tested.
+/// names: occlusion.hpp. Aligned so that the device moves it in four words, and without defaults.
 struct alignas(16) SegmentForms {
-    AffineRow beyond;        ///< s': distance beyond the plane as seen from the apex, metres
-    AffineRow u;             ///< U, metres
-    AffineRow v;             ///< V, metres
+    PlainRow beyond;         ///< s': distance beyond the plane as seen from the apex, metres
+    PlainRow u;              ///< U, metres
+    PlainRow v;              ///< V, metres
     float depth;             ///< S: distance of the apex from the plane, metres
     float margin;            ///< of U, V and W, metres
     std::uint32_t triangle;  ///< place in the hierarchy, for hits_segment(); the caller sets it
     std::uint32_t unused;    ///< so that the fourth word is written whole
-
-    /// Of a triangle of which nothing is sure.
-    [[nodiscard]] MIR_HD static SegmentForms unsure() { return {{}, {}, {}, 0.0f, INFINITY, 0, 0}; }
 };
 
 namespace detail {
@@ -31,8 +35,9 @@ MIR_HD inline float loose_dot(Vec3 a, Vec3 b) {
     return loose::mul_add(a.z, b.z, loose::mul_add(a.y, b.y, strict::mul(a.x, b.x)));
 }
 
-/// Value of a row at a point, likewise: no worse than row_at().
-MIR_HD inline float loose_at(AffineRow row, Vec3 p) {
+/// Value of an AffineRow or a PlainRow at a point, likewise: no worse than row_at().
+template <class Row>
+MIR_HD inline float loose_at(const Row& row, Vec3 p) {
     return strict::add(loose_dot({row.x, row.y, row.z}, p), row.w);
 }
 
