@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "mir/shaft/facing_bounds.hpp"
+
+#include "conformance/worlds.hpp"
+#include "mir/core/random.hpp"
+#include "mir/shading/contribution.hpp"
+#include "support/catch.hpp"
+
+#include <limits>
+
+using namespace mirtest;
+using mir::Facing;
+using mir::Hit;
+using mir::LaneGroup;
+using mir::Vec3;
+using mir::Vpl;
+
+namespace {
+
+using Luxels = LaneGroup::PerLane<Hit>;
+
+/// How the luxels of a cluster lie.
+struct Cluster {
+    float scale;  ///< of coordinates, metres
+    float size;   ///< of the cluster, of the scale
+    float bend;   ///< how far normals differ
+};
+
+Luxels draw(const Cluster& c, mir::Random& random) {
+    const Vec3 centre = c.scale * direction(random);
+    const Vec3 normal = direction(random);
+    Luxels luxels;
+    for (std::uint32_t k = 0; k < LaneGroup::width; ++k) {
+        const Vec3 off = direction(random);
+        const Vec3 flat = off - glm::dot(off, normal) * normal;
+        luxels[k] = {centre + c.scale * c.size * (flat + c.bend * off),
+                     glm::normalize(normal + c.bend * direction(random))};
+        if (random.next() < 0.1f) luxels[k] = {};
+    }
+    return luxels;
+}
+
+/// Anywhere, or in the plane of a luxel, or with a luxel in its own, but for rounding.
+Vpl draw_vpl(const Luxels& luxels, float scale, mir::Random& random) {
+    const Vec3 anywhere = 2.0f * scale * direction(random);
+    const Hit& hit = luxels[static_cast<std::uint32_t>(31.9f * random.next())];
+    Vpl vpl{anywhere, direction(random), {}};
+    if (random.next() < 0.4f)
+        vpl.position = anywhere - glm::dot(anywhere - hit.position, hit.normal) * hit.normal;
+    const Vec3 to = vpl.position - hit.position;
+    if (random.next() < 0.4f && glm::length(to) > 0.0f)
+        vpl.normal = glm::normalize(glm::cross(to, direction(random)));
+    return vpl;
+}
+
+struct Tally {
+    std::uint32_t wrong = 0;
+    std::uint32_t sure = 0;
+
+    void count(const Luxels& luxels, const Vpl& vpl) {
+        const Facing facing = facing_of(mir::facing_bounds(LaneGroup{}, luxels), vpl);
+        if (facing == Facing::some) return;
+        ++sure;
+        for (std::uint32_t k = 0; k < LaneGroup::width; ++k) {
+            if (is_empty(luxels[k])) continue;
+            wrong += mir::faces(luxels[k], vpl) == (facing == Facing::all) ? 0 : 1;
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("What faces all luxels of a cluster or none faces each of them or not") {
+    const Cluster cluster = {GENERATE(1e-6f, 1.0f, 1e6f), GENERATE(0.0f, 1e-5f, 0.1f),
+                             GENERATE(0.0f, 1e-6f, 0.3f)};
+    mir::Random random = test_random(2301);
+    Tally tally;
+    for (int i = 0; i < 400; ++i) {
+        const Luxels luxels = draw(cluster, random);
+        for (int j = 0; j < 16; ++j) tally.count(luxels, draw_vpl(luxels, cluster.scale, random));
+    }
+    CHECK(tally.wrong == 0);
+    if (cluster.size < 1e-3f && cluster.bend < 1e-3f) CHECK(tally.sure > 400 * 16 / 3);
+}
+
+TEST_CASE("Nothing is sure of luxels and VPLs that are no number or overflow") {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    mir::Random random = test_random(2302);
+    const Luxels usual = draw({1.0f, 0.01f, 0.0f}, random);
+    for (const float odd : {nan, 1e30f, std::numeric_limits<float>::infinity()}) {
+        Luxels luxels = usual;
+        luxels[5] = {Vec3(odd, 0, 0), Vec3(0, 0, 1)};
+        const Vpl vpl{Vec3(0, 0, 5), Vec3(0, 0, -1), {}};
+        CHECK(facing_of(mir::facing_bounds(LaneGroup{}, luxels), vpl) == Facing::some);
+        const auto bounds = mir::facing_bounds(LaneGroup{}, usual);
+        CHECK(facing_of(bounds, Vpl{Vec3(odd, 0, 0), Vec3(0, 0, 1), {}}) == Facing::some);
+        CHECK(facing_of(bounds, Vpl{Vec3(0, 0, 1), Vec3(0, odd, 1), {}}) == Facing::some);
+    }
+    const Luxels none;
+    CHECK(facing_of(mir::facing_bounds(LaneGroup{}, none), Vpl{}) == Facing::none);
+}
