@@ -58,7 +58,7 @@ std::vector<Lookout> lookouts(const World& world, std::uint32_t count, mir::Rand
 
 TEMPLATE_TEST_CASE_SIG(
     "A texel holds the nearest of all nodes that its direction meets, in every bit", "[slow]",
-    ((std::uint32_t Side), Side), 8, 24) {
+    ((std::uint32_t Side, std::uint32_t Waiting), Side, Waiting), (8, 320), (8, 113), (24, 320)) {
     const World worlds[] = {sphere_in_box(), triangle_soup(60, 980)};
     const std::uint32_t side = GENERATE(1u, Side);
     const float threshold = GENERATE(0.0f, 0.2f, 4.0f);
@@ -66,7 +66,7 @@ TEMPLATE_TEST_CASE_SIG(
     const float sharpness = GENERATE(0.7f, 30.0f, 16384.0f);
     mir::Random random = test_random(981);
     const mir::LaneGroup group;
-    const auto space = std::make_unique<mir::MicroBufferSpace<Side>>();
+    const auto space = std::make_unique<mir::MicroBufferSpace<Side, true, Waiting>>();
     std::uint32_t wrong = 0;
     std::uint32_t met = 0;
     for (const World& world : worlds) {

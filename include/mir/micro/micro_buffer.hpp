@@ -101,10 +101,7 @@ class MicroBuffers {
 
     /// Infinitely far, SurfelHit::none.
     static constexpr std::uint64_t nothing = 0x7F800000FFFFFFFFull;
-    /// Nodes whose children may wait before nodes are taken one at a time. Behind them there is
-    /// room for what those may add that are unsure then, and for a walk down.
-    static constexpr std::uint32_t room =
-        Workspace::most_waiting - (LaneGroup::width + 2) - SurfelTreeOptions::depth_limit;
+    static constexpr std::uint32_t room = Workspace::room;
 
     /// As many of `count` as may each add one to those that wait.
     [[nodiscard]] MIR_HD std::uint32_t portion(std::uint32_t count, std::uint32_t most) const {

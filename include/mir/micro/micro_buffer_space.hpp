@@ -19,15 +19,20 @@ struct MicroPoint {
 };
 
 /// What a group works in that draws MicroBuffers of up to `Side` texels in each direction; `Lobes`:
-/// those of LobeTexels too.
-template <std::uint32_t Side, bool Lobes = true>
+/// those of LobeTexels too. Nodes wait on a stack of `Waiting` places: fewer make lanes idle, never
+/// fail; more leave room for fewer groups.
+template <std::uint32_t Side, bool Lobes = true, std::uint32_t Waiting = 320>
 struct MicroBufferSpace {
+    /// What waits when nodes are taken one at a time: up to 63 that were unsure before, and one for
+    /// each step of a walk down.
+    static constexpr std::uint32_t reserve = 2 * LaneGroup::width + SurfelTreeOptions::depth_limit;
+    static_assert(Waiting > reserve);
+    /// Nodes whose children may wait before nodes are taken one at a time.
+    static constexpr std::uint32_t room = Waiting - reserve;
+
     static constexpr std::uint32_t side = Side;  ///< most texels in each direction
     /// Pictures that are drawn at once: as many as leave a GPU room for enough groups.
     static constexpr std::uint32_t pictures = Side <= 8 ? 4 : 1;
-    /// Nodes whose children may wait: fewer make lanes idle, never fail; more leave room for fewer
-    /// groups.
-    static constexpr std::uint32_t most_waiting = 288;
 
     /// Nodes and for which pictures, a bit each, something is to be done with them.
     template <std::uint32_t N>
@@ -36,8 +41,8 @@ struct MicroBufferSpace {
         std::uint8_t pictures[N];  ///< bit k: picture k
     };
     /// Nodes whose children come next.
-    struct Parents : Shares<most_waiting> {
-        std::uint32_t right[most_waiting];  ///< index of the right child
+    struct Parents : Shares<Waiting> {
+        std::uint32_t right[Waiting];  ///< index of the right child
     };
     /// A node where the walk for a picture ended.
     struct Drawn {
