@@ -54,8 +54,8 @@ struct ClusterLists {
 
     /// The segments of a pair.
     struct Cone {
-        Pyramid pyramid;
-        LaneGroup::PerLane<Vec3> luxels;  ///< their ends, metres
+        const Pyramid& pyramid;
+        const LaneGroup::PerLane<Vec3>& luxels;  ///< their ends, metres
     };
 
     MIR_HD void decide(const LaneGroup& group, ListedPair list, Workspace& space) const {
@@ -65,17 +65,17 @@ struct ClusterLists {
         const std::uint32_t before = word;
         const ClusterRecord cluster = clusters[pair.cluster];
         const Vec3 apex = vpls[pair.vpl].position;
-        Cone cone;
+        LaneGroup::PerLane<Vec3> luxels;
         group.each([&](std::uint32_t lane) {
-            cone.luxels[lane] = hits.load(pair.cluster * cluster_luxels + lane).position;
+            luxels[lane] = hits.load(pair.cluster * cluster_luxels + lane).position;
         });
         const std::uint32_t count = unpack(group, list, space);
         if (count == too_many) {
             static_cast<void>(open.append(group, 1u, [&](std::uint32_t) { return pair; }));
             return;
         }
-        cone.pyramid = make_pyramid(cluster, apex, sigma);
-        const std::uint32_t lit = lit_behind_all(group, cone, before, count, space);
+        const Pyramid pyramid = make_pyramid(cluster, apex, sigma);
+        const std::uint32_t lit = lit_behind_all(group, {pyramid, luxels}, before, count, space);
         group.each([&](std::uint32_t lane) {
             if (lane == 0 && lit != before) word = lit;
         });
