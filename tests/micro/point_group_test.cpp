@@ -44,7 +44,7 @@ std::vector<Point> some_points(const World& world, float spread, float tilt, mir
 TEST_CASE("What is sure of a node for some points is what becomes of it for each of them") {
     const World worlds[] = {sphere_in_box(), triangle_soup(60, 990)};
     const float spread = GENERATE(0.0f, 1e-3f, 0.1f);
-    const float tilt = GENERATE(0.0f, 0.2f);
+    const float tilt = GENERATE(0.0f, 0.2f, 3.0f);
     const float threshold = GENERATE(0.25f, 1.0f, 16.0f);
     mir::Random random = test_random(991);
     std::uint32_t wrong = 0;
@@ -68,6 +68,27 @@ TEST_CASE("What is sure of a node for some points is what becomes of it for each
     CHECK(wrong == 0);
     // Half of the nodes lie below a tangent plane, of which nothing is sure.
     if (spread < 0.01f && tilt == 0.0f) CHECK(sure > 0.25 * all);
+}
+
+TEST_CASE("Walls that meet are not opened for points of both when those of one pass them by") {
+    constexpr float lift = 1e-4f;
+    std::vector<Point> points;
+    for (const float aside : {-1e-3f, 1e-3f}) {
+        points.push_back({{2e-3f, aside, lift}, {0, 0, 1}, {}, {}});
+        points.push_back({{lift, aside, 2e-3f}, {1, 0, 0}, {}, {}});
+    }
+    const float share = 1.0f / 64.0f;
+    const mir::detail::PointGroup group(points.data(), 0b1111u, share);
+    for (const float size : {1.0f, 0.5f, 0.25f}) {
+        SurfelNode floor;
+        floor.centre = {size, 0, 0};
+        floor.radius = 1.42f * size;
+        floor.axis = {0, 0, 1};
+        floor.right = 2;
+        CHECK(fate_of(floor, points[0], share) == Fate::passed_by);
+        CHECK(fate_of(floor, points[1], share) == Fate::opened);
+        CHECK(group.fate(floor) == Fate::unsure);
+    }
 }
 
 TEST_CASE("What a point sees of a node lies in the texels that its group gives the node") {

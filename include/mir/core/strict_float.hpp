@@ -12,8 +12,8 @@ namespace mir::strict {
 // bits of results that are compared with zero would then depend on who compiled them. On the device
 // the intrinsics below are never contracted, whatever -fmad says. On the host plain operators do:
 // host code of the library is compiled with -ffp-contract=off. Host and device read different
-// source here, in lane_group.hpp, and in the tests of nodes of shaft/; they compute the same, or
-// err on the same side.
+// source here, in lane_group.hpp, in load_whole.hpp, and in the tests of nodes of shaft/; they
+// compute the same, or err on the same side.
 
 /// a * b, rounded once.
 [[nodiscard]] MIR_HD inline float mul(float a, float b) {

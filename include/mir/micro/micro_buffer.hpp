@@ -240,8 +240,8 @@ class MicroBuffers {
             nodes[lane] = space_.ended.node[ended_ + lane];
             pictures[lane] = space_.ended.pictures[ended_ + lane];
             node[lane] = load_whole(walk.tree.nodes[nodes[lane]]);
-            reach[lane] = walk.group.reach(first_texels(), node[lane]);
             is_near[lane] = !walk.group.is_far(node[lane], side_);
+            if (!is_near[lane]) reach[lane] = walk.group.reach(first_texels(), node[lane]);
         });
         for (std::uint32_t k = 0; placed_ >> k != 0; ++k) {
             LaneGroup::PerLane<TexelRectangle> texels;

@@ -6,9 +6,9 @@
 
 namespace mir {
 
-/// Decides pairs of 32 luxels and a VPL by the leaves that their shafts meet: kernel for groups, a
-/// pair at a time. First a triangle per lane against the pyramid, then a luxel per lane against the
-/// triangles that are partial. Pairs with too many triangles are queued.
+/// Decides pairs of 32 luxels and a VPL by the leaves that their shafts meet: kernel for groups,
+/// one pair after another. First a triangle per lane against the pyramid, then a luxel per lane
+/// against the triangles that are partial. Pairs with too many triangles are queued.
 template <Space S, VplSet P>
 struct ClusterLists {
     static constexpr std::uint32_t most_triangles = 192;  ///< of a pair

@@ -141,7 +141,8 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
 /// the triangle's plane.
 /// Source: Reshetov, "Faster ray packets - triangle intersection through vertex culling", 2007,
 /// turned round: affine functions of the triangle over the base in place of planes over vertices.
-/// `forms` say what is sure of single segments: no hit where the apex is that near.
+/// `forms` say what is sure of single segments: where the apex is that near, misses by the plane
+/// alone.
 template <class Margins = OcclusionMargins>
 [[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p,
                                          SegmentForms& forms) {

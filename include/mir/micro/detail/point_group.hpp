@@ -18,7 +18,7 @@ enum class Fate {
 
 /// Points close to each other that look at the same nodes, and what can be told of a node for all
 /// of them at once: a ball around the points and one around their normals. Whatever is rounded, it
-/// errs on one side: all slack is a hundred times the rounding of single precision.
+/// errs on one side: all slack is at least eight times what single precision rounds there.
 class PointGroup {
  public:
     /// Of those of `points` whose bits are set in `chosen`, MicroPoints that stop at nodes of up to
@@ -39,6 +39,7 @@ class PointGroup {
         end_from_ = (1.0f + slack) / sqrtf(least);
         centre_ = centre_ / count;
         normal_ = normal_ / count;
+        normal2_ = dot(normal_, normal_);
         float tilt = 0.0f;
         const Point& first = points[LaneGroup::lowest(chosen)];
         each(points, chosen, [&](const Point& p) {
@@ -96,7 +97,7 @@ class PointGroup {
     [[nodiscard]] MIR_HD bool reaches_up(const SurfelNode& node, float height,
                                          float farthest) const {
         const float along = dot(normal_, node.axis);
-        const float across = root(1.0f - along * along - slack);
+        const float across = root(normal2_ - along * along - slack);
         const float slab = larger(0.0f, fabsf(along) - tilt_) * node.thickness +
                            larger(0.0f, across - tilt_) * node.radius;
         const float least = smaller(slab, (1.0f - slack) * node.radius);
@@ -142,6 +143,7 @@ class PointGroup {
 
     Vec3 centre_{0};
     Vec3 normal_{0};          ///< mean, at most a unit long
+    float normal2_ = 0.0f;    ///< square of its length
     float radius_ = 0.0f;     ///< of the ball around the points, metres
     float tilt_ = 0.0f;       ///< of the ball around the normals
     float open_from_ = 0.0f;  ///< nearer than that many radii of a node no point stops there
