@@ -51,9 +51,9 @@ struct MicroBufferSpace {
     };
     /// The same, made ready to be met.
     struct alignas(16) Met {
-        detail::SeenDisc disc;
-        TexelRectangle texels;
-        std::uint32_t before;  ///< texels of the nodes before
+        detail::SeenDisc disc;  ///< as its point sees it
+        TexelRectangle texels;  ///< that it may cover
+        std::uint32_t before;   ///< texels of the nodes before
     };
 
     MicroPoint<CosineTexels> even[pictures];             ///< of pictures of the hemisphere
