@@ -26,11 +26,12 @@ class PointGroup {
     template <class Point>
     MIR_HD PointGroup(const Point* points, std::uint32_t chosen, float share) {
         float count = 0.0f;
+        Vec3 normals(0.0f);
         float least = 1.0f;
         float most = 0.0f;
         each(points, chosen, [&](const Point& p) {
             centre_ += p.origin;
-            normal_ += p.normal;
+            normals += p.normal;
             count += 1.0f;
             least = smaller(least, cap_sine_squared(share / p.texels.most_density()));
             most = larger(most, cap_sine_squared(share / p.texels.least_density()));
@@ -38,13 +39,14 @@ class PointGroup {
         open_from_ = (1.0f - slack) / sqrtf(most);
         end_from_ = (1.0f + slack) / sqrtf(least);
         centre_ = centre_ / count;
-        normal_ = normal_ / count;
-        normal2_ = dot(normal_, normal_);
+        const Vec3 normal = normals / count;
+        normal_ = normal;
+        normal2_ = dot(normal, normal);
         float tilt = 0.0f;
         const Point& first = points[LaneGroup::lowest(chosen)];
         each(points, chosen, [&](const Point& p) {
             radius_ = larger(radius_, glm::length(p.origin - centre_));
-            tilt = larger(tilt, glm::length(p.normal - normal_));
+            tilt = larger(tilt, glm::length(p.normal - normal));
             is_alike_ = is_alike_ && p.texels.is_like(first.texels);
         });
         radius_ = (1.0f + slack) * radius_;
