@@ -36,6 +36,7 @@ mir::RenderSettings settings_of(const Run& run, const Options& options) {
     s.filter = mir::default_filter(mir::FilterKind::box);
     s.sampler = run.sampler.kind;
     s.vpls = run.vpls;
+    s.metropolis = options.chains;
     s.seed = run.seed;
     s.threads = options.threads;
     s.direct_samples = 1;  // direct light is not looked at
@@ -43,10 +44,11 @@ mir::RenderSettings settings_of(const Run& run, const Options& options) {
     return s;
 }
 
-void print_row(const Run& run, const ImageError& error, std::uint32_t placed) {
-    std::printf("%s,%s,%" PRIu32 ",%" PRIu64 ",%.6g,%.6g,%.6g,%" PRIu32 "\n", run.scene.c_str(),
-                run.sampler.name.c_str(), run.vpls, run.seed, error.rmse, error.relative_rmse(),
-                error.mean, placed);
+void print_row(const Run& run, const ImageError& error, const mir::RenderStatistics& s) {
+    std::printf("%s,%s,%" PRIu32 ",%" PRIu64 ",%.6g,%.6g,%.6g,%" PRIu32 ",%.4g\n",
+                run.scene.c_str(), run.sampler.name.c_str(), run.vpls, run.seed, error.rmse,
+                error.relative_rmse(), error.mean, s.vpls,
+                s.seconds.bootstrap + s.seconds.sampling);
     std::fflush(stdout);
 }
 
@@ -99,7 +101,7 @@ class SceneStudy {
             registry.make(settings.backend, settings.scheduler)->render(scene_, settings, nullptr);
         const ImageError error = image_error(result.indirect, reference_);
         warn_of_noise(run, error);
-        print_row(run, error, result.statistics.vpls);
+        print_row(run, error, result.statistics);
         if (!options_.images.empty())
             mir::write_exr(std::filesystem::path(options_.images) / (run.name() + ".exr"),
                            options_.size, {{"", &result.indirect}});
@@ -119,7 +121,7 @@ int main(int argc, char** argv) {
     try {
         const auto [options, exit_code] = mirconvergence::parse(argc, argv);
         if (exit_code >= 0) return exit_code;
-        std::puts("scene,sampler,vpls,seed,rmse,relative_rmse,mean,placed_vpls");
+        std::puts("scene,sampler,vpls,seed,rmse,relative_rmse,mean,placed_vpls,sampling_seconds");
         for (const std::string& scene : options.scenes)
             mirconvergence::SceneStudy(scene, options).run();
     } catch (const std::exception& e) {

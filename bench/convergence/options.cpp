@@ -59,6 +59,11 @@ void add_options(CLI::App& app, Options& o) {
            "--bound", [&o](const std::string& text) { o.bounded = text == "auto"; },
            "Bound of the geometry term: auto (default) or none")
         ->check(CLI::IsMember({"auto", "none"}));
+    app.add_option("--chains", o.chains.chains, "Markov chains (default as mir render)")
+        ->check(CLI::Range(1, 65536));
+    app.add_option("--bootstrap-error", o.chains.bootstrap.relative_error,
+                   "Relative standard error wanted of P_c (default as mir render)")
+        ->check(CLI::Range(1e-4, 1.0));
     app.add_option("--cache", o.cache, "Folder that keeps references for the next run");
     app.add_option("--images", o.images, "Folder for the indirect light of every render, EXR");
     app.add_option("--montage", o.montage,

@@ -25,6 +25,7 @@ struct Options {
     std::uint32_t seeds = 8;       ///< seeds 0 .. seeds - 1
     std::uint32_t samples = 4096;  ///< paths per pixel of the reference
     bool bounded = true;           ///< the default bound of the geometry term, else none
+    mir::MetropolisTuning chains;  ///< how they run
     std::string cache;             ///< folder of references; empty: none is kept
     std::string images;            ///< folder of pictures; empty: none is written
     std::string montage;           ///< PNG of the pictures of seed 0; empty: none

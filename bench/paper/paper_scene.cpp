@@ -78,9 +78,11 @@ mir::VplList PaperScene::sample(std::uint32_t states) const {
                       aspect(),     shading(states).bound};
     mir::MetropolisOptions options;
     options.states = states;
+    options.chains = 256;
     options.stride = 8;          // the places matter here, not their variance
     options.suffix_refresh = 0;  // nor their exact intensity
     options.bootstrap.max_paths = options.bootstrap.min_paths;
+    options.bootstrap.relative_error = 1.0;
     return mir::aggregate(mir::MetropolisSampler(world, options).sample(*executor_));
 }
 

@@ -20,13 +20,16 @@ struct Lights {
     [[nodiscard]] bool empty() const { return false; }
 };
 
-/// Every path weighs 2; chain i brings one record of bounce i + 2.
+/// Every path weighs 2, or one in `rarity` as many times more and the others nothing; chain i
+/// brings one record of bounce i + 2.
 struct Machine {
     std::uint32_t broken = ~0u;  ///< chain of which a number was none
+    std::uint64_t rarity = 1;
 
-    void draw(std::uint64_t /*first*/, std::span<double> weights,
+    void draw(std::uint64_t first, std::span<double> weights,
               std::span<std::uint32_t> places) const {
-        std::fill(weights.begin(), weights.end(), 2.0);
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            weights[i] = (first + i) % rarity == 0 ? 2.0 * static_cast<double>(rarity) : 0.0;
         std::fill(places.begin(), places.end(), 0u);
     }
     [[nodiscard]] std::vector<ChainRun> walk(const std::vector<std::uint32_t>& starts) const {
@@ -71,4 +74,33 @@ TEST_CASE("A chain that broke on a device, where nothing throws, ends the run in
         CHECK(e.code() == mir::ErrorCode::internal);
         CHECK(std::string(e.what()).find("report the scene") != std::string::npos);
     }
+}
+
+// The relative error of a mean of n weights, of which one in r is not zero, is sqrt((r - 1) / n).
+
+TEST_CASE("There are as many chains as VPLs while the bootstrap knows their light well enough") {
+    Machine machine;
+    machine.rarity = 4;
+    MetropolisOptions options;
+    options.states = 1000;
+    options.bootstrap.max_paths = 1u << 20;  // 9300 suffice for sqrt(0.33 / 1000)
+    CHECK(run_chains(Lights{}, options, machine).health->chains == 1000);
+}
+
+TEST_CASE("Where the bootstrap ends too soon there are as many chains as it deserves") {
+    Machine machine;
+    machine.rarity = 17;
+    MetropolisOptions options;
+    options.states = 4000;
+    options.bootstrap.max_paths = 1u << 15;
+    // sqrt(16 / 32768): 0.33 / error^2 = 675
+    const std::uint32_t chains = run_chains(Lights{}, options, machine).health->chains;
+    CHECK(chains >= 670);
+    CHECK(chains <= 680);
+    // Few paths deserve less, but no run hangs on a handful of chains.
+    machine.rarity = 4096;
+    CHECK(run_chains(Lights{}, options, machine).health->chains == 256);
+    // Who asks for an error gets the chains that were asked for.
+    options.bootstrap.relative_error = 1.0;
+    CHECK(run_chains(Lights{}, options, machine).health->chains == 4000);
 }

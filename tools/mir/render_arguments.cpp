@@ -68,7 +68,8 @@ void add_chains(CLI::App& app, mir::RenderSettings& s) {
         "Where a VPL's response is measured: on all luxels (default), on a few, or while sampling");
     add_count(app, "--prepass-luxels", s.prepass_luxels, 1, 1 << 24,
               "Luxels of --normalise prepass (default 4096)");
-    add_count(app, "--chains", m.chains, 1, 65536, "Markov chains (default 256)");
+    add_count(app, "--chains", m.chains, 1, 65536,
+              "Markov chains, no more than VPLs (default 4096)");
     add_count(app, "--stride", m.stride, 1, 1 << 20,
               "Mutations from one recorded state to the next (default 64)");
     add_count(app, "--tries", m.chain.tries, 1, 254, "Candidates of a large step (default 8)");
@@ -87,7 +88,7 @@ void add_chains(CLI::App& app, mir::RenderSettings& s) {
     add_count(app, "--suffix-refresh", m.suffix_refresh, 0, 255,
               "Further light paths behind each recorded VPL (default 8)");
     app.add_option("--bootstrap-error", m.bootstrap.relative_error,
-                   "Relative standard error wanted of P_c (default 0.036 for 256 chains)")
+                   "Relative standard error wanted of P_c (default 0.036 for 256 VPLs)")
         ->check(between(1e-6, 1, "above 0 to 1"));
     add_choice<mir::ChainStop>(
         app, "--stop", m.stop, {{"fixed", mir::ChainStop::fixed}, {"paper", mir::ChainStop::paper}},

@@ -23,6 +23,16 @@ struct BootstrapOptions {
         if (o.relative_error == 0.0) o.relative_error = std::min(0.05, std::sqrt(0.33 / starts));
         return o;
     }
+
+    /// Chains to start, out of `wanted`, when the paths drawn know P_c to a relative `error`. As
+    /// many as are wanted when that is what was asked for; else as many as deserve no less, but
+    /// some hundred at least: where starts would come many times, mutations are worth more.
+    [[nodiscard]] std::uint32_t starts_at(double error, std::uint32_t wanted) const {
+        constexpr double fewest = 256.0;
+        if (error <= for_starts(wanted).relative_error) return wanted;
+        const double deserved = std::max(fewest, 0.33 / (error * error));
+        return deserved < wanted ? static_cast<std::uint32_t>(deserved) : wanted;
+    }
 };
 
 }  // namespace mir

@@ -65,11 +65,11 @@ VplRecords run_chains(const Lights& lights, const MetropolisOptions& options, Ma
     out.emitted_power = static_cast<float>(lights.power());
     out.health.emplace();
     if (lights.empty()) return out;
-    const std::uint32_t chains = std::min(options.chains, options.states);
+    const std::uint32_t wanted = std::min(options.chains, options.states);
     const Bootstrap seeds = [&] {
         const Stopwatch watch(out.bootstrap_seconds);
         return grow_bootstrap(
-            options.bootstrap.for_starts(chains),
+            options.bootstrap.for_starts(wanted),
             [&](std::uint64_t first, std::span<double> weights, std::span<std::uint32_t> places) {
                 machine.draw(first, weights, places);
             });
@@ -80,6 +80,8 @@ VplRecords run_chains(const Lights& lights, const MetropolisOptions& options, Ma
 
     const Random choice(options.seed, Stream::seeding, 0);
     const double turn = fine_uniform(choice.at(0), choice.at(1));
+    const std::uint32_t chains =
+        options.bootstrap.starts_at(seeds.luminance.relative_error(), wanted);
     const auto starts = chain_starts(seeds, chains, turn);
     const std::vector<ChainRun> runs = machine.walk(starts);
     detail::check_runs(runs);

@@ -21,7 +21,7 @@ inline constexpr std::uint64_t paper_stop_cap = 64;
 
 /// How chains run, whatever they are run for.
 struct MetropolisTuning {
-    std::uint32_t chains = 256;         ///< at most 65536; no more than states are used
+    std::uint32_t chains = 4096;        ///< at most, 1..65536; see BootstrapOptions::starts_at()
     std::uint32_t stride = 64;          ///< mutations from one recorded state to the next
     std::uint32_t suffix_refresh = 8;   ///< further light paths behind each recorded VPL, 0..255
     ChainStop stop = ChainStop::fixed;  ///< when chains end
@@ -51,7 +51,7 @@ struct MetropolisOptions : MetropolisTuning {
 
 inline void MetropolisTuning::validate() const {
     expects(chains > 0 && chains <= max_chains,
-            "the number of Markov chains must be 1 to 65536; 256 is usual");
+            "the number of Markov chains must be 1 to 65536; 4096 is usual");
     expects(stride > 0 && stride <= 1u << 20,
             "the stride between recorded states must be 1 to 1048576; 64 is usual");
     expects(suffix_refresh < 256, "suffix refreshes must be 0 to 255; 8 is usual");
