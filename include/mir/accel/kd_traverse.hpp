@@ -32,37 +32,70 @@ struct WaitingCell {
     float end;
 };
 
+/// What a walk looks up by axis and by level.
+template <Space S>
+struct KdWalkMemory {
+    AxisStep steps[3];
+    WaitingCell stack[KdTreeView<S>::max_depth];
+};
+
+/// Where a walk stands: a node, and the part of the segment inside its cell.
+struct KdWalkState {
+    KdNode node;
+    float begin = 0.0f;
+    float end = 1.0f;
+    std::uint32_t waiting = 0;  ///< cells on the stack
+};
+
+/// At the root. Both ends lie within the tree's reach.
+template <Space S>
+MIR_HD KdWalkState start_walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to,
+                              KdWalkMemory<S>& memory) {
+    const float shortest = shortest_step(tree.reach);
+    memory.steps[0] = axis_step(from.x, to.x, shortest);
+    memory.steps[1] = axis_step(from.y, to.y, shortest);
+    memory.steps[2] = axis_step(from.z, to.z, shortest);
+    return {tree.nodes[KdTreeView<S>::root]};
+}
+
+/// Goes down to a leaf, the next one along the segment.
+template <Space S>
+MIR_HD void descend(const KdTreeView<S>& tree, KdWalkMemory<S>& memory, KdWalkState& at) {
+    while (!at.node.is_leaf()) {
+        const KdChildren children = tree.children(at.node);
+        const AxisStep step = memory.steps[at.node.axis()];
+        const float t = loose::mul_sub(at.node.split(), step.inverse, step.offset);
+        const bool downwards = step.inverse < 0.0f;
+        const bool behind = t <= at.begin;
+        if (!behind && t < at.end) {
+            memory.stack[at.waiting++] = {at.node.below() + (downwards ? 0u : 1u), at.end};
+            at.end = t;
+        }
+        at.node = downwards != behind ? children.above : children.below;
+    }
+}
+
+/// Takes the cell behind the leaf's from the stack; false when none waits.
+template <Space S>
+MIR_HD bool next_cell(const KdTreeView<S>& tree, const KdWalkMemory<S>& memory, KdWalkState& at) {
+    if (at.waiting == 0) return false;
+    at.begin = at.end;
+    at.end = memory.stack[--at.waiting].end;
+    at.node = tree.nodes[memory.stack[at.waiting].node];
+    return true;
+}
+
 /// The walk: calls `leaf(node, end)` for the leaves along the segment until one returns true, which
 /// the walk then returns. `end` is the fraction of the segment at which the leaf's cell ends.
 template <Space S, class Leaf>
 MIR_HD bool walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to, Leaf& leaf) {
-    const float shortest = shortest_step(tree.reach);
-    const AxisStep steps[3] = {axis_step(from.x, to.x, shortest), axis_step(from.y, to.y, shortest),
-                               axis_step(from.z, to.z, shortest)};
-    WaitingCell stack[KdTreeView<S>::max_depth];
-    std::uint32_t waiting = 0;
-    KdNode node = tree.nodes[KdTreeView<S>::root];
-    float begin = 0.0f;
-    float end = 1.0f;
-    for (;;) {
-        while (!node.is_leaf()) {
-            const KdChildren children = tree.children(node);
-            const AxisStep step = steps[node.axis()];
-            const float t = loose::mul_sub(node.split(), step.inverse, step.offset);
-            const bool downwards = step.inverse < 0.0f;
-            const bool behind = t <= begin;
-            if (!behind && t < end) {
-                stack[waiting++] = {node.below() + (downwards ? 0u : 1u), end};
-                end = t;
-            }
-            node = downwards != behind ? children.above : children.below;
-        }
-        if (leaf(node, end)) return true;
-        if (waiting == 0) return false;
-        begin = end;
-        end = stack[--waiting].end;
-        node = tree.nodes[stack[waiting].node];
-    }
+    KdWalkMemory<S> memory;
+    KdWalkState at = start_walk(tree, from, to, memory);
+    do {
+        descend(tree, memory, at);
+        if (leaf(at.node, at.end)) return true;
+    } while (next_cell(tree, memory, at));
+    return false;
 }
 
 /// True when one of the leaf's triangles hides the ends of the segment from each other. This is
@@ -126,12 +159,7 @@ struct FindFirst {
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD bool is_hidden(const KdTreeView<S>& tree, Vec3 from, Vec3 to,
                                     const Mask& mask = {}) {
-    if (!within_reach(from, tree.reach) || !within_reach(to, tree.reach)) {
-        const CutSegment cut = cut_to_reach(from, to, tree.reach);
-        if (cut.empty) return false;
-        from = cut.from;
-        to = cut.to;
-    }
+    if (!is_left_within_reach(from, to, tree.reach)) return false;
     detail::FindAny<S, Mask> any{tree, mask, from, to};
     return detail::walk(tree, from, to, any);
 }

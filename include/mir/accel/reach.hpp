@@ -108,6 +108,17 @@ MIR_HD inline Vec3 passage_point(const Ray& ray, float t, Vec3 t_of_faces, float
     return cut;
 }
 
+/// Cuts the segment from `a` to `b` where it must be cut, which is rare; false when nothing of it
+/// is left.
+[[nodiscard]] MIR_HD inline bool is_left_within_reach(Vec3& a, Vec3& b, float reach) {
+    if (within_reach(a, reach) && within_reach(b, reach)) return true;
+    const CutSegment cut = cut_to_reach(a, b, reach);
+    if (cut.empty) return false;
+    a = cut.from;
+    b = cut.to;
+    return true;
+}
+
 /// Cuts a ray: its other end is where it leaves the cube. An origin inside keeps its bits.
 [[nodiscard]] MIR_HD inline CutSegment cut_to_reach(const Ray& ray, float reach) {
     const detail::CubePassage passage = detail::cube_passage(ray, reach);

@@ -198,12 +198,7 @@ struct FindFirstInLeaf {
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD bool is_hidden(const WideBvhView<S>& bvh, Vec3 from, Vec3 to,
                                     const Mask& mask = {}) {
-    if (!within_reach(from, bvh.reach) || !within_reach(to, bvh.reach)) {
-        const CutSegment cut = cut_to_reach(from, to, bvh.reach);
-        if (cut.empty) return false;
-        from = cut.from;
-        to = cut.to;
-    }
+    if (!is_left_within_reach(from, to, bvh.reach)) return false;
     detail::FindAnyInLeaf<S, Mask> any{bvh, mask, from, to};
     return detail::walk(bvh, from, to, any);
 }
