@@ -41,7 +41,7 @@ class Ledger {
                                                         bvh.node_count());
         note("short_boxes");
         add_kd_tree(scene);
-        noted_ = meter_.now;  // the kd-tree is gone: a frame has one or the other
+        noted_ = meter_.now;  // the kd-tree is gone again
         add_luxels(vpls);
         const mir::WideBvh on_host = mir::build_wide_bvh(scene.geometry, executor_);
         state_.counters["bytes_host_lanes"] = static_cast<double>(
