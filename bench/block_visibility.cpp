@@ -2,12 +2,14 @@
 //
 // What the block face of visibility is worth: seconds for the visibility of all pairs, block by
 // block as sched::CpuBlocks asks, by Embree's packets of sixteen rays from the VPL, by our packets
-// and by single segments, over those of blocks by shafts.
+// and by single segments, over those of blocks by shafts. Blocks are squares of the image, as
+// renders have them, or clusters of luxels that lie together in the world.
 #include "mir/cpu/embree_visibility.hpp"
 #include "mir/host/shaft_scene.hpp"
 #include "mir/runtime/stopwatch.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
 #include "support/bench_scene.hpp"
+#include "support/clustered_hits.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -24,16 +26,20 @@ using mir::InstructionSet;
 constexpr mir::Extent image = paper_image;
 constexpr std::uint32_t vpl_count = 64;
 
+enum class Blocks { squares, clusters };
+
 /// Words of all pairs, 16 per block and VPL, and who asks for them.
 class Bench {
  public:
-    Bench(const BenchScene& s, InstructionSet set, mir::cpu::TbbExecutor& executor)
+    Bench(const BenchScene& s, Blocks blocks, InstructionSet set, mir::cpu::TbbExecutor& executor)
         : executor_(executor),
           set_(set),
           embree_(s.engine.visibility()),
           scene_(s.geometry, executor, wide_options_of_run()),
           gbuffer_(s.gbuffer(image, image)),
           vpls_(s.vpls(vpl_count)) {
+        if (blocks == Blocks::clusters)
+            clustered_ = clustered_hits(gbuffer_.view(0).hits, gbuffer_.view(0).size(), executor);
         mir::sched::detail::append_blocks(blocks_, 0, gbuffer_.tiles()[0]);
         words_.resize(blocks_.size() * vpls_.size());
     }
@@ -92,13 +98,18 @@ class Bench {
         return block.cannot_face(vpl) ? BlockMask{} : mir::sched::detail::facing_mask(block, vpl);
     }
 
+    [[nodiscard]] mir::SoaView<const mir::Hit> hits() const {
+        const auto squares = gbuffer_.view(0).hits;
+        return clustered_.empty() ? squares
+                                  : mir::SoaView<const mir::Hit>{clustered_.data(), squares.stride};
+    }
+
     /// Calls `run(block, masks of all VPLs)`, compiled for the instruction set.
     template <class Run>
     void for_blocks(const Run& run) {
         executor_.for_each(blocks_.size(), [&](std::size_t b) {
             mir::run_with(set_, [&] {
-                const HitBlock block(gbuffer_.view(0).hits, blocks_[b],
-                                     [](std::uint32_t) { return true; });
+                const HitBlock block(hits(), blocks_[b], [](std::uint32_t) { return true; });
                 run(block, words_.data() + b * vpls_.size());
             });
         });
@@ -127,14 +138,16 @@ class Bench {
     mir::cpu::EmbreeVisibility embree_;
     mir::ShaftScene scene_;
     GBuffer gbuffer_;
+    std::vector<std::uint32_t> clustered_;  ///< planes of hits; none for squares
     mir::VplList vpls_;
     std::vector<mir::sched::detail::Block> blocks_;
     std::vector<BlockMask> words_;
 };
 
-void visibility(benchmark::State& state, const std::string& name, InstructionSet set) {
+void visibility(benchmark::State& state, const std::string& name, Blocks order,
+                InstructionSet set) {
     mir::cpu::TbbExecutor executor(static_cast<int>(state.range(0)));
-    Bench bench(bench_scene(name), set, executor);
+    Bench bench(bench_scene(name), order, set, executor);
     double segments = 0.0;
     double packets = 0.0;
     double embree = 0.0;
@@ -165,12 +178,13 @@ void visibility(benchmark::State& state, const std::string& name, InstructionSet
     state.SetLabel(bench_scene(name).hash);
 }
 
-void add(const std::string& scene, const std::string& set_name, InstructionSet set) {
+void add(const std::string& scene, Blocks order, const std::string& set_name, InstructionSet set) {
     if (set > mir::best_instruction_set()) return;
     std::string name = "block_visibility/";
-    name.append(scene).append("/").append(set_name);
+    name.append(scene).append(order == Blocks::clusters ? "/clusters/" : "/squares/");
+    name.append(set_name);
     benchmark::RegisterBenchmark(
-        name.c_str(), [scene, set](benchmark::State& state) { visibility(state, scene, set); })
+        name.c_str(), [=](benchmark::State& state) { visibility(state, scene, order, set); })
         ->ArgName("threads")
         ->Arg(1)
         ->Arg(0)
@@ -180,11 +194,12 @@ void add(const std::string& scene, const std::string& set_name, InstructionSet s
 }
 
 const int registered = [] {
-    for (const std::string& scene : scenes_of_run()) {
-        add(scene, "avx512", InstructionSet::avx512);
-        add(scene, "avx2", InstructionSet::avx2);
-        add(scene, "baseline", InstructionSet::baseline);
-    }
+    for (const std::string& scene : scenes_of_run())
+        for (const Blocks order : {Blocks::squares, Blocks::clusters}) {
+            add(scene, order, "avx512", InstructionSet::avx512);
+            add(scene, order, "avx2", InstructionSet::avx2);
+            add(scene, order, "baseline", InstructionSet::baseline);
+        }
     return 0;
 }();
 

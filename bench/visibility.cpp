@@ -5,10 +5,10 @@
 #include "mir/data/visibility_words.hpp"
 #include "mir/host/wide_bvh_scene.hpp"
 #include "mir/runtime/stopwatch.hpp"
-#include "mir/shaft/cluster_order.hpp"
 #include "mir/shaft/pair_tally.hpp"
 #include "mir/shaft/shaft_pass.hpp"
 #include "support/bench_runs.hpp"
+#include "support/clustered_hits.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -31,14 +31,7 @@ struct Clusters {
     Clusters(const GBuffer& gbuffer, float sigma, mir::cpu::TbbExecutor& executor)
         : luxels((gbuffer.view(0).size() + mir::block_luxels - 1) / mir::block_luxels *
                  mir::block_luxels),
-          planes(std::size_t{luxels} * mir::SoaView<mir::Hit>::words) {
-        const auto view = gbuffer.view(0);
-        std::vector<std::uint32_t> unordered(planes.size());
-        const mir::SoaView<mir::Hit> given{unordered.data(), luxels};
-        for (std::uint32_t i = 0; i < view.size(); ++i) given.store(i, view.hit(i));
-        const auto order = mir::cluster_order({unordered.data(), luxels}, {}, executor);
-        const mir::SoaView<mir::Hit> ordered{planes.data(), luxels};
-        for (std::uint32_t i = 0; i < luxels; ++i) ordered.store(i, given.load(order[i]));
+          planes(clustered_hits(gbuffer.view(0).hits, luxels, executor)) {
         record(blocks, mir::block_luxels, sigma, executor);
         record(clusters, mir::cluster_luxels, sigma, executor);
     }
