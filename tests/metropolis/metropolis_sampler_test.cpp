@@ -279,6 +279,13 @@ TEST_CASE("bad options are refused with a sentence that names them") {
     CHECK_THAT(refusal([](O& o) { o.bootstrap.max_paths = 10; }), Contains("bootstrap"));
     CHECK_THAT(refusal([](O& o) { o.max_bounce = 0; }), Contains("64 edges"));
     CHECK_THAT(refusal([](O& o) { o.max_bounce = 64; }), Contains("64 edges"));
+    // By the fewest chains that there may be, not by those that are wanted.
+    const auto long_chains = [](O& o) {
+        o.states = 4'000'000;
+        o.stride = 1u << 20;
+        o.chains = 4096;
+    };
+    CHECK_THAT(refusal(long_chains), Contains("2^32 mutations"));
     CHECK(refusal([](O& o) { o.max_bounce = 63; }).empty());
     CHECK(refusal([](O& o) { o.chain.tries = 254; }).empty());
 }

@@ -6,6 +6,7 @@
 #include "mir/metropolis/chain_options.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace mir {
 
@@ -75,9 +76,11 @@ inline void MetropolisOptions::check(const Limits& limits) const {
     check_limit(states, limits.vpls, "vpls");
     validate();
     const std::uint64_t cap = stop == ChainStop::paper ? paper_stop_cap : 1;
-    expects((states / std::min(chains, states) + 1) * cap * stride <= ~std::uint32_t{0},
-            "a chain would make more than 2^32 mutations (a step is named by 32 bits); ask for "
-            "more chains, a shorter stride or fewer VPLs");
+    const std::uint32_t fewest =
+        bootstrap.starts_at(std::numeric_limits<double>::infinity(), std::min(chains, states));
+    expects((states / fewest + 1) * cap * stride <= ~std::uint32_t{0},
+            "a chain might make more than 2^32 mutations (a step is named by 32 bits); ask for a "
+            "shorter stride, fewer VPLs or, below 256, more chains");
 }
 
 }  // namespace mir
