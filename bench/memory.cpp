@@ -8,7 +8,7 @@
 #include "mir/host/wide_build.hpp"
 #include "mir/resident/backend_visibility.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
-#include "mir/resident/quantised_boxes.hpp"
+#include "mir/resident/quantised_bvh.hpp"
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_kd_tree.hpp"
 #include "support/bench_scene.hpp"
@@ -37,9 +37,9 @@ class Ledger {
                                                       geometry.view());
         state_.counters["bytes_bvh_build"] = static_cast<double>(meter_.most - noted_);
         note("bvh");
-        const mir::QuantisedBoxes<MeteredBackend> boxes(backend_, queue_, bvh.view(),
-                                                        bvh.node_count());
-        note("short_boxes");
+        const mir::QuantisedBvh<MeteredBackend> in_short(backend_, queue_, bvh.view(),
+                                                         bvh.node_count());
+        note("short_nodes");
         add_kd_tree(scene);
         noted_ = meter_.now;  // the kd-tree is gone again
         add_luxels(vpls);

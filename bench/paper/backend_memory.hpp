@@ -4,7 +4,7 @@
 #include "mir/accel/kd_ray_finder.hpp"
 #include "mir/accel/wide_bvh_visibility.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
-#include "mir/resident/quantised_boxes.hpp"
+#include "mir/resident/quantised_bvh.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_kd_tree.hpp"
@@ -23,7 +23,7 @@ class SceneOnBackend {
           tree_(backend, queue_, scene.tree()),
           geometry_(backend, queue_, scene.geometry()),
           bvh_(backend, queue_, scene.geometry(), geometry_.view(), scene.wide_options()),
-          boxes_(backend, queue_, bvh_.view(), bvh_.node_count()),
+          short_(backend, queue_, bvh_.view(), bvh_.node_count()),
           sigma_(scene.sigma()),
           surfaces_(backend, queue_, scene.surfaces()),
           rays_(scene.camera_rays().luxel_rays()) {
@@ -37,7 +37,7 @@ class SceneOnBackend {
     /// Shafts that leave segments to `rays`.
     template <mir::Visibility V>
     [[nodiscard]] mir::ClusterVisibility<V> with_shafts(const V& rays) const {
-        return {{bvh_.view(), boxes_.data()}, sigma_, rays};
+        return {short_.view(), sigma_, rays};
     }
 
     /// Starts to trace all luxels on `queue`.
@@ -52,7 +52,7 @@ class SceneOnBackend {
     mir::UploadedKdTree<B> tree_;
     mir::UploadedGeometry<B> geometry_;
     mir::BackendWideBvh<B> bvh_;
-    mir::QuantisedBoxes<B> boxes_;
+    mir::QuantisedBvh<B> short_;
     float sigma_;
     mir::UploadedSurfaces<B, Bsdf> surfaces_;
     mir::LuxelRays rays_;

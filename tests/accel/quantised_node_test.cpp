@@ -2,6 +2,7 @@
 #include "mir/accel/quantised_node.hpp"
 
 #include "conformance/worlds.hpp"
+#include "mir/accel/quantised_bvh.hpp"
 #include "mir/host/wide_build.hpp"
 #include "support/catch.hpp"
 
@@ -91,7 +92,8 @@ TEST_CASE("The kernel quantises every node of a hierarchy, that without triangle
         mir::InlineExecutor executor;
         const mir::WideBvh bvh = mir::build_wide_bvh(world.geometry, executor);
         std::vector<mir::QuantisedNode> boxes(bvh.nodes().size());
-        const mir::QuantiseNodes<mir::Space::host> kernel{bvh.view(), boxes.data()};
+        std::vector<mir::NodeLinks> links(bvh.nodes().size());
+        const mir::QuantiseNodes<mir::Space::host> kernel{bvh.view(), boxes.data(), links.data()};
         for (std::uint32_t i = 0; i < boxes.size(); ++i) kernel(i);
         for (std::size_t i = 0; i < boxes.size(); ++i)
             for (std::uint32_t k = 0; k < mir::WideNode::width; ++k) {

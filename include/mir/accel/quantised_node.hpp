@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh_view.hpp"
+#include "mir/accel/wide_node.hpp"
+#include "mir/core/math.hpp"
+#include "mir/core/strict_float.hpp"
 
 #include <cstring>
 
@@ -107,27 +109,5 @@ MIR_HD inline void quantise_axis(const WideNode& node, int axis, float margin, Q
     for (int axis = 0; axis < 3; ++axis) detail::quantise_axis(node, axis, margin, q);
     return q;
 }
-
-/// A hierarchy with the boxes of its nodes in short, for walks that visit many.
-template <Space S>
-struct QuantisedBvhView {
-    static constexpr Space space = S;  ///< of the memory of both
-
-    WideBvhView<S> exact;                  ///< the hierarchy itself
-    const QuantisedNode* boxes = nullptr;  ///< of the nodes of `exact`, by their numbers
-};
-
-/// Kernel over the nodes of a hierarchy.
-template <Space S>
-struct QuantiseNodes {
-    WideBvhView<S> bvh;            ///< whose nodes are read
-    QuantisedNode* out = nullptr;  ///< one for each node, by its number
-
-    /// Writes the boxes of node `i`, with a margin of 2^-20 of the hierarchy's reach.
-    MIR_HD void operator()(std::uint32_t i) const {
-        // 2^-20 reach is 24 e M.
-        out[i] = quantised(bvh.nodes[i], 0x1p-20f * bvh.reach);
-    }
-};
 
 }  // namespace mir

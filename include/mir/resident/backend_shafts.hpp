@@ -99,7 +99,6 @@ class BackendShafts {
         const WorkQueue<OpenPair> open{open_clusters_.data(), size_of(open_clusters_), counter + 4,
                                        counter + 5};
         const LeafPool pool{leaves_.data(), size_of(leaves_), counter + 6};
-        const WideBvhView<space>& bvh = visibility.bvh.exact;
         queue.for_each_group(
             BlockShafts<space, P>::groups(block_count, batch),
             BlockShafts<space, P>{blocks_.data(), block_count, vpls, batch, visibility.bvh,
@@ -108,9 +107,10 @@ class BackendShafts {
             options_.groups,
             ClusterShafts<space, P>{clusters_.data(), vpls, visibility.bvh, visibility.sigma,
                                     options_.cluster_nodes, words, blocks, listed, pool, open});
-        queue.for_each_group(options_.groups, ClusterLists<space, P>{hits, clusters_.data(), vpls,
-                                                                     bvh, visibility.sigma, words,
-                                                                     listed, pool.leaves, open});
+        queue.for_each_group(
+            options_.groups,
+            ClusterLists<space, P>{hits, clusters_.data(), vpls, visibility.bvh, visibility.sigma,
+                                   words, listed, pool.leaves, open});
         queue.for_each_group(options_.groups,
                              OpenSegments{hits, vpls, visibility.segments, words, open});
     }

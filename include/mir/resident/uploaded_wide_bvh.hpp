@@ -2,12 +2,12 @@
 #pragma once
 
 #include "mir/accel/wide_bvh.hpp"
-#include "mir/resident/quantised_boxes.hpp"
+#include "mir/resident/quantised_bvh.hpp"
 #include "mir/resident/uploaded_array.hpp"
 
 namespace mir {
 
-/// A WideBvh in a backend's memory, and its boxes in short.
+/// A WideBvh in a backend's memory, and its nodes in short.
 template <Backend B>
 class UploadedWideBvh {
  public:
@@ -17,21 +17,21 @@ class UploadedWideBvh {
           triangles_(backend, queue, bvh.triangles()),
           indices_(backend, queue, bvh.indices()),
           reach_(bvh.view().reach),
-          boxes_(backend, queue, view(), bvh.nodes().size()) {}
+          short_(backend, queue, view(), bvh.nodes().size()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
     [[nodiscard]] WideBvhView<B::space> view() const {
         return {nodes_.data(), triangles_.data(), indices_.data(), reach_};
     }
     /// The same, for shafts.
-    [[nodiscard]] QuantisedBvhView<B::space> quantised() const { return {view(), boxes_.data()}; }
+    [[nodiscard]] QuantisedBvhView<B::space> quantised() const { return short_.view(); }
 
  private:
     UploadedArray<B, WideNode> nodes_;
     UploadedArray<B, TriangleRows> triangles_;
     UploadedArray<B, std::uint32_t> indices_;
     float reach_;
-    QuantisedBoxes<B> boxes_;
+    QuantisedBvh<B> short_;
 };
 
 }  // namespace mir

@@ -14,7 +14,7 @@
 #include "mir/resident/backend_guides.hpp"
 #include "mir/resident/backend_response.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
-#include "mir/resident/quantised_boxes.hpp"
+#include "mir/resident/quantised_bvh.hpp"
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_kd_tree.hpp"
 #include "mir/resident/uploaded_surfaces.hpp"
@@ -210,7 +210,7 @@ class BackendEngine {
     mutable std::optional<KdTree> host_tree_;
     std::optional<UploadedKdTree<B>> tree_;
     std::optional<BackendWideBvh<B>> bvh_;
-    std::optional<QuantisedBoxes<B>> boxes_;
+    std::optional<QuantisedBvh<B>> short_bvh_;
 };
 
 }  // namespace mir

@@ -51,7 +51,7 @@ void BackendEngine<B, F, E>::build_bvh() {
     const auto stage = clock_.measure(&StageSeconds::build);
     bvh_.emplace(backend_, queue_, geometry_, geometry_there_.view());
     if (!options_.shafts) return;
-    boxes_.emplace(backend_, queue_, bvh_->view(), bvh_->node_count());
+    short_bvh_.emplace(backend_, queue_, bvh_->view(), bvh_->node_count());
     queue_.record().sync();
 }
 
@@ -82,8 +82,8 @@ auto BackendEngine<B, F, E>::with_tile_visibility(const Use& use) const {
         if constexpr (std::is_same_v<Sight, WideBvhVisibility<space, AlphaMaskView<space>>>) {
             return use(sight);
         } else {
-            if (!boxes_) return use(sight);
-            return use(ClusterVisibility<Sight>{{bvh_->view(), boxes_->data()}, sigma_, sight});
+            if (!short_bvh_) return use(sight);
+            return use(ClusterVisibility<Sight>{short_bvh_->view(), sigma_, sight});
         }
     });
 }

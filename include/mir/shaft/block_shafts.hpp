@@ -112,9 +112,9 @@ struct BlockShafts {
             group.each([&](std::uint32_t lane) {
                 LeafCursor& cursor = cursors[lane];
                 if (!cursor.has_more()) return;
-                if (!cursor.next(bvh.exact, space.leaves, lane)) return;
+                if (!cursor.find(bvh.links, space.leaves, lane)) return;
                 const Occlusion found =
-                    occlusion(bvh.exact.triangles[cursor.triangle], pyramids[lane]);
+                    occlusion(bvh.exact.triangles[cursor.triangles.pop()], pyramids[lane]);
                 if (found == Occlusion::none) return;
                 if (found == Occlusion::full) cursor.stop();
                 if (found == Occlusion::full)
@@ -127,35 +127,28 @@ struct BlockShafts {
         });
     }
 
-    /// The triangles of a lane's leaves, one after the other.
+    /// The triangles of a lane's leaves, one node after the other.
     struct LeafCursor {
-        std::uint32_t at;        ///< in the lane's column
-        std::uint32_t listed;    ///< of it
-        std::uint32_t slots;     ///< of the node that are left
-        std::uint32_t triangle;  ///< where it stands
-        std::uint32_t left;      ///< of the slot, behind that one
+        std::uint32_t at;         ///< in the lane's column
+        std::uint32_t listed;     ///< of it
+        LeafTriangles triangles;  ///< of the node before, those that are left
 
         MIR_HD void begin(std::uint32_t count) {
-            at = slots = triangle = left = 0;
+            at = 0;
             listed = count;
+            triangles = {{0, 0}, {0, 0}};
         }
-        [[nodiscard]] MIR_HD bool has_more() const { return left > 0 || slots != 0 || at < listed; }
+        [[nodiscard]] MIR_HD bool has_more() const { return !triangles.empty() || at < listed; }
         MIR_HD void stop() { begin(0); }
 
-        /// Moves on; false when it came to an empty slot.
+        /// Goes to the next node when none is left; false when that has none either.
         template <std::uint32_t Capacity>
-        MIR_HD bool next(const WideBvhView<S>& bvh, const LeafColumns<Capacity>& columns,
+        MIR_HD bool find(const NodeLinks* links, const LeafColumns<Capacity>& columns,
                          std::uint32_t lane) {
-            ++triangle;
-            if (left > 0) return left-- > 0;
-            if (slots == 0) slots = columns.met[at++][lane].slots();
-            const WideNode& node = bvh.nodes[columns.met[at - 1][lane].node()];
-            const std::uint32_t k = LaneGroup::lowest(slots);
-            slots &= slots - 1;
-            triangle = node.ref[k];
-            const std::uint32_t count = triangles_of_slot(node, k);
-            left = count > 0 ? count - 1 : 0;
-            return count > 0;
+            if (!triangles.empty()) return true;
+            const MetLeaves met = columns.met[at++][lane];
+            triangles = links[met.node()].leaves(met.slots());
+            return !triangles.empty();
         }
     };
 };

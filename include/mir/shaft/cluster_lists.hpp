@@ -20,16 +20,27 @@ struct ClusterLists {
     /// As BlockShafts::resident_blocks.
     static constexpr std::uint32_t resident_blocks = 10;
 
-    /// What a group works in.
+    /// Numbers of a SegmentForms that are no row. Aligned so that the device moves it as one word.
+    struct alignas(8) FormScalars {
+        float depth;   ///< metres
+        float margin;  ///< metres
+    };
+
+    /// What a group works in. Rows stand in arrays of their own: 32 lanes that write whole forms,
+    /// 64 bytes apart, meet in few banks of the device's memory and take four times as long.
     struct Workspace {
-        SegmentForms forms[most_forms];           ///< of triangles that are partial
+        PlainRow beyond[most_forms];              ///< of triangles that are partial
+        PlainRow u[most_forms];                   ///< of the same
+        PlainRow v[most_forms];                   ///< of the same
+        FormScalars scalars[most_forms];          ///< of the same
+        std::uint32_t partial[most_forms];        ///< the same, by place in the hierarchy
         std::uint32_t triangles[most_triangles];  ///< of a pair, by place in the hierarchy
     };
 
     SoaView<const Hit> hits;                  ///< in cluster order
     const ClusterRecord* clusters = nullptr;  ///< of 32 luxels
     P vpls;                                   ///< those of the words
-    WideBvhView<S> bvh;                       ///< of the scene
+    QuantisedBvhView<S> bvh;                  ///< of the scene
     float sigma = 0.0f;                       ///< of the scene, metres, as for the records
     std::uint32_t* words = nullptr;           ///< as VisibilityWords
     WorkQueue<ListedPair> listed;             ///< to decide
@@ -87,40 +98,23 @@ struct ClusterLists {
                                               Workspace& space) const {
         std::uint32_t written = 0;
         for (std::uint32_t first = 0; first < list.nodes; first += LaneGroup::width) {
-            LaneGroup::PerLane<MetLeaves> met;
+            LaneGroup::PerLane<LeafTriangles> triangles;
             LaneGroup::PerLane<std::uint32_t> place;
             group.each([&](std::uint32_t lane) {
-                met[lane] =
+                const MetLeaves met =
                     first + lane < list.nodes ? pool[list.first + first + lane] : MetLeaves{};
-                place[lane] = 0;
-                for_each_leaf(met[lane], [&](Leaf leaf) { place[lane] += leaf.count; });
+                triangles[lane] = bvh.links[met.node()].leaves(met.slots());
+                place[lane] = triangles[lane].count();
             });
             const std::uint32_t count = group.sums_before(place);
             if (written + count > most_triangles) return too_many;
             group.each([&](std::uint32_t lane) {
                 std::uint32_t* out = space.triangles + written + place[lane];
-                for_each_leaf(met[lane], [&](Leaf leaf) {
-                    for (std::uint32_t i = 0; i < leaf.count; ++i) *out++ = leaf.first + i;
-                });
+                triangles[lane].for_each([&](std::uint32_t triangle) { *out++ = triangle; });
             });
             written += count;
         }
         return written;
-    }
-
-    /// Triangles of a leaf.
-    struct Leaf {
-        std::uint32_t first;
-        std::uint32_t count;
-    };
-
-    template <class F>
-    MIR_HD void for_each_leaf(MetLeaves met, const F& f) const {
-        const WideNode& node = bvh.nodes[met.node()];
-        for (std::uint32_t slots = met.slots(); slots != 0; slots &= slots - 1) {
-            const std::uint32_t slot = LaneGroup::lowest(slots);
-            f(Leaf{node.ref[slot], triangles_of_slot(node, slot)});
-        }
     }
 
     /// Luxels of `lit` whose segments none of the first `count` triangles hits.
@@ -131,13 +125,14 @@ struct ClusterLists {
         for (std::uint32_t first = 0; first < count; first += LaneGroup::width) {
             LaneGroup::PerLane<Occlusion> found;
             LaneGroup::PerLane<SegmentForms> forms;
+            LaneGroup::PerLane<std::uint32_t> triangles;
             group.each([&](std::uint32_t lane) {
                 // Lanes without a triangle test another's, so that all have forms.
                 const bool is_own = first + lane < count;
-                const std::uint32_t triangle = space.triangles[is_own ? first + lane : first];
-                found[lane] = occlusion(bvh.triangles[triangle], cone.pyramid, forms[lane]);
+                triangles[lane] = space.triangles[is_own ? first + lane : first];
+                const TriangleRows& rows = bvh.exact.triangles[triangles[lane]];
+                found[lane] = occlusion(rows, cone.pyramid, forms[lane]);
                 if (!is_own) found[lane] = Occlusion::none;
-                forms[lane].triangle = triangle;
             });
             if (group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::full; }) !=
                 0)
@@ -151,40 +146,84 @@ struct ClusterLists {
             }
             group.each([&](std::uint32_t lane) {
                 if ((partial >> lane & 1u) != 0)
-                    space.forms[kept + LaneGroup::count_before(partial, lane)] = forms[lane];
+                    keep(forms[lane], triangles[lane],
+                         kept + LaneGroup::count_before(partial, lane), space);
             });
             kept += LaneGroup::count(partial);
         }
         return lit_behind(group, cone, lit, kept, space);
     }
 
-    /// The same by the first `count` of the triangles that are partial, a luxel per lane.
+    MIR_HD static void keep(const SegmentForms& forms, std::uint32_t triangle, std::uint32_t at,
+                            Workspace& space) {
+        space.beyond[at] = forms.beyond;
+        space.u[at] = forms.u;
+        space.v[at] = forms.v;
+        space.scalars[at] = {forms.depth, forms.margin};
+        space.partial[at] = triangle;
+    }
+    [[nodiscard]] MIR_HD static SegmentForms kept_forms(std::uint32_t at, const Workspace& space) {
+        const FormScalars scalars = space.scalars[at];
+        return {space.beyond[at], space.u[at], space.v[at], scalars.depth, scalars.margin};
+    }
+
+    /// What a lane knows of its luxel's segment.
+    struct Segment {
+        Vec3 end;              ///< from the centre of the pyramid's base, metres
+        std::uint32_t lit;     ///< 1: no triangle is known to hit it
+        std::uint32_t unsure;  ///< bit k: the margins of triangle k leave it open
+    };
+
+    /// The same by the first `count` of the triangles that are partial, a luxel per lane. Those
+    /// that are left open are asked exactly, and last: by then most of the segments are hidden.
     [[nodiscard]] MIR_HD std::uint32_t lit_behind(const LaneGroup& group, const Cone& cone,
                                                   std::uint32_t lit, std::uint32_t count,
                                                   const Workspace& space) const {
-        LaneGroup::PerLane<Vec3> ends;
-        group.each(
-            [&](std::uint32_t lane) { ends[lane] = cone.luxels[lane] - cone.pyramid.centre; });
-        const float plane = OcclusionMargins::plane * sigma;
-        for (std::uint32_t k = 0; k < count && lit != 0; ++k) {
-            const SegmentForms forms = space.forms[k];
-            LaneGroup::PerLane<SegmentValues> at;
-            group.each([&](std::uint32_t lane) { at[lane] = values_at(forms, ends[lane]); });
-            std::uint32_t hit = group.ballot(
-                [&](std::uint32_t lane) { return surely_hit(at[lane], forms, plane); });
-            const std::uint32_t missed = group.ballot(
-                [&](std::uint32_t lane) { return surely_missed(at[lane], forms, plane); });
-            if ((lit & ~hit & ~missed) != 0) hit |= hit_exactly(group, cone, forms.triangle);
-            lit &= ~hit;
+        LaneGroup::PerLane<Segment> segments;
+        group.each([&](std::uint32_t lane) {
+            segments[lane] = {cone.luxels[lane] - cone.pyramid.centre, lit >> lane & 1u, 0};
+        });
+        for (std::uint32_t k = 0; k < count; k += 2) {
+            group.each([&](std::uint32_t lane) {
+                ask(kept_forms(k, space), k, segments[lane]);
+                if (k + 1 < count) ask(kept_forms(k + 1, space), k + 1, segments[lane]);
+            });
+            if (lit_of(group, segments) == 0) return 0;
         }
-        return lit;
+        ask_exactly(group, cone, space, segments);
+        return lit_of(group, segments);
     }
 
-    [[nodiscard]] MIR_HD std::uint32_t hit_exactly(const LaneGroup& group, const Cone& cone,
-                                                   std::uint32_t triangle) const {
-        return group.ballot([&](std::uint32_t lane) {
-            return hits_segment(bvh.triangles[triangle], cone.pyramid.apex, cone.luxels[lane]);
-        });
+    /// Asks triangle `k`.
+    MIR_HD void ask(const SegmentForms& forms, std::uint32_t k, Segment& segment) const {
+        const float plane = OcclusionMargins::plane * sigma;
+        const SegmentValues at = values_at(forms, segment.end);
+        const bool is_hit = surely_hit(at, forms, plane);
+        const bool is_decided = is_hit | surely_missed(at, forms, plane);
+        segment.unsure |= is_decided ? 0u : 1u << k;
+        segment.lit = is_hit ? 0u : segment.lit;
+    }
+
+    /// Asks the triangles that leave segments open.
+    MIR_HD void ask_exactly(const LaneGroup& group, const Cone& cone, const Workspace& space,
+                            LaneGroup::PerLane<Segment>& segments) const {
+        for (;;) {
+            const std::uint32_t asked = group.any_bits(
+                [&](std::uint32_t lane) { return segments[lane].lit * segments[lane].unsure; });
+            if (asked == 0) return;
+            const std::uint32_t k = LaneGroup::lowest(asked);
+            const TriangleRows& rows = bvh.exact.triangles[space.partial[k]];
+            group.each([&](std::uint32_t lane) {
+                segments[lane].unsure &= ~(1u << k);
+                if (hits_segment(rows, cone.pyramid.apex, cone.luxels[lane]))
+                    segments[lane].lit = 0;
+            });
+        }
+    }
+
+    [[nodiscard]] MIR_HD static std::uint32_t lit_of(const LaneGroup& group,
+                                                     const LaneGroup::PerLane<Segment>& segments) {
+        return group.ballot([&](std::uint32_t lane) { return segments[lane].lit != 0; });
     }
 };
 

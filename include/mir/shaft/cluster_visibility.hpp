@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/quantised_node.hpp"
+#include "mir/accel/quantised_bvh.hpp"
 #include "mir/concepts/visibility.hpp"
 
 #include <type_traits>

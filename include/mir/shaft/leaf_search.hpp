@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/quantised_node.hpp"
+#include "mir/accel/quantised_bvh.hpp"
 #include "mir/core/lane_group.hpp"
 #include "mir/shaft/pair_search.hpp"
 #include "mir/shaft/shaft_slabs.hpp"
@@ -28,11 +28,6 @@ struct MetLeaves {
 };
 static_assert(WideNode::width == 8);
 
-/// Triangles of a slot that is no node.
-[[nodiscard]] MIR_HD inline std::uint32_t triangles_of_slot(const WideNode& node, std::uint32_t k) {
-    return node.is_leaf(k) ? static_cast<std::uint32_t>(node.count[k]) : 0u;
-}
-
 /// Leaves that the shafts of a group's lanes meet, a column per lane.
 template <std::uint32_t Capacity>
 struct LeafColumns {
@@ -40,6 +35,30 @@ struct LeafColumns {
 
     MetLeaves met[Capacity][LaneGroup::width];  ///< met[k][lane]: the k-th node of that lane
 };
+
+namespace detail {
+
+/// Children of a node that are still to be visited. Without defaults, which would clear the whole
+/// stack for every shaft.
+struct WaitingChildren {
+    std::uint32_t node;   ///< their parent
+    std::uint32_t slots;  ///< a bit for each that waits; above them one for each that is a node
+
+    [[nodiscard]] MIR_HD static WaitingChildren of(std::uint32_t node, std::uint32_t inner,
+                                                   std::uint32_t waiting) {
+        return {node, inner << WideNode::width | waiting};
+    }
+    [[nodiscard]] MIR_HD bool empty() const {
+        return (slots & ((1u << WideNode::width) - 1u)) == 0;
+    }
+    MIR_HD std::uint32_t pop(const NodeLinks* links) {
+        const std::uint32_t k = LaneGroup::lowest(slots);
+        slots &= slots - 1;
+        return NodeLinks::node(links[node].first_node, slots >> WideNode::width, k);
+    }
+};
+
+}  // namespace detail
 
 /// How far the search of one lane has come.
 enum class LeafSearchState : std::uint8_t {
@@ -57,7 +76,7 @@ struct LeafSearch {
     std::uint32_t visited;  ///< nodes
     std::uint32_t node;     ///< visited next
     std::uint32_t waiting;  ///< nodes on the stack
-    detail::WaitingSlots stack[WideBvhOptions::depth_limit];  ///< of the way down
+    detail::WaitingChildren stack[WideBvhOptions::depth_limit];  ///< of the way down
 
     /// Starts at the root, or does nothing where `on` is false. Before it no member has a value.
     MIR_HD void begin(bool on) {
@@ -83,15 +102,14 @@ MIR_HD void step(const QuantisedBvhView<S>& bvh, const ShaftSlabs& slabs, std::u
         over = search.listed == Capacity || search.node >= MetLeaves::most_nodes;
         if (!over) columns.met[search.listed++][lane] = MetLeaves::of(search.node, leaf);
     }
-    if (inner != 0) search.stack[search.waiting++] = {search.node, inner};
+    if (inner != 0)
+        search.stack[search.waiting++] = WaitingChildren::of(search.node, node.inner, inner);
     const bool ended = search.waiting == 0;
     over = over || (!ended && ++search.visited >= most_nodes);
     if (!ended) {
-        WaitingSlots& top = search.stack[search.waiting - 1];
-        const std::uint32_t k = LaneGroup::lowest(top.slots);
-        top.slots &= top.slots - 1;
-        search.node = bvh.exact.nodes[top.node].ref[k];
-        if (top.slots == 0) --search.waiting;
+        WaitingChildren& top = search.stack[search.waiting - 1];
+        search.node = top.pop(bvh.links);
+        if (top.empty()) --search.waiting;
     }
     if (ended) search.state = LeafSearchState::complete;
     if (over) search.state = LeafSearchState::given_up;

@@ -124,8 +124,7 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
     const AffineForm v = combine(apex.v, beyond, apex.depth, affine_form(rows.v, p.centre));
     const AffineForm d{strict::add(beyond.value, apex.depth), beyond.slope};
     const AffineForm w = subtract(subtract(d, u), v);
-    forms = {
-        row_from_centre(beyond), row_from_centre(u), row_from_centre(v), apex.depth, margin, 0, 0};
+    forms = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), apex.depth, margin};
     const SureSign edge_u = sure_sign(u, p.half, margin);
     const SureSign edge_v = sure_sign(v, p.half, margin);
     const SureSign edge_w = sure_sign(w, p.half, margin);

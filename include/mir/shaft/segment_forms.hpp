@@ -17,15 +17,13 @@ struct alignas(16) PlainRow {
 
 /// A triangle as the segments of one pyramid are tested against it: affine functions of the
 /// segments' ends, given by their difference from the centre of the pyramid's base. Source and
-/// names: occlusion.hpp. Aligned so that the device moves it in four words, and without defaults.
-struct alignas(16) SegmentForms {
-    PlainRow beyond;         ///< s': distance beyond the plane as seen from the apex, metres
-    PlainRow u;              ///< U, metres
-    PlainRow v;              ///< V, metres
-    float depth;             ///< S: distance of the apex from the plane, metres
-    float margin;            ///< of U, V and W, metres
-    std::uint32_t triangle;  ///< place in the hierarchy, for hits_segment(); the caller sets it
-    std::uint32_t unused;    ///< so that the fourth word is written whole
+/// names: occlusion.hpp. Without defaults.
+struct SegmentForms {
+    PlainRow beyond;  ///< s': distance beyond the plane as seen from the apex, metres
+    PlainRow u;       ///< U, metres
+    PlainRow v;       ///< V, metres
+    float depth;      ///< S: distance of the apex from the plane, metres
+    float margin;     ///< of U, V and W, metres
 };
 
 namespace detail {
@@ -43,6 +41,24 @@ MIR_HD inline float loose_at(const Row& row, Vec3 p) {
 
 }  // namespace detail
 
+namespace detail {
+
+/// The least of U, V and W; no number if one of them is none.
+MIR_HD inline float least_edge(float u, float v, float w) {
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
+    float least = 0.0f;
+    asm("min.NaN.f32 %0, %1, %2;" : "=f"(least) : "f"(u), "f"(v));
+    asm("min.NaN.f32 %0, %0, %1;" : "+f"(least) : "f"(w));
+    return least;
+#else
+    // smaller() returns what it is given second where it cannot compare: W, which is no number
+    // where U or V is none.
+    return smaller(smaller(u, v), w);
+#endif
+}
+
+}  // namespace detail
+
 /// The forms at one end of a segment.
 struct SegmentValues {
     float beyond = 0.0f;  ///< s', metres
@@ -55,21 +71,19 @@ struct SegmentValues {
     const float u = detail::loose_at(f.u, end);
     const float v = detail::loose_at(f.v, end);
     const float w = strict::sub(strict::sub(strict::add(beyond, f.depth), u), v);
-    // smaller() returns what it is given second where it cannot compare: W, which is no number
-    // where U or V is none.
-    return {beyond, smaller(smaller(u, v), w)};
+    return {beyond, detail::least_edge(u, v, w)};
 }
 
 /// hits_segment() is true, whatever is rounded. `plane` is the margin of s', metres. docs/shafts.md
 /// derives the margins.
 [[nodiscard]] MIR_HD inline bool surely_hit(SegmentValues at, const SegmentForms& f, float plane) {
-    return at.beyond > plane && at.edge > f.margin;
+    return (at.beyond > plane) & (at.edge > f.margin);
 }
 
 /// hits_segment() is false, whatever is rounded.
 [[nodiscard]] MIR_HD inline bool surely_missed(SegmentValues at, const SegmentForms& f,
                                                float plane) {
-    return at.beyond < -plane || at.edge < -f.margin;
+    return (at.beyond < -plane) | (at.edge < -f.margin);
 }
 
 }  // namespace mir
