@@ -60,6 +60,7 @@ class KernelBench {
         : backend_(backend),
           queue_(backend.queue()),
           count_(luxels.count),
+          layout_(luxels.layout),
           hits_(backend.template buffer<std::uint32_t>(luxels.hits.size())),
           surfaces_(backend.template buffer<std::uint32_t>(luxels.surfaces.size())),
           radiance_(backend.template buffer<std::uint32_t>(radiance_words())),
@@ -145,7 +146,7 @@ class KernelBench {
         if (!shafts_) shafts_.emplace(traced, count_, vpls().size());
         {
             auto queue = traced.queue();
-            shafts_->fill(queue, view().hits, vpls(), visibility_, bits_.data());
+            shafts_->fill(queue, view().hits, layout_, vpls(), visibility_, bits_.data());
             queue.for_each_group(count_ / 32,
                                  mir::WordShading{view(), vpls(), bits_.data(), shading_, sums()});
             queue.record().sync();
@@ -168,6 +169,7 @@ class KernelBench {
     B backend_;
     typename B::Queue queue_;
     std::uint32_t count_;
+    std::optional<mir::BlockedLayout> layout_;
     typename B::template Buffer<std::uint32_t> hits_;
     typename B::template Buffer<std::uint32_t> surfaces_;
     typename B::template Buffer<std::uint32_t> radiance_;

@@ -44,7 +44,10 @@ LuxelWords luxels_in(LuxelOrder order, const GBuffer& whole, Executor& executor)
     const auto view = whole.view(0);
     const Places places = places_of(order, whole, executor);
     const std::uint32_t count = view.size();
-    return {count, words_at<mir::Hit>(places, count, view.hits),
+    const auto layout = order == LuxelOrder::squares
+                            ? std::optional(mir::BlockedLayout::of(whole.tiles().front()))
+                            : std::nullopt;
+    return {count, layout, words_at<mir::Hit>(places, count, view.hits),
             words_at<GBuffer::Surface>(places, count, view.surfaces)};
 }
 

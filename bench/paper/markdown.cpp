@@ -182,8 +182,8 @@ std::string shaft_table(const Rows& rows) {
             row.scene + ", " + method_of(row) + ", " + row.backend + ", " + vpls_of(row);
         table.set(label, "contributions/s", rate_text(row.rate()));
         table.set(label, "all", time_text(row.seconds.median));
-        for (const Work w : {Work::records, Work::facing, Work::blocks, Work::clusters, Work::lists,
-                             Work::segments, Work::shading})
+        for (const Work w : {Work::order, Work::records, Work::facing, Work::blocks, Work::clusters,
+                             Work::lists, Work::segments, Work::shading})
             table.set(label, work_names[static_cast<std::size_t>(w)],
                       row.stages ? time_text(row.stages->of[static_cast<std::size_t>(w)]) : "");
     }

@@ -15,6 +15,7 @@ enum class Work {
     download,
     fused,
     visibility,
+    order,    ///< luxels put into clusters, and bits back
     records,  ///< of clusters, for shafts
     facing,
     blocks,    ///< shafts of 256 luxels
@@ -25,9 +26,9 @@ enum class Work {
     other
 };
 
-inline constexpr std::array work_names{"upload",  "download", "fused",   "visibility",
-                                       "records", "facing",   "blocks",  "clusters",
-                                       "lists",   "segments", "shading", "other"};
+inline constexpr std::array work_names{"upload",   "download", "fused",  "visibility", "order",
+                                       "records",  "facing",   "blocks", "clusters",   "lists",
+                                       "segments", "shading",  "other"};
 
 inline constexpr bool is_transfer(Work w) { return w == Work::upload || w == Work::download; }
 

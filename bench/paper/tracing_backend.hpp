@@ -100,6 +100,10 @@ template <class G, class P, class V>
 inline constexpr Work work_of<mir::VisibilityPass<G, P, V>> = Work::visibility;
 template <>
 inline constexpr Work work_of<mir::GroupRecords> = Work::records;
+template <>
+inline constexpr Work work_of<mir::PageOrder> = Work::order;
+template <>
+inline constexpr Work work_of<mir::PageWords> = Work::order;
 template <class P>
 inline constexpr Work work_of<mir::FacingPass<P>> = Work::facing;
 template <mir::Space S, class P>

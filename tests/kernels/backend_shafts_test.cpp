@@ -132,15 +132,36 @@ TEST_CASE("Shafts of a backend refuse what they have no room for") {
     const mir::ClusterVisibility<mir::WideBvhVisibility<mir::Space::host>> visibility{
         bvh.quantised(), stage.sigma(), {bvh.view()}};
     std::vector<std::uint32_t> out(512 / 32 * 9);
+    std::optional<mir::BlockedLayout> layout;
     const auto fill = [&](std::uint32_t luxels, std::uint32_t vpls, std::uint32_t asked) {
         mir::BackendShafts<HostBackend> shafts(backend, luxels, vpls);
-        shafts.fill(queue, mir::SoaView<const mir::Hit>{stage.hits().planes, asked},
+        shafts.fill(queue, mir::SoaView<const mir::Hit>{stage.hits().planes, asked}, layout,
                     mir::span_of(stage.lit().vpls), visibility, out.data());
     };
     CHECK_NOTHROW(fill(512, 9, 512));
     CHECK_THROWS_AS(fill(256, 9, 512), mir::Error);
     CHECK_THROWS_AS(fill(512, 8, 512), mir::Error);
     CHECK_THROWS_AS(fill(512, 9, 500), mir::Error);
+    layout = mir::BlockedLayout{2, 1};
+    CHECK_NOTHROW(fill(512, 9, 512));
+    layout = mir::BlockedLayout{3, 1};
+    CHECK_THROWS_AS(fill(512, 9, 512), mir::Error);
+}
+
+TEST_CASE("Luxels that are put into clusters by pages keep their bits") {
+    // Whole pages, and such as are cut off on the right, below, or both.
+    const auto [blocks_x, blocks_y] =
+        GENERATE(table<std::uint32_t, std::uint32_t>({{2, 2}, {4, 2}, {5, 2}, {1, 8}, {3, 3}}));
+    INFO(blocks_x << " x " << blocks_y << " blocks");
+    const mir::BlockedLayout layout{blocks_x, blocks_y};
+    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const ShaftStage stage = stage_of(world, layout.size(), 70);
+    REQUIRE(stage.hits().stride == layout.size());
+    mirtest::ShaftInput in = input(stage);
+    in.layout = layout;
+    mir::InlineExecutor executor;
+    const auto found = mirtest::shaft_words(HostBackend(executor), in, {});
+    CHECK(different_bits(found, stage.by_segments()) == 0);
 }
 
 TEST_CASE("Shafts of a backend that runs late, or on many threads, give the same words") {

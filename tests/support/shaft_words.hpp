@@ -17,6 +17,7 @@ struct ShaftInput {
     std::vector<mir::Vpl> vpls;
     const mir::WideBvh* bvh = nullptr;
     float sigma = 0.0f;
+    std::optional<mir::BlockedLayout> layout = std::nullopt;  ///< of the hits, if they have one
 };
 
 /// Sees everything: what its answers reach is wrong wherever something is hidden.
@@ -49,12 +50,12 @@ template <mir::Backend B>
     const mir::VplSpan<B::space> lights{vpls.data(), count};
     for (int run = 0; run < 2; ++run)
         if (trace)
-            shafts.fill(queue, luxels, lights,
+            shafts.fill(queue, luxels, in.layout, lights,
                         mir::ClusterVisibility<mir::WideBvhVisibility<B::space>>{
                             bvh.quantised(), in.sigma, {bvh.view()}},
                         there.data());
         else
-            shafts.fill(queue, luxels, lights,
+            shafts.fill(queue, luxels, in.layout, lights,
                         mir::ClusterVisibility<SeesAll<B::space>>{bvh.quantised(), in.sigma, {}},
                         there.data());
     queue.download(there, std::span(words));

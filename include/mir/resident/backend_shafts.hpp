@@ -7,8 +7,11 @@
 #include "mir/shaft/facing_pass.hpp"
 #include "mir/shaft/group_records.hpp"
 #include "mir/shaft/open_segments.hpp"
+#include "mir/shaft/page_order.hpp"
+#include "mir/shaft/page_words.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace mir {
 
@@ -20,12 +23,15 @@ struct BackendShaftOptions {
     std::uint32_t vpls = 256;  ///< at a time, at least 1: queues have room for all their pairs
     std::uint32_t groups = 1u << 14;  ///< that empty a queue together, at least 1
     std::uint32_t leaves = 1u << 26;  ///< room for the leaves that shafts meet, 4 bytes each
+    /// What a difference of 1 in a component of a normal counts as when luxels are put into
+    /// clusters, in reaches of the hierarchy.
+    float normal_weight = 0.02f;
 };
 
-/// Fills words of visibility on a backend by shafts, for luxels in memory order: the better
-/// neighbours lie together, the faster. Holds the memory between the stages: 33 bytes for each 32
-/// luxels and each VPL of a batch at most, of which 24 are for leaves and stop growing at
-/// BackendShaftOptions::leaves. One queue at a time.
+/// Fills words of visibility on a backend by shafts: the better neighbours lie together, the
+/// faster. Holds the memory between the stages: 33 bytes for each 32 luxels and each VPL of a batch
+/// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 28
+/// bytes for each luxel. One queue at a time.
 template <Backend B>
 class BackendShafts {
  public:
@@ -44,20 +50,28 @@ class BackendShafts {
           leaves_(backend.template buffer<MetLeaves>(
               std::min<std::size_t>(options_.leaves, 4 * open_clusters_.size()))),
           listed_(backend.template buffer<ListedPair>(leaves_.size() / 8)),
+          ordered_(backend.template buffer<std::uint32_t>(hit_words * luxels)),
+          places_(backend.template buffer<std::uint32_t>(luxels)),
           counters_(backend.template buffer<std::uint32_t>(7)) {}
 
     /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`: bit for bit
     /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are padded with
-    /// empty ones.
-    /// @throws Error(invalid_argument) when `hits` are no multiple of 256, or more than it was made
-    ///         for, or VPLs are.
+    /// empty ones. With the layout of their tile they are in blocked order, and put into clusters
+    /// while it works; without one they are taken as they are.
+    /// @throws Error(invalid_argument) when `hits` are no multiple of 256, or not as many as the
+    ///         layout says, or more than it was made for, or VPLs are.
     template <VplSet P, ShaftableVisibility V>
         requires AccessibleFrom<V, B::space>
-    void fill(typename B::Queue& queue, SoaView<const Hit> hits, P vpls, const V& visibility,
+    void fill(typename B::Queue& queue, SoaView<const Hit> hits,
+              const std::optional<BlockedLayout>& layout, P vpls, const V& visibility,
               std::uint32_t* words) {
         expects(hits.stride % block_luxels == 0 && hits.stride <= luxels_ && vpls.size() <= vpls_,
                 "shafts were asked for luxels or VPLs that they have no room for, or for a part of "
                 "a block of 256; make them for as many, and pad the luxels");
+        expects(!layout || layout->size() == hits.stride,
+                "shafts were asked for luxels that are not those of their tile's layout; give that "
+                "of the tile, or none");
+        if (layout) hits = in_clusters(queue, hits, {*layout}, visibility.bvh.exact.reach);
         const std::uint32_t block_count = hits.stride / block_luxels;
         const std::uint32_t cluster_count = hits.stride / cluster_luxels;
         queue.for_each_group(block_count,
@@ -68,9 +82,12 @@ class BackendShafts {
         for (std::uint32_t first = 0; first < vpls.size(); first += options_.vpls)
             fill_batch(queue, hits, vpls, visibility,
                        {first, std::min(options_.vpls, vpls.size() - first)}, words);
+        if (layout) restore_order(queue, {*layout}, vpls.size(), words);
     }
 
  private:
+    static constexpr std::size_t hit_words = SoaView<Hit>::words;
+
     /// The options with so few VPLs at a time that leaves are counted in 32 bits.
     [[nodiscard]] static BackendShaftOptions fitted(BackendShaftOptions options,
                                                     std::uint32_t luxels) {
@@ -115,6 +132,20 @@ class BackendShafts {
                              OpenSegments{hits, vpls, visibility.segments, words, open});
     }
 
+    SoaView<const Hit> in_clusters(typename B::Queue& queue, SoaView<const Hit> hits,
+                                   const LuxelPages& pages, float reach) {
+        const SoaView<Hit> ordered{ordered_.data(), hits.stride};
+        queue.for_each_group(pages.count(), PageOrder{hits, pages, options_.normal_weight * reach,
+                                                      ordered, places_.data()});
+        return {ordered_.data(), hits.stride};
+    }
+    void restore_order(typename B::Queue& queue, const LuxelPages& pages, std::uint32_t vpls,
+                       // Kernels write to it. NOLINTNEXTLINE(readability-non-const-parameter)
+                       std::uint32_t* words) {
+        queue.for_each_group(PageWords::groups(pages, vpls),
+                             PageWords{pages, places_.data(), vpls, words});
+    }
+
     template <class Buffer>
     [[nodiscard]] static std::uint32_t size_of(const Buffer& buffer) {
         return static_cast<std::uint32_t>(buffer.size());
@@ -129,6 +160,8 @@ class BackendShafts {
     typename B::template Buffer<OpenPair> open_clusters_;
     typename B::template Buffer<MetLeaves> leaves_;
     typename B::template Buffer<ListedPair> listed_;
+    typename B::template Buffer<std::uint32_t> ordered_;  ///< hits, in planes
+    typename B::template Buffer<std::uint32_t> places_;
     typename B::template Buffer<std::uint32_t> counters_;
 };
 

@@ -33,7 +33,8 @@ class BackendVisibility {
                 "not fit); make it from the grid of this G-buffer");
         if (vpls_ == 0) return;
         for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
-            finder_.find(queue, gbuffer.view(t), vpls, visibility, words_.data() + first_word(t));
+            finder_.find(queue, gbuffer.view(t), BlockedLayout::of(gbuffer.tiles()[t]), vpls,
+                         visibility, words_.data() + first_word(t));
         }
     }
 

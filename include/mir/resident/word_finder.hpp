@@ -19,15 +19,16 @@ class WordFinder {
     WordFinder(const B& backend, std::uint32_t luxels, std::uint32_t vpls)
         : backend_(backend), luxels_(luxels), vpls_(vpls) {}
 
-    /// Starts to fill the words of `luxels`, which lie in planes if shafts are to be used.
+    /// Starts to fill the words of `luxels`, which lie in planes if shafts are to be used, in the
+    /// order of `layout`, that of their tile.
     /// @throws What the backend throws when it has no memory left.
     template <GBuffer G, VplSet P, Visibility V>
         requires AccessibleFrom<V, B::space>
-    void find(typename B::Queue& queue, const G& luxels, P vpls, const V& visibility,
-              std::uint32_t* words) {
+    void find(typename B::Queue& queue, const G& luxels, const BlockedLayout& layout, P vpls,
+              const V& visibility, std::uint32_t* words) {
         if constexpr (ShaftableVisibility<V> && requires { luxels.hits.planes; }) {
             if (!shafts_) shafts_.emplace(backend_, luxels_, vpls_);
-            shafts_->fill(queue, luxels.hits, vpls, visibility, words);
+            shafts_->fill(queue, luxels.hits, layout, vpls, visibility, words);
         } else {
             queue.fill_bits(luxels.size(), vpls.size(), VisibilityPass{luxels, vpls, visibility},
                             words);

@@ -49,8 +49,9 @@ struct ReconstructVisibilityParallel {
 
             compute_.wait(hits_there);
             if constexpr (!is_known)
-                finder_.find(compute_, ring_.luxels(slot), vpls_.view(), in_.visibility,
-                             slot.words.data());
+                finder_.find(compute_, ring_.luxels(slot),
+                             BlockedLayout::of(in_.gbuffer.tiles()[t]), vpls_.view(),
+                             in_.visibility, slot.words.data());
             compute_.wait(surfaces_there);
             if constexpr (is_known)
                 compute_.for_each(slot.luxels,

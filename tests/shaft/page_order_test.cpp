@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "mir/shaft/page_order.hpp"
+
+#include "mir/shaft/cluster_order.hpp"
+#include "mir/shaft/page_words.hpp"
+#include "shaft_stage.hpp"
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+namespace {
+
+using mir::BlockedLayout;
+using mir::Hit;
+using mir::LaneGroup;
+using mir::LuxelPages;
+using mir::Vec3;
+
+/// Planes of some luxels.
+class Luxels {
+ public:
+    explicit Luxels(std::uint32_t count)
+        : words_(std::size_t{mir::SoaView<Hit>::words} * count), count_(count) {}
+
+    [[nodiscard]] mir::SoaView<Hit> view() { return {words_.data(), count_}; }
+    [[nodiscard]] mir::SoaView<const Hit> view() const { return {words_.data(), count_}; }
+
+ private:
+    std::vector<std::uint32_t> words_;
+    std::uint32_t count_;
+};
+
+/// Luxels of a plane with a step in it, seen obliquely; every seventh is empty.
+Luxels stepped_plane(const BlockedLayout& layout) {
+    Luxels luxels(layout.size());
+    for (std::uint32_t i = 0; i < layout.size(); ++i) {
+        const mir::LuxelPlace at = layout.place(i);
+        const bool is_far = at.x % 40 > 20;
+        const Hit hit{{0.01f * static_cast<float>(at.x), is_far ? 3.0f : 0.0f,
+                       0.03f * static_cast<float>(at.y)},
+                      i % 7 == 3 ? Vec3(0.0f) : Vec3(0.0f, 0.0f, 1.0f)};
+        luxels.view().store(i, hit);
+    }
+    return luxels;
+}
+
+struct Ordered {
+    Luxels luxels;
+    std::vector<std::uint32_t> places;
+};
+
+Ordered ordered(const Luxels& luxels, const BlockedLayout& layout) {
+    Ordered result{Luxels(layout.size()), std::vector<std::uint32_t>(layout.size(), ~0u)};
+    const mir::PageOrder order{
+        luxels.view(), {layout}, 0.1f, result.luxels.view(), result.places.data()};
+    const auto space = std::make_unique<mir::PageOrder::Workspace>();
+    for (std::uint32_t i = 0; i < order.pages.count(); ++i) order(LaneGroup{}, i, *space);
+    return result;
+}
+
+/// Sum of the diagonals of the boxes of all runs of 32 luxels.
+float size_of_clusters(const mir::SoaView<const Hit>& luxels) {
+    float sum = 0.0f;
+    for (std::uint32_t first = 0; first < luxels.stride; first += 32) {
+        mir::Bounds box;
+        for (std::uint32_t i = first; i < first + 32; ++i)
+            if (!is_empty(luxels.load(i))) box.add(luxels.load(i).position);
+        if (!box.empty()) sum += glm::length(box.high - box.low);
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("Runs are sorted as a library sorts them") {
+    mir::Random random = mirtest::test_random(1);
+    for (std::uint32_t count = 64; count <= 1024; count *= 2)
+        for (std::uint32_t run = 2; run <= count; run *= 2) {
+            std::vector<std::uint64_t> items(count);
+            for (std::uint64_t& item : items)
+                item = static_cast<std::uint64_t>(1000.0f * random.next());
+            std::vector<std::uint64_t> expected = items;
+            for (auto at = expected.begin(); at != expected.end(); at += run)
+                std::sort(at, at + run);
+            mir::sort_runs(LaneGroup{}, items.data(), count, run);
+            CHECK(items == expected);
+        }
+}
+
+TEST_CASE("Pages hold every luxel of a tile once") {
+    for (const BlockedLayout layout :
+         {BlockedLayout{1, 1}, BlockedLayout{2, 2}, BlockedLayout{5, 4}, BlockedLayout{4, 7}}) {
+        std::set<mir::LuxelIndex> seen;
+        const LuxelPages pages{layout};
+        for (std::uint32_t i = 0; i < pages.count(); ++i)
+            for (std::uint32_t k = 0; k < pages[i].luxels(); ++k) seen.insert(pages[i].slot(k));
+        CHECK(seen.size() == layout.size());
+        CHECK(*seen.rbegin() == layout.size() - 1);
+    }
+}
+
+TEST_CASE("A page's luxels change places within the page, and clusters become small") {
+    const BlockedLayout layout{5, 3};
+    const Luxels luxels = stepped_plane(layout);
+    const Ordered result = ordered(luxels, layout);
+    const LuxelPages pages{layout};
+    for (std::uint32_t i = 0; i < pages.count(); ++i) {
+        std::set<std::uint32_t> places;
+        bool empty_came = false;
+        for (std::uint32_t k = 0; k < pages[i].luxels(); ++k) {
+            const mir::LuxelIndex from = pages[i].slot(k);
+            const std::uint32_t place = result.places[from];
+            REQUIRE(place < pages[i].luxels());
+            places.insert(place);
+            const Hit there = result.luxels.view().load(pages[i].slot(place));
+            CHECK(there.position == luxels.view().load(from).position);
+            CHECK(there.normal == luxels.view().load(from).normal);
+            const bool is_empty_now = is_empty(result.luxels.view().load(from));
+            CHECK((is_empty_now || !empty_came));
+            empty_came = empty_came || is_empty_now;
+        }
+        CHECK(places.size() == pages[i].luxels());
+    }
+    mir::InlineExecutor executor;
+    Luxels best(layout.size());
+    const auto order = mir::cluster_order(std::as_const(luxels).view(), {}, executor);
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        best.view().store(i, luxels.view().load(order[i]));
+    const float squares = size_of_clusters(luxels.view());
+    const float by_pages = size_of_clusters(std::as_const(result.luxels).view());
+    CHECK(by_pages < 0.6f * squares);
+    CHECK(by_pages < 1.3f * size_of_clusters(std::as_const(best).view()));
+}
+
+TEST_CASE("Words of ordered luxels come back into the order of the tile") {
+    const BlockedLayout layout{3, 5};
+    const Luxels luxels = stepped_plane(layout);
+    const Ordered result = ordered(luxels, layout);
+    const LuxelPages pages{layout};
+    constexpr std::uint32_t vpls = 45;
+    mir::Random random = mirtest::test_random(1);
+    std::vector<std::uint32_t> truth(layout.size() / 32 * vpls);
+    for (std::uint32_t& word : truth)
+        word = static_cast<std::uint32_t>(65536.0f * random.next()) * 65537u;
+    const mir::VisibilityWords<mir::Space::host> expected{truth.data(), vpls};
+    std::vector<std::uint32_t> words(truth.size(), 0u);
+    for (std::uint32_t i = 0; i < pages.count(); ++i)
+        for (std::uint32_t k = 0; k < pages[i].luxels(); ++k) {
+            const mir::LuxelIndex from = pages[i].slot(k);
+            const mir::LuxelIndex to = pages[i].slot(result.places[from]);
+            for (std::uint32_t j = 0; j < vpls; ++j)
+                if (expected.sees(from, j)) words[std::size_t{to / 32} * vpls + j] |= 1u << to % 32;
+        }
+    const mir::PageWords restore{pages, result.places.data(), vpls, words.data()};
+    const auto space = std::make_unique<mir::PageWords::Workspace>();
+    for (std::uint32_t i = 0; i < mir::PageWords::groups(pages, vpls); ++i)
+        restore(LaneGroup{}, i, *space);
+    CHECK(words == truth);
+}
