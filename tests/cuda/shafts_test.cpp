@@ -15,10 +15,11 @@ using mirtest::soup;
 using mirtest::stage_of;
 
 std::vector<std::uint32_t> words(const ShaftStage& stage,
-                                 const mir::BackendShaftOptions& options = {}) {
+                                 const mir::BackendShaftOptions& options = {},
+                                 std::optional<mir::BlockedLayout> layout = std::nullopt) {
     const mir::cuda::Backend backend(mir::cuda::select_device(0));
     return mirtest::shaft_words_on_gpu(
-        backend, {stage.hits(), stage.lit().vpls, &stage.bvh(), stage.sigma()}, options);
+        backend, {stage.hits(), stage.lit().vpls, &stage.bvh(), stage.sigma(), layout}, options);
 }
 
 }  // namespace
@@ -60,6 +61,17 @@ TEST_CASE("Any number of luxels and of VPLs is right for the GPU's shafts") {
             const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
             CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
         }
+}
+
+TEST_CASE("Luxels that the GPU puts into clusters by pages keep their bits") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    for (const mir::BlockedLayout layout :
+         {mir::BlockedLayout{8, 6}, {5, 2}, {1, 9}, {33, 1}, {3, 3}, {1, 1}}) {
+        CAPTURE(layout.blocks_x, layout.blocks_y);
+        const ShaftStage stage = stage_of(world, layout.size(), 70);
+        REQUIRE(stage.hits().stride == layout.size());
+        CHECK(different_bits(words(stage, {}, layout), stage.by_segments()) == 0);
+    }
 }
 
 TEST_CASE("Twenty runs of the GPU's shafts give the same words") {
