@@ -18,8 +18,9 @@ namespace mir {
 /// but page by page, which is as good (docs/performance.md) and needs no more memory than a group
 /// has. It decides speed, never bits.
 struct PageOrder {
-    /// What a group works in: a key above the number of a luxel in the page.
+    /// What a group works in.
     struct Workspace {
+        /// A key above the number of a luxel in the page.
         std::uint64_t items[LuxelPage::most_luxels];
     };
 
