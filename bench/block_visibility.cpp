@@ -5,6 +5,7 @@
 // and by single segments, over those of blocks by shafts. Blocks are squares of the image, as
 // renders have them, or clusters of luxels that lie together in the world.
 #include "mir/cpu/embree_visibility.hpp"
+#include "mir/fill_visibility.hpp"
 #include "mir/host/shaft_scene.hpp"
 #include "mir/runtime/stopwatch.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
@@ -65,6 +66,10 @@ class Bench {
                     seen |= 1u << k;
             return seen;
         });
+    }
+    void by_pages() {
+        if (!matrix_) matrix_.emplace(gbuffer_.tiles(), vpls_.size());
+        mir::fill_visibility(*matrix_, gbuffer_, vpls_.span(), scene_.visibility(), executor_, set_);
     }
     void by_blocks() {
         const auto visibility = scene_.visibility();
@@ -142,6 +147,7 @@ class Bench {
     mir::VplList vpls_;
     std::vector<mir::sched::detail::Block> blocks_;
     std::vector<BlockMask> words_;
+    std::optional<mir::VisibilityMatrix> matrix_;
 };
 
 void visibility(benchmark::State& state, const std::string& name, Blocks order,
@@ -152,6 +158,7 @@ void visibility(benchmark::State& state, const std::string& name, Blocks order,
     double packets = 0.0;
     double embree = 0.0;
     double blocks = 0.0;
+    double pages = 0.0;
     std::vector<BlockMask> truth;
     std::vector<BlockMask> others;
     const auto timed = [](double& total, const auto& run) {
@@ -166,10 +173,12 @@ void visibility(benchmark::State& state, const std::string& name, Blocks order,
         others = bench.words();
         const double before = blocks;
         timed(blocks, [&] { bench.by_blocks(); });
+        timed(pages, [&] { bench.by_pages(); });
         state.SetIterationTime(blocks - before);
     }
     if (Bench::different(bench.words(), truth) != 0.0) state.SkipWithError("blocks changed a bit");
     state.counters["embree_over_blocks"] = embree / blocks;
+    state.counters["embree_over_pages"] = embree / pages;
     state.counters["packets_over_blocks"] = packets / blocks;
     state.counters["segments_over_blocks"] =
         segments * static_cast<double>(state.iterations()) / blocks;

@@ -8,6 +8,7 @@
 #include "mir/data/visibility_matrix.hpp"
 #include "mir/sched/detail/block_list.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
+#include "mir/sched/detail/page_sight.hpp"
 #include "mir/shading/contribution.hpp"
 
 namespace mir {
@@ -35,7 +36,7 @@ void fill_block_by_segments(VisibilityMatrix& matrix, const G& gbuffer, const P&
     }
 }
 
-/// The same by packets or whole, after VPLs that the block cannot face were thrown away.
+/// The same by packets, after VPLs that the block cannot face were thrown away.
 template <TiledGBuffer G, VplSet P, PacketVisibility V>
 void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const V& visibility,
                 InstructionSet instructions, sched::detail::Block b) {
@@ -48,6 +49,29 @@ void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const
         const BlockMask mask = sight(vpl);
         for (std::uint32_t g = 0; g < groups_per_block; ++g)
             matrix.store(b.tile, b.block * groups_per_block + g, j, mask.packet[g]);
+    }
+}
+
+/// The same of the blocks of a page, by clusters of its luxels.
+template <TiledGBuffer G, VplSet P, BlockVisibility V>
+void fill_page(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const V& visibility,
+               InstructionSet instructions, const sched::detail::PlacedPage& place) {
+    using namespace sched::detail;
+    const LuxelPage& page = place.page;
+    PageSight<V> sight(gbuffer.view(place.tile).hits, page, visibility, instructions,
+                       [](std::uint32_t) { return true; });
+    constexpr std::uint32_t most = PageSight<V>::most_vpls;
+    for (VplIndex first = 0; first < vpls.size(); first += most) {
+        const std::uint32_t count = std::min(most, vpls.size() - first);
+        run_with(instructions,
+                 [&] { sight.look(vpls, first, count, [](const Vpl&) { return true; }); });
+        for (std::uint32_t b = 0; b < page.blocks(); ++b)
+            for (std::uint32_t k = 0; k < count; ++k) {
+                const BlockMask mask = sight.seen(b, k);
+                for (std::uint32_t g = 0; g < groups_per_block; ++g)
+                    matrix.store(place.tile, page.block(b) * groups_per_block + g, first + k,
+                                 mask.packet[g]);
+            }
     }
 }
 
@@ -64,19 +88,28 @@ void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visib
     expects(matrix.tiles() == gbuffer.tiles().size() && matrix.vpls() == vpls.size(),
             "a visibility matrix was given luxels or VPLs that it was not made for (its bits would "
             "not fit); make it from the tiles of this G-buffer");
-    constexpr bool by_packets = PacketVisibility<V> && requires { gbuffer.view(0).hits.planes; };
-    std::vector<sched::detail::Block> blocks;
-    for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t)
-        sched::detail::append_blocks(blocks, t, gbuffer.tiles()[t]);
-    executor.for_each(blocks.size(), [&](std::size_t i) {
-        const sched::detail::Block block = blocks[i];
-        if constexpr (by_packets)
-            run_with(instructions, [&] {
-                detail::fill_block(matrix, gbuffer, vpls, visibility, instructions, block);
-            });
-        else
-            detail::fill_block_by_segments(matrix, gbuffer, vpls, visibility, block);
-    });
+    constexpr bool has_planes = requires { gbuffer.view(0).hits.planes; };
+    const auto for_each = [&](auto places, const auto& append, const auto& fill) {
+        for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t)
+            append(places, t, gbuffer.tiles()[t]);
+        executor.for_each(places.size(), [&](std::size_t i) { fill(places[i]); });
+    };
+    if constexpr (BlockVisibility<V> && has_planes)
+        for_each(std::vector<sched::detail::PlacedPage>{}, sched::detail::append_pages,
+                 [&](const sched::detail::PlacedPage& page) {
+                     detail::fill_page(matrix, gbuffer, vpls, visibility, instructions, page);
+                 });
+    else
+        for_each(std::vector<sched::detail::Block>{}, sched::detail::append_blocks,
+                 [&](sched::detail::Block block) {
+                     if constexpr (PacketVisibility<V> && has_planes)
+                         run_with(instructions, [&] {
+                             detail::fill_block(matrix, gbuffer, vpls, visibility, instructions,
+                                                block);
+                         });
+                     else
+                         detail::fill_block_by_segments(matrix, gbuffer, vpls, visibility, block);
+                 });
 }
 
 }  // namespace mir

@@ -10,20 +10,28 @@ TEST_CASE("Truths of lanes become bits with every instruction set") {
     for (mir::InstructionSet set : mirtest::instruction_sets())
         for (std::uint32_t bits = 0; bits < 0x10000; bits += 7) {
             std::uint32_t found = 0;
-            mir::run_with(set, [&] {
-                found = lanes_where([&](std::uint32_t k) { return (bits >> k & 1u) != 0; });
+            std::uint32_t by_the_set = 0;
+            mir::run_with(set, [&](auto constant) {
+                const auto test = [&](std::uint32_t k) { return (bits >> k & 1u) != 0; };
+                found = lanes_where(test);
+                by_the_set = lanes_where<constant.value>(test);
             });
             if (found != bits) CHECK(found == bits);
+            if (by_the_set != bits) CHECK(by_the_set == bits);
         }
 }
 
-TEST_CASE("Truths of a node's children become bits") {
-    for (std::uint32_t bits = 0; bits < 256; ++bits) {
-        SlotTruths truths;
-        for (std::uint32_t k = 0; k < SlotTruths::count; ++k)
-            truths.at[k] = (bits >> k & 1u) != 0 ? -1 : 0;
-        CHECK(bits_of(truths) == bits);
-    }
+TEST_CASE("Truths of a node's children become bits with every instruction set") {
+    for (mir::InstructionSet set : mirtest::instruction_sets())
+        for (std::uint32_t bits = 0; bits < 256; ++bits) {
+            SlotTruths truths;
+            for (std::uint32_t k = 0; k < SlotTruths::count; ++k)
+                truths.at[k] = (bits >> k & 1u) != 0 ? -1 : 0;
+            mir::run_with(set, [&](auto constant) {
+                CHECK(bits_of(truths) == bits);
+                CHECK(bits_of<constant.value>(truths) == bits);
+            });
+        }
 }
 
 TEST_CASE("Bits are taken from the lowest on") {

@@ -179,8 +179,8 @@ void search_block(const ShaftStage& stage, const Triangles& triangles,
         return;
     }
     outcomes.clear += search.finds_nothing() ? 1 : 0;
-    outcomes.listed += search.batches != 0 && search.waiting_nodes == 0 ? 1 : 0;
-    outcomes.waiting += search.waiting_nodes != 0 ? 1 : 0;
+    outcomes.listed += search.batches != 0 && search.waiting.size() == 0 ? 1 : 0;
+    outcomes.waiting += search.waiting.size() != 0 ? 1 : 0;
     for (std::size_t i = first; i < first + mir::BlockMask::luxels; ++i) {
         const mir::Hit& hit = stage.lit().luxels[i];
         if (is_empty(hit) || !is_hidden(view, vpl, hit.position)) continue;

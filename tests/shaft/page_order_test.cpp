@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/page_order.hpp"
 
+#include "mir/data/visibility_words.hpp"
 #include "mir/shaft/cluster_order.hpp"
 #include "mir/shaft/page_words.hpp"
-#include "shaft_stage.hpp"
+#include "shaft/stepped_plane.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
@@ -16,60 +17,22 @@ using mir::BlockedLayout;
 using mir::Hit;
 using mir::LaneGroup;
 using mir::LuxelPages;
-using mir::Vec3;
-
-/// Planes of some luxels.
-class Luxels {
- public:
-    explicit Luxels(std::uint32_t count)
-        : words_(std::size_t{mir::SoaView<Hit>::words} * count), count_(count) {}
-
-    [[nodiscard]] mir::SoaView<Hit> view() { return {words_.data(), count_}; }
-    [[nodiscard]] mir::SoaView<const Hit> view() const { return {words_.data(), count_}; }
-
- private:
-    std::vector<std::uint32_t> words_;
-    std::uint32_t count_;
-};
-
-/// Luxels of a plane with a step in it, seen obliquely; every seventh is empty.
-Luxels stepped_plane(const BlockedLayout& layout) {
-    Luxels luxels(layout.size());
-    for (std::uint32_t i = 0; i < layout.size(); ++i) {
-        const mir::LuxelPlace at = layout.place(i);
-        const bool is_far = at.x % 40 > 20;
-        const Hit hit{{0.01f * static_cast<float>(at.x), is_far ? 3.0f : 0.0f,
-                       0.03f * static_cast<float>(at.y)},
-                      i % 7 == 3 ? Vec3(0.0f) : Vec3(0.0f, 0.0f, 1.0f)};
-        luxels.view().store(i, hit);
-    }
-    return luxels;
-}
+using mirtest::LuxelPlanes;
+using mirtest::size_of_runs;
+using mirtest::stepped_plane;
 
 struct Ordered {
-    Luxels luxels;
+    LuxelPlanes luxels;
     std::vector<std::uint32_t> places;
 };
 
-Ordered ordered(const Luxels& luxels, const BlockedLayout& layout) {
-    Ordered result{Luxels(layout.size()), std::vector<std::uint32_t>(layout.size(), ~0u)};
+Ordered ordered(const LuxelPlanes& luxels, const BlockedLayout& layout) {
+    Ordered result{LuxelPlanes(layout.size()), std::vector<std::uint32_t>(layout.size(), ~0u)};
     const mir::PageOrder order{
         luxels.view(), {layout}, 0.1f, result.luxels.view(), result.places.data()};
     const auto space = std::make_unique<mir::PageOrder::Workspace>();
     for (std::uint32_t i = 0; i < order.pages.count(); ++i) order(LaneGroup{}, i, *space);
     return result;
-}
-
-/// Sum of the diagonals of the boxes of all runs of 32 luxels.
-float size_of_clusters(const mir::SoaView<const Hit>& luxels) {
-    float sum = 0.0f;
-    for (std::uint32_t first = 0; first < luxels.stride; first += 32) {
-        mir::Bounds box;
-        for (std::uint32_t i = first; i < first + 32; ++i)
-            if (!is_empty(luxels.load(i))) box.add(luxels.load(i).position);
-        if (!box.empty()) sum += glm::length(box.high - box.low);
-    }
-    return sum;
 }
 
 }  // namespace
@@ -103,7 +66,7 @@ TEST_CASE("Pages hold every luxel of a tile once") {
 
 TEST_CASE("A page's luxels change places within the page, and clusters become small") {
     const BlockedLayout layout{5, 3};
-    const Luxels luxels = stepped_plane(layout);
+    const LuxelPlanes luxels = stepped_plane(layout, 20);
     const Ordered result = ordered(luxels, layout);
     const LuxelPages pages{layout};
     for (std::uint32_t i = 0; i < pages.count(); ++i) {
@@ -124,19 +87,19 @@ TEST_CASE("A page's luxels change places within the page, and clusters become sm
         CHECK(places.size() == pages[i].luxels());
     }
     mir::InlineExecutor executor;
-    Luxels best(layout.size());
+    LuxelPlanes best(layout.size());
     const auto order = mir::cluster_order(std::as_const(luxels).view(), {}, executor);
     for (std::uint32_t i = 0; i < order.size(); ++i)
         best.view().store(i, luxels.view().load(order[i]));
-    const float squares = size_of_clusters(luxels.view());
-    const float by_pages = size_of_clusters(std::as_const(result.luxels).view());
+    const float squares = size_of_runs(luxels.view(), 32);
+    const float by_pages = size_of_runs(std::as_const(result.luxels).view(), 32);
     CHECK(by_pages < 0.6f * squares);
-    CHECK(by_pages < 1.3f * size_of_clusters(std::as_const(best).view()));
+    CHECK(by_pages < 1.3f * size_of_runs(std::as_const(best).view(), 32));
 }
 
 TEST_CASE("Words of ordered luxels come back into the order of the tile") {
     const BlockedLayout layout{3, 5};
-    const Luxels luxels = stepped_plane(layout);
+    const LuxelPlanes luxels = stepped_plane(layout, 20);
     const Ordered result = ordered(luxels, layout);
     const LuxelPages pages{layout};
     constexpr std::uint32_t vpls = 45;

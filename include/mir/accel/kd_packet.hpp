@@ -25,6 +25,7 @@ struct WaitingLanes {
 };
 
 /// The packet, its lanes' directions, and which of them have met a triangle.
+template <InstructionSet Set>
 class PacketWalk {
  public:
     PacketWalk(const KdTreeView<Space::host>& tree, Vec3 origin, const PointPacket& points,
@@ -57,7 +58,8 @@ class PacketWalk {
 
 /// Splits the lanes' intervals at the node's plane. Returns the child to go on with; another
 /// one that lanes need is put on the stack.
-inline std::uint32_t PacketWalk::enter_children(KdNode node, LaneIntervals& part) {
+template <InstructionSet Set>
+std::uint32_t PacketWalk<Set>::enter_children(KdNode node, LaneIntervals& part) {
     const float* inverse = inverse_[node.axis()].at;
     const float gap = node.split() - origin_[static_cast<int>(node.axis())];
     const bool starts_below = gap >= 0.0f;
@@ -71,9 +73,9 @@ inline std::uint32_t PacketWalk::enter_children(KdNode node, LaneIntervals& part
         part.end.at[k] = smaller(part.end.at[k], t);
     }
     const std::uint32_t in_near =
-        open_ & lanes_where([&](std::uint32_t k) { return part.begin.at[k] <= part.end.at[k]; });
+        open_ & lanes_where<Set>([&](std::uint32_t k) { return part.begin.at[k] <= part.end.at[k]; });
     const std::uint32_t in_far =
-        open_ & lanes_where([&](std::uint32_t k) { return far.begin.at[k] <= far.end.at[k]; });
+        open_ & lanes_where<Set>([&](std::uint32_t k) { return far.begin.at[k] <= far.end.at[k]; });
     const std::uint32_t near_child = node.below() + (starts_below ? 0u : 1u);
     const std::uint32_t far_child = node.below() + (starts_below ? 1u : 0u);
     if (in_near == 0) {
@@ -84,16 +86,18 @@ inline std::uint32_t PacketWalk::enter_children(KdNode node, LaneIntervals& part
     return near_child;
 }
 
-inline void PacketWalk::test_leaf(KdNode leaf) {
+template <InstructionSet Set>
+void PacketWalk<Set>::test_leaf(KdNode leaf) {
     const std::uint32_t* reference = tree_.references + leaf.first();
     for (const std::uint32_t* end = reference + leaf.count(); reference != end; ++reference) {
         const TriangleRows& rows = tree_.triangles[*reference];
-        const std::uint32_t hit = hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
+        const std::uint32_t hit = hit_lanes<Set>(rows, origin_rows(rows, origin_), points_, open_);
         if (hit != 0) open_ &= ~solid_lanes(rows, *reference, origin_, points_, hit, mask_);
     }
 }
 
-inline std::uint32_t PacketWalk::run() {
+template <InstructionSet Set>
+std::uint32_t PacketWalk<Set>::run() {
     LaneIntervals part;
     for (std::uint32_t k = 0; k < lane_count; ++k) {
         part.begin.at[k] = 0.0f;
@@ -107,7 +111,7 @@ inline std::uint32_t PacketWalk::run() {
             if (waiting_ == 0 || open_ == 0) return open_;
             --waiting_;
             part = stack_[waiting_].part;
-        } while ((open_ & lanes_where([&](std::uint32_t k) {
+        } while ((open_ & lanes_where<Set>([&](std::uint32_t k) {
                       return part.begin.at[k] <= part.end.at[k];
                   })) == 0);
         node = tree_.nodes[stack_[waiting_].node];
@@ -118,7 +122,8 @@ inline std::uint32_t PacketWalk::run() {
 
 /// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
 /// !is_hidden(tree, origin, point i, mask). Thread-safe.
-[[nodiscard]] inline std::uint32_t visible_in_packet(const KdTreeView<Space::host>& tree,
+template <InstructionSet Set = InstructionSet::baseline>
+[[nodiscard]] std::uint32_t visible_in_packet(const KdTreeView<Space::host>& tree,
                                                      Vec3 origin, const PointPacket& points,
                                                      std::uint32_t active,
                                                      const AlphaMaskView<Space::host>& mask = {}) {
@@ -134,7 +139,7 @@ inline std::uint32_t PacketWalk::run() {
             seen |= 1u << k;
     }
     if (together == 0) return seen;
-    return seen | detail::PacketWalk(tree, origin, points, together, mask).run();
+    return seen | detail::PacketWalk<Set>(tree, origin, points, together, mask).run();
 }
 
 }  // namespace mir

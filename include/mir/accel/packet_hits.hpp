@@ -24,10 +24,11 @@ inline OriginRows origin_rows(const TriangleRows& rows, Vec3 origin) {
 /// Lanes of `open` whose segments from the origin the triangle hits: hits_segment(), bit for bit.
 /// Where the ends lie on opposite sides the sign of the crossing's d is that of -s at the origin,
 /// which is why the edges are asked for that side alone.
-inline std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from,
+template <InstructionSet Set = InstructionSet::baseline>
+std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from,
                                const PointPacket& points, std::uint32_t open) {
     const float side = from.s < 0.0f ? 1.0f : -1.0f;
-    return open & lanes_where([&](std::uint32_t k) {
+    return open & lanes_where<Set>([&](std::uint32_t k) {
                const Vec3 to{points.x[k], points.y[k], points.z[k]};
                const float s_to = row_at(rows.s, to);
                const PlaneCrossing c =
@@ -37,6 +38,22 @@ inline std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from,
                        static_cast<int>(side * c.u >= 0.0f) & static_cast<int>(side * c.v >= 0.0f) &
                        static_cast<int>(side * w >= 0.0f)) != 0;
            });
+}
+
+/// Lanes of packet `p`, out of a bit for each lane of some packets.
+inline std::uint32_t lanes_of_packet(std::uint32_t lanes, std::uint32_t p) {
+    return lanes >> p * lane_count & ((1u << lane_count) - 1u);
+}
+
+/// hit_lanes() of `Packets` packets, a bit for each lane, packet after packet.
+template <InstructionSet Set, std::uint32_t Packets>
+std::uint32_t hit_lanes_of(const TriangleRows& rows, Vec3 origin, const PointPacket* points,
+                           std::uint32_t open) {
+    const OriginRows from = origin_rows(rows, origin);
+    std::uint32_t hit = 0;
+    for (std::uint32_t p = 0; p < Packets; ++p)
+        hit |= hit_lanes<Set>(rows, from, points[p], lanes_of_packet(open, p)) << p * lane_count;
+    return hit;
 }
 
 /// Lanes of `hit`, those that hit_lanes() found for triangle number `triangle`, where it is there.

@@ -17,7 +17,9 @@ template <class Tree, class... Mask>
                                                       std::uint32_t active, const Mask&... mask) {
     std::uint32_t seen = 0;
     run_with(best_instruction_set(),
-             [&] { seen = visible_in_packet(tree, origin, points, active, mask...); });
+             [&](auto set) {
+        seen = visible_in_packet<set.value>(tree, origin, points, active, mask...);
+    });
     return seen;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/packet_hits.hpp"
+#include "mir/accel/waiting_nodes.hpp"
 #include "mir/accel/wide_traverse.hpp"
 
 namespace mir {
@@ -13,20 +14,28 @@ namespace mir {
 namespace detail {
 
 /// Segments of a packet as slabs are tested against them: SlabSegment, lane by lane.
+template <InstructionSet Set>
 class PacketSlabs {
  public:
     /// Lanes out of `active` decide on which side slabs are entered.
-    PacketSlabs(Vec3 origin, const PointPacket& points, std::uint32_t active, float reach) {
+    void set(Vec3 origin, const PointPacket& points, std::uint32_t active, float reach) {
+        mixed_ = false;
         const float shortest = shortest_step(reach);
         const float* const to[3] = {points.x, points.y, points.z};
         for (int axis = 0; axis < 3; ++axis) {
-            for (std::uint32_t k = 0; k < lane_count; ++k) {
-                const AxisStep step = axis_step(origin[axis], to[axis][k], shortest);
-                inverse_[axis].at[k] = step.inverse;
-                offset_[axis].at[k] = step.offset;
-            }
+            // Copies: a look-up by axis, or members that might be the points, would keep the loop
+            // from being vectorised.
+            const float from = origin[axis];
+            LaneFloats ends;
+            std::copy(to[axis], to[axis] + lane_count, ends.at);
+            LaneFloats inverse;
+            for (std::uint32_t k = 0; k < lane_count; ++k)
+                inverse.at[k] = inverse_step(strict::sub(ends.at[k], from), shortest);
+            for (std::uint32_t k = 0; k < lane_count; ++k)
+                offset_[axis].at[k] = strict::mul(from, inverse.at[k]);
+            inverse_[axis] = inverse;
             const std::uint32_t back =
-                active & lanes_where([&](std::uint32_t k) { return inverse_[axis].at[k] < 0.0f; });
+                active & lanes_where<Set>([&](std::uint32_t k) { return inverse_[axis].at[k] < 0.0f; });
             near_[axis] = 2 * axis + (back == active ? 1 : 0);
             far_[axis] = 2 * axis + (back == active ? 0 : 1);
             mixed_ = mixed_ || (back != 0 && back != active);
@@ -58,7 +67,7 @@ class PacketSlabs {
     /// For the planes of one box. If `Mixed`, which of them lanes enter by is found lane by lane.
     template <bool Mixed>
     [[nodiscard]] std::uint32_t meet(Vec3 near, Vec3 far) const {
-        return lanes_where([&](std::uint32_t lane) {
+        return lanes_where<Set>([&](std::uint32_t lane) {
             const auto at = [&](int axis, float plane) {
                 return loose::mul_sub(plane, inverse_[axis].at[lane], offset_[axis].at[lane]);
             };
@@ -78,12 +87,16 @@ class PacketSlabs {
     LaneFloats offset_[3];
     int near_[3];         ///< plane of a node through which all lanes enter, by axis
     int far_[3];          ///< and through which they leave
-    bool mixed_ = false;  ///< on some axis lanes go both ways
+    bool mixed_;          ///< on some axis lanes go both ways
 };
+
+/// A bit for each child of a node.
+inline constexpr std::uint32_t all_slots = (1u << WideNode::width) - 1u;
 
 /// Every child may be met.
 struct AllSlots {
-    [[nodiscard]] static std::uint32_t met(const WideNode&) { return 0xFFu; }
+    template <InstructionSet>
+    [[nodiscard]] static std::uint32_t met(const WideNode&) { return all_slots; }
 };
 
 /// Asks the cache for what will be read soon.
@@ -92,41 +105,37 @@ inline void prefetch(const void* from, std::size_t bytes) {
         __builtin_prefetch(static_cast<const char*>(from) + i);
 }
 
-/// The packet, and which of its lanes have met a triangle. `Hull` says which children of a node the
-/// lanes may meet at all, met(node), and spares asking all lanes about the others.
-template <class Hull>
+/// Place of a triangle that is none.
+inline constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
+
+/// Some packets that walk together, and which of their lanes have met a triangle: a bit for each
+/// lane, packet after packet. `Hull` says which children of a node the lanes may meet at all,
+/// met(node), and spares asking all lanes about the others.
+template <InstructionSet Set, class Hull, std::uint32_t Packets = 1>
 class WidePacketWalk {
  public:
-    static constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
-
-    /// `mask` outlives the walk; nullptr: all triangles are whole.
+    /// From the origin to `Packets` packets of points, of which some are active. `mask` outlives
+    /// the walk; nullptr: all triangles are whole.
     WidePacketWalk(const WideBvhView<Space::host>& bvh, const Hull& hull, Vec3 origin,
-                   const PointPacket& points, std::uint32_t active,
+                   const PointPacket* points, std::uint32_t active,
                    const AlphaMaskView<Space::host>* mask = nullptr)
-        : bvh_(bvh),
-          hull_(hull),
-          mask_(mask),
-          origin_(origin),
-          points_(points),
-          slabs_(origin, points, active, bvh.reach),
-          open_(active) {}
+        : bvh_(bvh), hull_(hull), mask_(mask), origin_(origin), points_(points), open_(active) {
+        for (std::uint32_t p = 0; p < Packets; ++p)
+            slabs_[p].set(origin, points[p], lanes_of_packet(active, p), bvh.reach);
+    }
 
-    /// Lanes of `active` that meet no triangle below some nodes, which wait as a walk of this kind
-    /// leaves them. Nodes wait on a stack with the lanes that meet them, at most seven per level.
-    std::uint32_t run(const std::uint32_t* roots, std::uint32_t count) {
-        for (std::uint32_t i = 0; i < count; ++i) stack_[i] = {roots[i], open_};
-        waiting_ = count;
-        while (waiting_ != 0 && open_ != 0) {
-            const Waiting next = stack_[--waiting_];
-            if ((next.lanes & open_) != 0) enter(bvh_.nodes[next.node]);
-        }
-        return open_;
+    /// Lanes of `active` that meet no triangle below some nodes, which another walk down left to
+    /// this one. Nodes wait on a stack with the lanes that meet them, at most seven per level.
+    std::uint32_t run(const WaitingNodes& roots) {
+        for (std::uint32_t g = 0; g < roots.groups(); ++g)
+            enter(roots.group(g), roots.slots_of(g));
+        return finish();
     }
 
     /// The same below the root.
     std::uint32_t run() {
-        const std::uint32_t root = WideBvhView<Space::host>::root;
-        return run(&root, 1);
+        enter(bvh_.nodes[WideBvhView<Space::host>::root]);
+        return finish();
     }
 
     /// Place of the last triangle that was met, or no_triangle.
@@ -138,16 +147,26 @@ class WidePacketWalk {
         std::uint32_t lanes;
     };
 
+    std::uint32_t finish() {
+        while (waiting_ != 0 && open_ != 0) {
+            const Waiting next = stack_[--waiting_];
+            if ((next.lanes & open_) != 0) enter(bvh_.nodes[next.node]);
+        }
+        return open_;
+    }
+
     /// Asks all lanes about all children before it decides anything, so that no test waits for the
     /// outcome of another.
-    void enter(const WideNode& node) {
-        std::uint32_t met[WideNode::width];
-        const std::uint32_t slots = hull_.met(node);
-        slabs_.meet(node, slots, met);
+    void enter(const WideNode& node, std::uint32_t among = all_slots) {
+        std::uint32_t met[Packets][WideNode::width];
+        const std::uint32_t slots = hull_.template met<Set>(node) & among;
+        for (std::uint32_t p = 0; p < Packets; ++p) slabs_[p].meet(node, slots, met[p]);
         std::uint32_t leaves = 0;
         for (std::uint32_t rest = slots; rest != 0;) {
             const std::uint32_t k = pop_lowest(rest);
-            const std::uint32_t lanes = open_ & met[k];
+            std::uint32_t lanes = met[0][k];
+            for (std::uint32_t p = 1; p < Packets; ++p) lanes |= met[p][k] << p * lane_count;
+            lanes &= open_;
             if (lanes == 0 || node.count[k] == WideNode::empty) continue;
             if (node.is_inner(k)) {
                 prefetch(bvh_.nodes + node.ref[k], sizeof(WideNode));
@@ -167,21 +186,31 @@ class WidePacketWalk {
     void test_leaf(std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t t = first; t < first + count; ++t) {
             const TriangleRows& rows = bvh_.triangles[t];
-            std::uint32_t hit = hit_lanes(rows, origin_rows(rows, origin_), points_, open_);
+            std::uint32_t hit = hit_lanes_of<Set, Packets>(rows, origin_, points_, open_);
             if (hit == 0) continue;
-            if (mask_ != nullptr)
-                hit = solid_lanes(rows, bvh_.indices[t], origin_, points_, hit, *mask_);
+            if (mask_ != nullptr) hit = solid(rows, t, hit);
             blocker_ = t;
             open_ &= ~hit;
         }
+    }
+
+    /// Lanes of `hit` where the triangle is there.
+    [[nodiscard]] std::uint32_t solid(const TriangleRows& rows, std::uint32_t t,
+                                      std::uint32_t hit) const {
+        std::uint32_t there = 0;
+        for (std::uint32_t p = 0; p < Packets; ++p)
+            there |= solid_lanes(rows, bvh_.indices[t], origin_, points_[p], lanes_of_packet(hit, p),
+                                 *mask_)
+                     << p * lane_count;
+        return there;
     }
 
     const WideBvhView<Space::host>& bvh_;
     const Hull& hull_;
     const AlphaMaskView<Space::host>* mask_;
     Vec3 origin_;
-    const PointPacket& points_;
-    PacketSlabs slabs_;
+    const PointPacket* points_;
+    PacketSlabs<Set> slabs_[Packets];
     std::uint32_t open_;  ///< lanes that still ask
     std::uint32_t blocker_ = no_triangle;
     std::uint32_t waiting_ = 0;
@@ -192,7 +221,8 @@ class WidePacketWalk {
 
 /// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
 /// !is_hidden(bvh, origin, point i, mask). Thread-safe.
-[[nodiscard]] inline std::uint32_t visible_in_packet(const WideBvhView<Space::host>& bvh,
+template <InstructionSet Set = InstructionSet::baseline>
+[[nodiscard]] std::uint32_t visible_in_packet(const WideBvhView<Space::host>& bvh,
                                                      Vec3 origin, const PointPacket& points,
                                                      std::uint32_t active,
                                                      const AlphaMaskView<Space::host>& mask = {}) {
@@ -209,7 +239,9 @@ class WidePacketWalk {
     }
     if (together == 0) return seen;
     return seen |
-           detail::WidePacketWalk(bvh, detail::AllSlots{}, origin, points, together, &mask).run();
+           detail::WidePacketWalk<Set, detail::AllSlots>(bvh, detail::AllSlots{}, origin, &points,
+                                                         together, &mask)
+                      .run();
 }
 
 }  // namespace mir

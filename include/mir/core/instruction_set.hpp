@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <type_traits>
+
 namespace mir {
 
 /// Vector instruction sets that host loops are compiled for.
@@ -20,32 +22,43 @@ inline InstructionSet best_instruction_set() {
 
 namespace detail {
 
+/// Calls `body(set)`, the set being a constant, or `body()` if it does not care.
+template <InstructionSet Set, class Body>
+void call_with(const Body& body) {
+    using Constant = std::integral_constant<InstructionSet, Set>;
+    if constexpr (std::is_invocable_v<const Body&, Constant>)
+        body(Constant{});
+    else
+        body();
+}
+
 #if defined(__x86_64__)
 // `flatten` pulls the whole loop into a function that may use the wider registers, so one template
 // serves every instruction set and no file needs its own compiler flags.
 template <class Body>
 [[gnu::flatten, gnu::target("avx2")]] void run_avx2(const Body& body) {
-    body();
+    call_with<InstructionSet::avx2>(body);
 }
 
 #if defined(__clang__)
 template <class Body>
 [[gnu::flatten, gnu::target("avx512f,avx512dq,avx512bw,avx512vl")]] void run_avx512(
     const Body& body) {
-    body();
+    call_with<InstructionSet::avx512>(body);
 }
 #else
 template <class Body>
 [[gnu::flatten, gnu::target("avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512")]] void
 run_avx512(const Body& body) {
-    body();
+    call_with<InstructionSet::avx512>(body);
 }
 #endif
 #endif
 
 }  // namespace detail
 
-/// Calls `body()` compiled for `set`, which the processor must have.
+/// Calls `body()`, or `body(std::integral_constant<InstructionSet, set>)`, compiled for `set`, which
+/// the processor must have.
 template <class Body>
 void run_with(InstructionSet set, const Body& body) {
 #if defined(__x86_64__)
@@ -53,7 +66,7 @@ void run_with(InstructionSet set, const Body& body) {
     if (set == InstructionSet::avx2) return detail::run_avx2(body);
 #endif
     static_cast<void>(set);
-    body();
+    detail::call_with<InstructionSet::baseline>(body);
 }
 
 }  // namespace mir

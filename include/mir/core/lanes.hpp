@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/instruction_set.hpp"
+
 #include <cstdint>
 
 #if defined(__SSE2__)
-#include <emmintrin.h>
+#include <immintrin.h>
 #endif
 
 namespace mir::detail {
@@ -46,15 +48,6 @@ inline std::uint32_t bits_of(const LaneTruths& truths) {
 }
 #endif
 
-/// One bit per lane: lane k where `test(k)`. A test without branches, `&` in place of `&&`, makes
-/// one loop of it.
-template <class Test>
-std::uint32_t lanes_where(const Test& test) {
-    LaneTruths truths;
-    for (std::uint32_t k = 0; k < lane_count; ++k) truths.at[k] = test(k) ? -1 : 0;
-    return bits_of(truths);
-}
-
 /// A truth for each child of a wide node, which are half as many.
 struct alignas(32) SlotTruths {
     static constexpr std::uint32_t count = lane_count / 2;
@@ -77,6 +70,39 @@ inline std::uint32_t bits_of(const SlotTruths& truths) {
     return bits;
 }
 #endif
+
+#if defined(__x86_64__)
+/// The same by AVX-512, which has the bits as soon as it has the truths. Whoever calls them may use
+/// these instructions.
+[[gnu::target("avx512f,avx512dq,avx512bw,avx512vl")]] inline std::uint32_t bits_by_avx512(
+    const LaneTruths& truths) {
+    return _mm512_movepi32_mask(_mm512_load_si512(truths.at));
+}
+/// Likewise.
+[[gnu::target("avx512f,avx512dq,avx512bw,avx512vl")]] inline std::uint32_t bits_by_avx512(
+    const SlotTruths& truths) {
+    return _mm256_movepi32_mask(
+        _mm256_load_si256(reinterpret_cast<const __m256i*>(truths.at)));
+}
+#endif
+
+/// Bit k: lane or slot k is true. By instructions of `Set`, for which the caller is compiled.
+template <InstructionSet Set, class Truths>
+std::uint32_t bits_of(const Truths& truths) {
+#if defined(__x86_64__)
+    if constexpr (Set == InstructionSet::avx512) return bits_by_avx512(truths);
+#endif
+    return bits_of(truths);
+}
+
+/// One bit per lane: lane k where `test(k)`. A test without branches, `&` in place of `&&`, makes
+/// one loop of it.
+template <InstructionSet Set = InstructionSet::baseline, class Test>
+std::uint32_t lanes_where(const Test& test) {
+    LaneTruths truths;
+    for (std::uint32_t k = 0; k < lane_count; ++k) truths.at[k] = test(k) ? -1 : 0;
+    return bits_of<Set>(truths);
+}
 
 /// Takes the lowest bit of a word that has one: its number.
 inline std::uint32_t pop_lowest(std::uint32_t& bits) {

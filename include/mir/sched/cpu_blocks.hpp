@@ -8,14 +8,15 @@
 #include "mir/sched/detail/block_list.hpp"
 #include "mir/sched/detail/lit_vpls.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
+#include "mir/sched/detail/page_sight.hpp"
 
 namespace mir::sched {
 
 /// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
 /// luxels are found and their rays traced; the lit ones of some VPLs are shaded together, sixteen
 /// luxels to a register. A
-/// BlockVisibility is asked for whole blocks, others for packets of sixteen rays that start at the
-/// VPL. Same image as sched::Cpu in every bit where those faces give the bits of the single one,
+/// BlockVisibility is asked for clusters of 256 luxels, others for packets of sixteen rays that start
+/// at the VPL. Same image as sched::Cpu in every bit where those faces give the bits of the single one,
 /// provided that the caller compiles with -ffp-contract=off. Given a KnownVisibility it traces no
 /// ray.
 template <Executor E>
@@ -33,14 +34,19 @@ struct CpuBlocks {
             : in_(in), image_(image), scheduler_(scheduler) {}
 
         /// Only notes the tile.
-        void submit(TileIndex t) { detail::append_blocks(blocks_, t, in_.gbuffer.tiles()[t]); }
+        void submit(TileIndex t) {
+            if constexpr (by_pages)
+                detail::append_pages(parts_, t, in_.gbuffer.tiles()[t]);
+            else
+                detail::append_blocks(parts_, t, in_.gbuffer.tiles()[t]);
+        }
 
-        /// Computes all tiles that were submitted, block by block on the executor.
+        /// Computes all tiles that were submitted, part by part on the executor.
         /// @throws Error(cancelled) when the monitor asks to stop.
         void finish() {
-            scheduler_.executor.for_each(blocks_.size(), [this](std::size_t i) {
-                const detail::Block block = blocks_[i];
-                run_with(scheduler_.instructions, [this, block] { run(block); });
+            scheduler_.executor.for_each(parts_.size(), [this](std::size_t i) {
+                if (scheduler_.monitor != nullptr) scheduler_.monitor->check();
+                run(parts_[i]);
             });
         }
 
@@ -49,7 +55,21 @@ struct CpuBlocks {
         using V = std::remove_const_t<decltype(In::visibility)>;
         using LuxelBlock = detail::LuxelBlock<F>;
 
+        static constexpr bool by_pages = BlockVisibility<V>;
+        using Part = std::conditional_t<by_pages, detail::PlacedPage, detail::Block>;
+
+        /// A block of a page while VPLs are added to it.
+        struct Work {
+            detail::Block place;
+            LuxelBlock block;
+            detail::LitVpls batch{};
+            detail::GroupRadiance sums[detail::groups_per_block]{};
+        };
+
         void run(detail::Block b) const;
+        void run(const detail::PlacedPage& page) const;
+        void shade(Work& work) const { work.batch.shade(work.block, in_.shading, work.sums); }
+        [[nodiscard]] std::vector<Work> start(const detail::PlacedPage& page) const;
         template <class LitMask>
         void add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
                       const LitMask& lit_mask) const;
@@ -67,7 +87,7 @@ struct CpuBlocks {
         const In& in_;
         Image<Rgb>& image_;
         const CpuBlocks& scheduler_;
-        std::vector<detail::Block> blocks_;
+        std::vector<Part> parts_;
     };
 
     /// A pipeline for one image, whose size is that of the G-buffer. It refers to this scheduler.
@@ -99,19 +119,66 @@ CpuBlocks(E&, Monitor*, InstructionSet) -> CpuBlocks<E>;
 template <Executor E>
 template <class In>
 void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
-    if (scheduler_.monitor != nullptr) scheduler_.monitor->check();
-    const auto view = in_.gbuffer.view(b.tile);
-    const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
-    detail::GroupRadiance sums[detail::groups_per_block];
-    if constexpr (KnownVisibility<V>) {
-        add_vpls(block, sums, [&](VplIndex j, const Vpl&) {
-            return detail::known_mask(block, j, in_.visibility);
-        });
-    } else {
-        const detail::BlockSight<V> sight(block, in_.visibility, scheduler_.instructions);
-        add_vpls(block, sums, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
+    run_with(scheduler_.instructions, [this, b] {
+        const auto view = in_.gbuffer.view(b.tile);
+        const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
+        detail::GroupRadiance sums[detail::groups_per_block];
+        if constexpr (KnownVisibility<V>) {
+            add_vpls(block, sums, [&](VplIndex j, const Vpl&) {
+                return detail::known_mask(block, j, in_.visibility);
+            });
+        } else {
+            const detail::BlockSight<V> sight(block, in_.visibility, scheduler_.instructions);
+            add_vpls(block, sums, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
+        }
+        store(b, sums);
+    });
+}
+
+template <Executor E>
+template <class In>
+auto CpuBlocks<E>::Pipeline<In>::start(const detail::PlacedPage& page) const -> std::vector<Work> {
+    const auto view = in_.gbuffer.view(page.tile);
+    std::vector<Work> works;
+    works.reserve(page.page.blocks());
+    for (std::uint32_t b = 0; b < page.page.blocks(); ++b) {
+        const detail::Block place{page.tile, page.page.block(b)};
+        works.push_back({place, LuxelBlock(view.hits, view.surfaces, place, in_.shading)});
     }
-    store(b, sums);
+    return works;
+}
+
+/// Some VPLs at a time find out who of the page sees them, then block by block is shaded.
+template <Executor E>
+template <class In>
+void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
+    std::vector<Work> works = start(page);
+    detail::PageSight<V> sight(in_.gbuffer.view(page.tile).hits, page.page, in_.visibility,
+                               scheduler_.instructions, [&](std::uint32_t slot) {
+                                   return works[slot / BlockedLayout::block_size].block.counts(
+                                       slot % BlockedLayout::block_size);
+                               });
+    constexpr std::uint32_t most = detail::PageSight<V>::most_vpls;
+    const auto matters = [&](const Vpl& vpl) {
+        return std::any_of(works.begin(), works.end(),
+                           [&](const Work& w) { return !is_out_of_reach(w.block, vpl); });
+    };
+    for (VplIndex first = 0; first < in_.vpls.size(); first += most)
+        run_with(scheduler_.instructions, [&] {
+            const std::uint32_t count = std::min(most, in_.vpls.size() - first);
+            sight.look(in_.vpls, first, count, matters);
+            for (std::uint32_t b = 0; b < works.size(); ++b)
+                for (std::uint32_t k = 0; k < count; ++k) {
+                    const Vpl vpl = in_.vpls[first + k];
+                    if (is_out_of_reach(works[b].block, vpl)) continue;
+                    works[b].batch.add(vpl, sight.seen(b, k));
+                    if (works[b].batch.is_full()) shade(works[b]);
+                }
+        });
+    for (Work& work : works) {
+        run_with(scheduler_.instructions, [&] { shade(work); });
+        store(work.place, work.sums);
+    }
 }
 
 /// Adds all VPLs; `lit_mask(j, vpl)` says to which luxels of the block.

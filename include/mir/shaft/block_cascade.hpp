@@ -9,6 +9,7 @@ namespace mir {
 /// Which of the 256 luxels of a block see one VPL: the cascade of docs/shafts.md in vectors of
 /// sixteen. Bits are those of is_hidden(). Made for one pair, on the host; not initialised where it
 /// need not be.
+template <InstructionSet Set>
 class BlockCascade {
  public:
     /// `triangles` are make_triangle_lanes() of the hierarchy's. All must outlive the cascade.
@@ -20,33 +21,54 @@ class BlockCascade {
     void decide(BlockMask& mask, const CascadeLimits& limits) {
         const bool provable =
             is_proved_scale(bvh_.reach) && block_.all.within && within_reach(apex_, bvh_.reach);
-        const bool covered = provable && detail::LaneSearcher(bvh_, triangles_, block_.all, apex_,
-                                                              block_.sigma, search_)
-                                             .run(limits);
-        if (provable && !covered && search_.finds_nothing()) return;
-        for (std::uint32_t g = 0; g < BlockMask::packets; ++g) {
-            std::uint32_t& open = mask.packet[g];
-            if (open == 0) continue;
-            if (covered)
-                open = 0;
-            else
-                open = provable ? decide_packet(g, open) : decide_alone(g, open);
+        if (!provable) {
+            for (std::uint32_t g = 0; g < BlockMask::packets; ++g) decide_alone(g, mask.packet[g]);
+            return;
         }
+        if (detail::LaneSearcher<Set>(bvh_, triangles_, block_.all, apex_, block_.sigma, search_)
+                .run(limits)) {
+            mask = {};
+            return;
+        }
+        if (search_.finds_nothing()) return;
+        for (std::uint32_t g = 0; g < BlockMask::packets; ++g) decide_by_list(g, mask.packet[g]);
+        if (search_.waiting.size() == 0) return;
+        for (std::uint32_t g = 0; g < BlockMask::packets; g += 2)
+            walk_pair(g, mask.packet[g], mask.packet[g + 1]);
     }
 
  private:
     /// Through the whole hierarchy, without a shaft.
-    [[nodiscard]] std::uint32_t decide_alone(std::uint32_t g, std::uint32_t open) const {
-        return visible_in_packet(bvh_, apex_, block_.points[g], open);
+    void decide_alone(std::uint32_t g, std::uint32_t& open) const {
+        if (open != 0) open = visible_in_packet<Set>(bvh_, apex_, block_.points[g], open);
     }
 
-    [[nodiscard]] std::uint32_t decide_packet(std::uint32_t g, std::uint32_t open) {
+    /// By those triangles of the list that are partial to the packet.
+    void decide_by_list(std::uint32_t g, std::uint32_t& open) const {
+        if (open == 0) return;
         detail::LaneChoice chosen;
-        if (narrow(block_.packet[g].box, chosen)) return 0;
-        open = decide_by_list(g, open, chosen);
-        if (open == 0 || search_.waiting_nodes == 0) return open;
-        if (!block_.packet[g].within) return decide_alone(g, open);
-        return decide_by_walk(g, open);
+        open = narrow(block_.packet[g].box, chosen) ? 0 : seen_past(chosen, g, open);
+    }
+
+    /// Packets g and g + 1 below the nodes that wait: together if both have open lanes, because they
+    /// mostly meet the same nodes and triangles.
+    void walk_pair(std::uint32_t g, std::uint32_t& first, std::uint32_t& second) {
+        const BlockRecords::Cluster& pair = block_.pair[g / 2];
+        if (first != 0 && second != 0 && pair.within) {
+            constexpr std::uint32_t width = PointPacket::width;
+            const std::uint32_t open = walk<2>(pair, g, first | second << width);
+            first = open & ((1u << width) - 1u);
+            second = open >> width;
+        } else {
+            walk_alone(g, first);
+            walk_alone(g + 1, second);
+        }
+    }
+    void walk_alone(std::uint32_t g, std::uint32_t& open) {
+        if (block_.packet[g].within)
+            open = walk<1>(block_.packet[g], g, open);
+        else
+            decide_alone(g, open);
     }
 
     /// Chooses the triangles of the list that are partial to a packet. True when one covers it.
@@ -55,20 +77,21 @@ class BlockCascade {
         std::uint32_t full = 0;
         for (std::uint32_t b = 0; b < search_.batches; ++b) {
             const std::uint32_t known = search_.chosen.lanes[b];
-            const detail::LaneOcclusion found = occlusion(search_.batch[b], box, block_.sigma);
+            const detail::LaneOcclusion found = occlusion<Set>(search_.batch[b], box, block_.sigma);
             full |= found.full & known;
             chosen.lanes[b] = known & ~found.none;
         }
         return full != 0;
     }
 
-    [[nodiscard]] std::uint32_t decide_by_list(std::uint32_t g, std::uint32_t open,
-                                               const detail::LaneChoice& chosen) const {
+    /// Lanes of packet `g` that see the VPL past the chosen triangles.
+    [[nodiscard]] std::uint32_t seen_past(const detail::LaneChoice& chosen, std::uint32_t g,
+                                          std::uint32_t open) const {
         for (std::uint32_t b = 0; b < search_.batches; ++b) {
             const detail::CandidateLanes& batch = search_.batch[b];
             for (std::uint32_t rest = chosen.lanes[b]; rest != 0;) {
                 const std::uint32_t k = detail::pop_lowest(rest);
-                open &= ~detail::hit_lanes(triangles_[batch.group].rows(k), batch.origin(k),
+                open &= ~detail::hit_lanes<Set>(triangles_[batch.group].rows(k), batch.origin(k),
                                            block_.points[g], open);
                 if (open == 0) return 0;
             }
@@ -76,32 +99,33 @@ class BlockCascade {
         return open;
     }
 
-    /// Below the nodes that wait, after the triangles that blocked the packets before.
-    [[nodiscard]] std::uint32_t decide_by_walk(std::uint32_t g, std::uint32_t open) {
+    /// Packets from `g` on, which are a cluster, below the nodes that wait, after the triangles that
+    /// blocked the packets before.
+    template <std::uint32_t Packets>
+    [[nodiscard]] std::uint32_t walk(const BlockRecords::Cluster& cluster, std::uint32_t g,
+                                     std::uint32_t open) {
         for (const std::uint32_t t : blockers_) {
-            if (t == Walk::no_triangle) continue;
+            if (open == 0 || t == detail::no_triangle) continue;
             const TriangleRows& rows = bvh_.triangles[t];
-            open &=
-                ~detail::hit_lanes(rows, detail::origin_rows(rows, apex_), block_.points[g], open);
+            open &= ~detail::hit_lanes_of<Set, Packets>(rows, apex_, block_.points + g, open);
         }
         if (open == 0) return 0;
-        const SlotShaft shaft(make_shaft(block_.packet[g].record, apex_, block_.sigma));
-        Walk walk(bvh_, shaft, apex_, block_.points[g], open);
-        open = walk.run(search_.waiting, search_.waiting_nodes);
-        if (walk.blocker() != Walk::no_triangle) {
+        const SlotShaft shaft(make_shaft(cluster.record, apex_, block_.sigma));
+        detail::WidePacketWalk<Set, SlotShaft, Packets> walk(bvh_, shaft, apex_, block_.points + g,
+                                                             open);
+        open = walk.run(search_.waiting);
+        if (walk.blocker() != detail::no_triangle) {
             blockers_[1] = blockers_[0];
             blockers_[0] = walk.blocker();
         }
         return open;
     }
 
-    using Walk = detail::WidePacketWalk<SlotShaft>;
-
     const WideBvhView<Space::host>& bvh_;
     const TriangleLanes* triangles_;
     const BlockRecords& block_;
     Vec3 apex_;
-    std::uint32_t blockers_[2] = {Walk::no_triangle, Walk::no_triangle};  ///< the last one first
+    std::uint32_t blockers_[2] = {detail::no_triangle, detail::no_triangle};  ///< the last one first
     detail::LaneSearch search_;
 };
 

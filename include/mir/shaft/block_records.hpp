@@ -20,6 +20,7 @@ struct BlockRecords {
 
     PointPacket points[packets];  ///< positions in blocked order, metres
     Cluster packet[packets];      ///< of each packet alone
+    Cluster pair[packets / 2];    ///< of two packets side by side
     Cluster all;                  ///< of the whole block
     float sigma = 0.0f;           ///< of the scene, metres
 
@@ -28,6 +29,8 @@ struct BlockRecords {
     BlockRecords(const SoaView<const Hit>& hits, float reach, float scene_sigma)
         : all(cluster(hits, 0, BlockMask::luxels, reach, scene_sigma)), sigma(scene_sigma) {
         constexpr std::uint32_t width = PointPacket::width;
+        for (std::uint32_t g = 0; g < packets / 2; ++g)
+            pair[g] = cluster(hits, g * 2 * width, 2 * width, reach, sigma);
         for (std::uint32_t g = 0; g < packets; ++g) {
             packet[g] = cluster(hits, g * width, width, reach, sigma);
             for (std::uint32_t k = 0; k < width; ++k) {

@@ -99,7 +99,8 @@ inline void prepare_lanes(const TriangleLanes& triangles, Vec3 apex, float sprea
 }
 
 /// occlusion() of all triangles at once, for one cluster.
-inline LaneOcclusion occlusion(const CandidateLanes& lanes, const ClusterBox& box, float sigma) {
+template <InstructionSet Set = InstructionSet::baseline>
+LaneOcclusion occlusion(const CandidateLanes& lanes, const ClusterBox& box, float sigma) {
     const float plane = OcclusionMargins::plane * sigma;
     const Vec3 centre = box.centre;
     const Vec3 half = box.half;
@@ -123,7 +124,7 @@ inline LaneOcclusion occlusion(const CandidateLanes& lanes, const ClusterBox& bo
         none.at[k] = -negative;
         full.at[k] = -positive;
     }
-    return {bits_of(none), bits_of(full)};
+    return {bits_of<Set>(none), bits_of<Set>(full)};
 }
 
 }  // namespace mir::detail

@@ -31,14 +31,14 @@ struct LaneSearch {
     CandidateLanes batch[LaneChoice::capacity];
     LaneChoice chosen;
     std::uint32_t batches = 0;
-    std::uint32_t waiting[WideBvhView<Space::host>::most_waiting];  ///< the next one last
-    std::uint32_t waiting_nodes = 0;
+    WaitingNodes waiting;  ///< the next one last
 
-    [[nodiscard]] bool finds_nothing() const { return batches == 0 && waiting_nodes == 0; }
+    [[nodiscard]] bool finds_nothing() const { return batches == 0 && waiting.size() == 0; }
 };
 
 /// Walks the shaft of a cluster through the hierarchy: from the root until no node waits or the
 /// limits are reached. What is then left is handed on, none of the work is lost.
+template <InstructionSet Set = InstructionSet::baseline>
 class LaneSearcher {
  public:
     LaneSearcher(const WideBvhView<Space::host>& bvh, const TriangleLanes* triangles,
@@ -55,19 +55,19 @@ class LaneSearcher {
     bool run(const CascadeLimits& limits) {
         most_batches_ = std::min(limits.batches, LaneChoice::capacity);
         const SlotShaft shaft(make_shaft(cluster_.record, apex_, sigma_));
-        search_.waiting[search_.waiting_nodes++] = WideBvhView<Space::host>::root;
-        for (std::uint32_t i = 0; i < limits.nodes && search_.waiting_nodes != 0; ++i) {
+        search_.waiting.push_root(bvh_.reach);
+        for (std::uint32_t i = 0; i < limits.nodes && search_.waiting.size() != 0; ++i) {
             const std::uint32_t before = search_.batches;
-            const WideNode& node = bvh_.nodes[search_.waiting[search_.waiting_nodes - 1]];
-            const std::uint32_t met = shaft.met(node);
-            const Addition added = add_leaves(node, met & leaf_slots(node));
+            const WideNode& node = bvh_.nodes[search_.waiting.last()];
+            const std::uint32_t met = shaft.template met<Set>(node);
+            const Addition added = add_leaves(node, met & leaf_slots<Set>(node));
             if (added == Addition::covers) return true;
             if (added == Addition::no_room) {
                 search_.batches = before;  // the node goes on waiting
                 return false;
             }
-            --search_.waiting_nodes;
-            push(node, met & inner_slots(node));
+            search_.waiting.pop();
+            push(node, met & inner_slots<Set>(node));
         }
         return false;
     }
@@ -78,9 +78,9 @@ class LaneSearcher {
     /// So that the first slot is the next one.
     void push(const WideNode& node, std::uint32_t slots) {
         while (slots != 0) {
-            const std::uint32_t child = node.ref[pop_highest(slots)];
-            prefetch(bvh_.nodes + child, sizeof(WideNode));
-            search_.waiting[search_.waiting_nodes++] = child;
+            const std::uint32_t k = pop_highest(slots);
+            prefetch(bvh_.nodes + node.ref[k], sizeof(WideNode));
+            search_.waiting.push(node, k);
         }
     }
 
@@ -113,7 +113,7 @@ class LaneSearcher {
         CandidateLanes& batch = search_.batch[search_.batches];
         batch.group = group;
         prepare_lanes(triangles_[group], apex_, spread_, sigma_, batch);
-        const LaneOcclusion found = occlusion(batch, cluster_.box, sigma_);
+        const LaneOcclusion found = occlusion<Set>(batch, cluster_.box, sigma_);
         if ((found.full & lanes) != 0) return Addition::covers;
         const std::uint32_t partial = lanes & ~found.none;
         search_.chosen.lanes[search_.batches] = partial;

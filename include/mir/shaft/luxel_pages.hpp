@@ -18,16 +18,21 @@ struct LuxelPage {
     std::uint32_t height = 0;       ///< blocks, 1 or 2
     std::uint32_t blocks_x = 0;     ///< of the tile
 
+    /// Blocks: 1, 2 or 4.
+    [[nodiscard]] MIR_HD std::uint32_t blocks() const { return width * height; }
     /// Luxels: 256, 512 or 1024.
     [[nodiscard]] MIR_HD std::uint32_t luxels() const {
-        return width * height * BlockedLayout::block_size;
+        return blocks() * BlockedLayout::block_size;
+    }
+    /// Number in the tile of block `b` < blocks().
+    [[nodiscard]] MIR_HD std::uint32_t block(std::uint32_t b) const {
+        const std::uint32_t row = width == 1 ? b : b / side;
+        const std::uint32_t column = width == 1 ? 0 : b % side;
+        return first_block + row * blocks_x + column;
     }
     /// Blocked index of slot `k` < luxels(). Aligned runs of 256 slots are aligned in memory.
     [[nodiscard]] MIR_HD LuxelIndex slot(std::uint32_t k) const {
-        const std::uint32_t block = k / BlockedLayout::block_size;
-        const std::uint32_t row = width == 1 ? block : block / side;
-        const std::uint32_t column = width == 1 ? 0 : block % side;
-        return (first_block + row * blocks_x + column) * BlockedLayout::block_size +
+        return block(k / BlockedLayout::block_size) * BlockedLayout::block_size +
                k % BlockedLayout::block_size;
     }
 };

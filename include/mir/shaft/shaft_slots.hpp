@@ -27,6 +27,7 @@ class SlotShaft {
 
     /// Bit k where meets_box() is true of the box of child k, with the same operations; what it
     /// says of empty slots means nothing.
+    template <InstructionSet Set = InstructionSet::baseline>
     [[nodiscard]] std::uint32_t met(const WideNode& node) const {
         const auto& planes = node.planes;
         const ChildRow& leave_x = planes[leaving_[0]];
@@ -57,7 +58,7 @@ class SlotShaft {
             const int met = static_cast<int>(near <= end) & static_cast<int>(front >= 0.0f);
             truths.at[k] = -met;
         }
-        return detail::bits_of(truths);
+        return detail::bits_of<Set>(truths);
     }
 
  private:
@@ -70,18 +71,20 @@ class SlotShaft {
 namespace detail {
 
 /// Children of a node that are leaves.
-inline std::uint32_t leaf_slots(const WideNode& node) {
+template <InstructionSet Set>
+std::uint32_t leaf_slots(const WideNode& node) {
     SlotTruths truths;
     for (std::uint32_t k = 0; k < WideNode::width; ++k) truths.at[k] = node.count[k] > 0 ? -1 : 0;
-    return bits_of(truths);
+    return bits_of<Set>(truths);
 }
 
 /// Children of a node that are nodes.
-inline std::uint32_t inner_slots(const WideNode& node) {
+template <InstructionSet Set>
+std::uint32_t inner_slots(const WideNode& node) {
     SlotTruths truths;
     for (std::uint32_t k = 0; k < WideNode::width; ++k)
         truths.at[k] = node.count[k] == WideNode::inner ? -1 : 0;
-    return bits_of(truths);
+    return bits_of<Set>(truths);
 }
 
 }  // namespace detail

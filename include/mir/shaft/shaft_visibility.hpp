@@ -44,11 +44,11 @@ struct ShaftVisibility {
 
     /// Not inlined: it is compiled for each instruction set once, and not again for every caller.
     [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& seen) const {
-        run_with(b.instructions, [&] {
+        run_with(b.instructions, [&](auto set) {
             if (mask.exists())
                 ask_packets(b, origin, seen);
             else
-                BlockCascade(bvh, lanes, b.records, origin).decide(seen, limits);
+                BlockCascade<set.value>(bvh, lanes, b.records, origin).decide(seen, limits);
         });
     }
 

@@ -101,6 +101,11 @@ struct HitBlock {
         }
     }
 
+    /// True when luxel `i` of the block counts.
+    [[nodiscard]] bool counts(std::uint32_t i) const {
+        return (candidates[i / group_size] >> i % group_size & 1u) != 0;
+    }
+
     /// True only if no luxel that counts faces the VPL: skipping it loses nothing.
     [[nodiscard]] bool cannot_face(const Vpl& vpl) const {
         return bounds.empty || bounds.behind(vpl) || bounds.turned_away_from(vpl.position);

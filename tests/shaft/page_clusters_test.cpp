@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "mir/shaft/page_clusters.hpp"
+
+#include "mir/core/random.hpp"
+#include "shaft/stepped_plane.hpp"
+#include "support/catch.hpp"
+
+#include <limits>
+#include <set>
+
+namespace {
+
+using mir::BlockedLayout;
+using mir::BlockMask;
+using mir::Hit;
+using mir::LuxelPages;
+using mir::PageClusters;
+using mirtest::LuxelPlanes;
+using mirtest::size_of_runs;
+using mirtest::stepped_plane;
+
+/// Checks that each luxel of a page has one place, and that empty ones come last if any moves.
+void check_places(const LuxelPlanes& luxels, const mir::LuxelPage& page,
+                  const PageClusters& clusters) {
+    std::set<std::uint32_t> slots;
+    bool empty_came = false;
+    REQUIRE(clusters.hits().stride == page.luxels());
+    for (std::uint32_t i = 0; i < page.luxels(); ++i) {
+        const std::uint32_t slot = clusters.slot(i);
+        slots.insert(slot);
+        const Hit hit = clusters.hits().load(i);
+        CHECK(hit.position == luxels.view().load(page.slot(slot)).position);
+        CHECK(hit.normal == luxels.view().load(page.slot(slot)).normal);
+        if (clusters.is_ordered()) CHECK((is_empty(hit) || !empty_came));
+        empty_came = empty_came || is_empty(hit);
+    }
+    CHECK(slots.size() == page.luxels());
+    CHECK(*slots.rbegin() == page.luxels() - 1);
+}
+
+/// Packets of all pages, before and after, as sums of the diagonals of their boxes, metres.
+struct PacketSizes {
+    float squares = 0.0f;
+    float clusters = 0.0f;
+    std::uint32_t ordered_pages = 0;
+};
+
+PacketSizes sizes_of(const LuxelPlanes& luxels, const BlockedLayout& layout) {
+    PacketSizes sizes;
+    sizes.squares = size_of_runs(luxels.view(), 16);
+    const LuxelPages pages{layout};
+    for (std::uint32_t i = 0; i < pages.count(); ++i) {
+        const PageClusters clusters(luxels.view(), pages[i]);
+        check_places(luxels, pages[i], clusters);
+        sizes.clusters += size_of_runs(clusters.hits(), 16);
+        sizes.ordered_pages += clusters.is_ordered() ? 1 : 0;
+    }
+    return sizes;
+}
+
+}  // namespace
+
+TEST_CASE("Luxels of a page on one surface stay where they are") {
+    const BlockedLayout layout{5, 3};
+    const PacketSizes sizes = sizes_of(stepped_plane(layout, 1000), layout);
+    CHECK(sizes.ordered_pages == 0);
+    CHECK(sizes.clusters == Approx(sizes.squares).epsilon(1e-5));
+}
+
+TEST_CASE("Packets keep to one of two surfaces, where those of the image reach across") {
+    const BlockedLayout layout{5, 3};
+    const PacketSizes edges = sizes_of(stepped_plane(layout, 10), layout);
+    CHECK(edges.ordered_pages == LuxelPages{layout}.count());
+    CHECK(edges.clusters < 0.4f * edges.squares);
+    const PacketSizes stripes = sizes_of(stepped_plane(layout, 2), layout);
+    CHECK(stripes.ordered_pages == LuxelPages{layout}.count());
+    CHECK(stripes.clusters < 0.2f * stripes.squares);
+}
+
+TEST_CASE("Pages of every shape are put in order, empty ones and such of numbers that are none too") {
+    for (const BlockedLayout layout : {BlockedLayout{1, 1}, BlockedLayout{1, 2}, BlockedLayout{2, 1}})
+        CHECK(sizes_of(stepped_plane(layout, 3), layout).ordered_pages == 1);
+    const BlockedLayout layout{2, 2};
+    CHECK(sizes_of(LuxelPlanes(layout.size()), layout).ordered_pages == 0);
+    LuxelPlanes odd = stepped_plane(layout, 3);
+    const Hit nowhere{mir::Vec3(std::numeric_limits<float>::quiet_NaN()), {0, 0, 1}};
+    const Hit far_away{mir::Vec3(std::numeric_limits<float>::infinity()), {0, 0, 1}};
+    odd.view().store(17, nowhere);
+    CHECK_NOTHROW(PageClusters(std::as_const(odd).view(), LuxelPages{layout}[0]));
+    odd.view().store(17, far_away);
+    CHECK_NOTHROW(PageClusters(std::as_const(odd).view(), LuxelPages{layout}[0]));
+}
+
+TEST_CASE("Masks of clusters come back into the order of the page's blocks") {
+    const BlockedLayout layout{3, 2};
+    const std::uint32_t step = GENERATE(3u, 1000u);
+    const LuxelPlanes luxels = stepped_plane(layout, step);
+    const LuxelPages pages{layout};
+    mir::Random random = mirtest::test_random(1);
+    for (std::uint32_t i = 0; i < pages.count(); ++i) {
+        const mir::LuxelPage page = pages[i];
+        PageClusters clusters(luxels.view(), page);
+        CHECK(clusters.is_ordered() == (step == 3));
+        std::vector<std::uint32_t> seen(page.luxels());  // bit k: VPL k, by slot
+        for (std::uint32_t& bits : seen)
+            bits = static_cast<std::uint32_t>(65536.0f * random.next());
+        for (std::uint32_t c = 0; c < page.blocks(); ++c)
+            for (std::uint32_t k = 0; k < PageClusters::most_vpls; ++k) {
+                BlockMask mask;
+                for (std::uint32_t j = 0; j < BlockMask::luxels; ++j)
+                    mask.packet[j / 16] |=
+                        (seen[clusters.slot(c * BlockMask::luxels + j)] >> k & 1u) << j % 16;
+                clusters.set(c, k, mask);
+            }
+        clusters.restore();
+        std::size_t wrong = 0;
+        for (std::uint32_t slot = 0; slot < page.luxels(); ++slot)
+            for (std::uint32_t k = 0; k < PageClusters::most_vpls; ++k) {
+                const BlockMask mask = clusters.get(slot / BlockMask::luxels, k);
+                const std::uint32_t bit =
+                    mask.packet[slot % BlockMask::luxels / 16] >> slot % 16 & 1u;
+                wrong += bit != (seen[slot] >> k & 1u) ? 1 : 0;
+            }
+        CHECK(wrong == 0);
+    }
+}
