@@ -42,28 +42,15 @@ class PacketSlabs {
         }
     }
 
-    /// Lanes whose segments meet the boxes of some children, those that met_children() finds: a
-    /// word for each of `slots`, the others stay as they are.
-    void meet(const WideNode& node, std::uint32_t slots, std::uint32_t* lanes) const {
-        mixed_ ? meet<true>(node, slots, lanes) : meet<false>(node, slots, lanes);
+    /// Lanes whose segments meet the box of child `k`, those for which met_children() finds it.
+    [[nodiscard]] std::uint32_t meet(const WideNode& node, std::uint32_t k) const {
+        const auto& planes = node.planes;
+        const Vec3 near(planes[near_[0]][k], planes[near_[1]][k], planes[near_[2]][k]);
+        const Vec3 far(planes[far_[0]][k], planes[far_[1]][k], planes[far_[2]][k]);
+        return mixed_ ? meet<true>(near, far) : meet<false>(near, far);
     }
 
  private:
-    template <bool Mixed>
-    void meet(const WideNode& node, std::uint32_t slots, std::uint32_t* lanes) const {
-        const ChildRow& near_x = node.planes[near_[0]];
-        const ChildRow& near_y = node.planes[near_[1]];
-        const ChildRow& near_z = node.planes[near_[2]];
-        const ChildRow& far_x = node.planes[far_[0]];
-        const ChildRow& far_y = node.planes[far_[1]];
-        const ChildRow& far_z = node.planes[far_[2]];
-        while (slots != 0) {
-            const std::uint32_t k = pop_lowest(slots);
-            lanes[k] =
-                meet<Mixed>({near_x[k], near_y[k], near_z[k]}, {far_x[k], far_y[k], far_z[k]});
-        }
-    }
-
     /// For the planes of one box. If `Mixed`, which of them lanes enter by is found lane by lane.
     template <bool Mixed>
     [[nodiscard]] std::uint32_t meet(Vec3 near, Vec3 far) const {
@@ -125,16 +112,21 @@ class WidePacketWalk {
     }
 
     /// Lanes of `active` that meet no triangle below some nodes, which another walk down left to
-    /// this one. Nodes wait on a stack with the lanes that meet them, at most seven per level.
+    /// this one.
     std::uint32_t run(const WaitingNodes& roots) {
-        for (std::uint32_t g = 0; g < roots.groups(); ++g)
-            enter(roots.group(g), roots.slots_of(g));
+        for (std::uint32_t g = 0; g < roots.groups() && open_ != 0; ++g) {
+            Round round;
+            meet_hull(roots.group(g), roots.slots_of(g), round);
+            finish(round);
+        }
         return finish();
     }
 
     /// The same below the root.
     std::uint32_t run() {
-        enter(bvh_.nodes[WideBvhView<Space::host>::root]);
+        Round round;
+        meet_hull(bvh_.nodes[WideBvhView<Space::host>::root], all_slots, round);
+        finish(round);
         return finish();
     }
 
@@ -147,49 +139,91 @@ class WidePacketWalk {
         std::uint32_t lanes;
     };
 
+    struct Child {
+        const WideNode* parent;
+        std::uint32_t slot;
+    };
+
+    /// Nodes are visited some at a time, so that loops are long and know their lengths before they
+    /// begin: a processor guesses wrong once a loop, not once a node.
+    static constexpr std::uint32_t nodes_at_once = 8;
+    /// A round takes nodes from the top of the stack and puts their children there, of which the
+    /// shallowest lies deeper than the shallowest of what the round before has left: so what is on
+    /// the stack comes from no more rounds than there are levels.
+    static constexpr std::uint32_t most_waiting =
+        (nodes_at_once * WideBvhView<Space::host>::max_depth + 1) * WideNode::width +
+        WaitingNodes::capacity;
+
+    /// What a round finds. Without values beyond the counts.
+    struct Round {
+        static constexpr std::uint32_t most_children = nodes_at_once * WideNode::width;
+        static constexpr std::uint32_t leaf_size = WideBvhOptions::largest_leaf;
+
+        Child children[most_children + 1];  ///< that the hull meets
+        std::uint32_t child_count = 0;
+        std::uint32_t triangles[(most_children + 1) * leaf_size];  ///< of leaves that lanes meet
+        std::uint32_t triangle_count = 0;
+    };
+
     std::uint32_t finish() {
         while (waiting_ != 0 && open_ != 0) {
-            const Waiting next = stack_[--waiting_];
-            if ((next.lanes & open_) != 0) enter(bvh_.nodes[next.node]);
+            Round round;
+            for (std::uint32_t i = std::min(nodes_at_once, waiting_); i > 0; --i) {
+                const Waiting next = stack_[--waiting_];
+                if ((next.lanes & open_) != 0) meet_hull(bvh_.nodes[next.node], all_slots, round);
+            }
+            finish(round);
         }
         return open_;
     }
+    void finish(Round& round) {
+        meet_lanes(round);
+        ask_triangles(round);
+    }
 
-    /// Asks all lanes about all children before it decides anything, so that no test waits for the
-    /// outcome of another.
-    void enter(const WideNode& node, std::uint32_t among = all_slots) {
-        std::uint32_t met[Packets][WideNode::width];
+    /// Lists the children of a node, out of `among`, that the hull meets.
+    void meet_hull(const WideNode& node, std::uint32_t among, Round& round) const {
         const std::uint32_t slots = hull_.template met<Set>(node) & among;
-        for (std::uint32_t p = 0; p < Packets; ++p) slabs_[p].meet(node, slots, met[p]);
-        std::uint32_t leaves = 0;
-        for (std::uint32_t rest = slots; rest != 0;) {
-            const std::uint32_t k = pop_lowest(rest);
-            std::uint32_t lanes = met[0][k];
-            for (std::uint32_t p = 1; p < Packets; ++p) lanes |= met[p][k] << p * lane_count;
-            lanes &= open_;
-            if (lanes == 0 || node.count[k] == WideNode::empty) continue;
-            if (node.is_inner(k)) {
-                prefetch(bvh_.nodes + node.ref[k], sizeof(WideNode));
-                stack_[waiting_++] = {node.ref[k], lanes};
-            } else {
-                prefetch(bvh_.triangles + node.ref[k],
-                         static_cast<std::size_t>(node.count[k]) * sizeof(TriangleRows));
-                leaves |= 1u << k;
-            }
-        }
-        while (leaves != 0) {
-            const std::uint32_t k = pop_lowest(leaves);
-            test_leaf(node.ref[k], static_cast<std::uint32_t>(node.count[k]));
+        for (std::uint32_t k = 0; k < WideNode::width; ++k) {
+            round.children[round.child_count] = {&node, k};
+            round.child_count += slots >> k & 1u;
         }
     }
 
-    void test_leaf(std::uint32_t first, std::uint32_t count) {
-        for (std::uint32_t t = first; t < first + count; ++t) {
+    /// Puts those of the listed children that open lanes meet on the stack, or lists their triangles.
+    void meet_lanes(Round& round) {
+        for (std::uint32_t i = 0; i < round.child_count; ++i) {
+            const WideNode& node = *round.children[i].parent;
+            const std::uint32_t k = round.children[i].slot;
+            std::uint32_t lanes = 0;
+            for (std::uint32_t p = 0; p < Packets; ++p)
+                lanes |= slabs_[p].meet(node, k) << p * lane_count;
+            lanes &= open_;
+            const std::uint32_t ref = node.ref[k];
+            prefetch_child(node.is_inner(k), ref);
+            // Written in any case, and counted where there is something: that takes no branch.
+            stack_[waiting_] = {ref, lanes};
+            waiting_ += node.is_inner(k) && lanes != 0 ? 1u : 0u;
+            for (std::uint32_t t = 0; t < Round::leaf_size; ++t)
+                round.triangles[round.triangle_count + t] = ref + t;
+            round.triangle_count +=
+                node.is_leaf(k) && lanes != 0 ? static_cast<std::uint32_t>(node.count[k]) : 0u;
+        }
+    }
+
+    void prefetch_child(bool is_node, std::uint32_t ref) const {
+        const auto* const at = is_node ? reinterpret_cast<const char*>(bvh_.nodes + ref)
+                                       : reinterpret_cast<const char*>(bvh_.triangles + ref);
+        prefetch(at, sizeof(WideNode));
+    }
+
+    void ask_triangles(const Round& round) {
+        for (std::uint32_t i = 0; i < round.triangle_count; ++i) {
+            const std::uint32_t t = round.triangles[i];
             const TriangleRows& rows = bvh_.triangles[t];
             std::uint32_t hit = hit_lanes_of<Set, Packets>(rows, origin_, points_, open_);
-            if (hit == 0) continue;
-            if (mask_ != nullptr) hit = solid(rows, t, hit);
-            blocker_ = t;
+            if (mask_ != nullptr && hit != 0) hit = solid(rows, t, hit);
+            blocker_ = hit != 0 ? t : blocker_;
             open_ &= ~hit;
         }
     }
@@ -214,7 +248,7 @@ class WidePacketWalk {
     std::uint32_t open_;  ///< lanes that still ask
     std::uint32_t blocker_ = no_triangle;
     std::uint32_t waiting_ = 0;
-    Waiting stack_[WideBvhView<Space::host>::most_waiting];
+    Waiting stack_[most_waiting];
 };
 
 }  // namespace detail
