@@ -305,6 +305,7 @@
 #include "mir/shaft/occlusion.hpp"
 #include "mir/shaft/open_segments.hpp"
 #include "mir/shaft/page_clusters.hpp"
+#include "mir/shaft/page_compactness.hpp"
 #include "mir/shaft/page_order.hpp"
 #include "mir/shaft/page_words.hpp"
 #include "mir/shaft/pair_search.hpp"

@@ -26,6 +26,12 @@ struct Ordered {
     std::vector<std::uint32_t> places;
 };
 
+/// Number of the slot in the page to which the luxel in slot `k` goes.
+std::uint32_t place_of(const Ordered& result, const mir::LuxelPage& page, std::uint32_t k) {
+    const std::uint32_t place = result.places[page.slot(k)];
+    return place == mir::PageOrder::stays ? k : place;
+}
+
 Ordered ordered(const LuxelPlanes& luxels, const BlockedLayout& layout) {
     Ordered result{LuxelPlanes(layout.size()), std::vector<std::uint32_t>(layout.size(), ~0u)};
     const mir::PageOrder order{
@@ -74,14 +80,14 @@ TEST_CASE("A page's luxels change places within the page, and clusters become sm
         bool empty_came = false;
         for (std::uint32_t k = 0; k < pages[i].luxels(); ++k) {
             const mir::LuxelIndex from = pages[i].slot(k);
-            const std::uint32_t place = result.places[from];
+            const std::uint32_t place = place_of(result, pages[i], k);
             REQUIRE(place < pages[i].luxels());
             places.insert(place);
             const Hit there = result.luxels.view().load(pages[i].slot(place));
             CHECK(there.position == luxels.view().load(from).position);
             CHECK(there.normal == luxels.view().load(from).normal);
             const bool is_empty_now = is_empty(result.luxels.view().load(from));
-            CHECK((is_empty_now || !empty_came));
+            if (result.places[from] != mir::PageOrder::stays) CHECK((is_empty_now || !empty_came));
             empty_came = empty_came || is_empty_now;
         }
         CHECK(places.size() == pages[i].luxels());
@@ -95,6 +101,16 @@ TEST_CASE("A page's luxels change places within the page, and clusters become sm
     const float by_pages = size_of_runs(std::as_const(result.luxels).view(), 32);
     CHECK(by_pages < 0.6f * squares);
     CHECK(by_pages < 1.3f * size_of_runs(std::as_const(best).view(), 32));
+}
+
+TEST_CASE("A page on one surface stays as it is") {
+    const BlockedLayout layout{5, 3};
+    const LuxelPlanes luxels = stepped_plane(layout, 1000);
+    const Ordered result = ordered(luxels, layout);
+    for (std::uint32_t i = 0; i < layout.size(); ++i) {
+        CHECK(result.places[i] == mir::PageOrder::stays);
+        CHECK(result.luxels.view().load(i).position == luxels.view().load(i).position);
+    }
 }
 
 TEST_CASE("Words of ordered luxels come back into the order of the tile") {
@@ -112,7 +128,7 @@ TEST_CASE("Words of ordered luxels come back into the order of the tile") {
     for (std::uint32_t i = 0; i < pages.count(); ++i)
         for (std::uint32_t k = 0; k < pages[i].luxels(); ++k) {
             const mir::LuxelIndex from = pages[i].slot(k);
-            const mir::LuxelIndex to = pages[i].slot(result.places[from]);
+            const mir::LuxelIndex to = pages[i].slot(place_of(result, pages[i], k));
             for (std::uint32_t j = 0; j < vpls; ++j)
                 if (expected.sees(from, j)) words[std::size_t{to / 32} * vpls + j] |= 1u << to % 32;
         }

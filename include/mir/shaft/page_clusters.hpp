@@ -3,10 +3,10 @@
 
 #include "mir/concepts/visibility.hpp"
 #include "mir/shaft/luxel_pages.hpp"
+#include "mir/shaft/page_compactness.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace mir {
@@ -19,9 +19,9 @@ using PagePositions = std::array<Vec3, LuxelPage::most_luxels>;
 using PageSlots = std::array<std::uint16_t, LuxelPage::most_luxels>;
 
 /// Takes a run of luxels apart where some of its packets of sixteen reach from one surface to
-/// another: by the middle of the widest axis, again and again, until packets are about as small as
-/// their number on one surface allows. Each part keeps the order that it had, which is that of the
-/// image: there, luxels of one surface are neighbours already.
+/// another (RunSizes): by the middle of the widest axis, again and again, until none does. Each part
+/// keeps the order that it had, which is that of the image: there, luxels of one surface are
+/// neighbours already.
 class SurfaceSplitter {
  public:
     /// `positions`, metres, by slot. Both must outlive it.
@@ -43,9 +43,6 @@ class SurfaceSplitter {
  private:
     static constexpr std::uint32_t width = PointPacket::width;
     static constexpr float infinity = std::numeric_limits<float>::infinity();
-    /// Packets may be so much larger than those of a square that is cut into squares. Looser bounds
-    /// find fewer edges, and stricter ones move luxels for nothing (docs/performance.md).
-    static constexpr float looseness = 1.5f;
 
     struct Box {
         Vec3 low{infinity};
@@ -57,7 +54,7 @@ class SurfaceSplitter {
 
     [[nodiscard]] Box measure(std::uint32_t first, std::uint32_t count) const {
         Box all;
-        float diagonals = 0.0f;
+        RunSizes sizes;
         for (std::uint32_t i = 0; i < count; i += width) {
             Box packet;
             for (std::uint32_t k = i; k < std::min(i + width, count); ++k) {
@@ -65,14 +62,11 @@ class SurfaceSplitter {
                 packet.low = glm::min(packet.low, p);
                 packet.high = glm::max(packet.high, p);
             }
-            diagonals += packet.diagonal();
+            sizes.add(packet.diagonal());
             all.low = glm::min(all.low, packet.low);
             all.high = glm::max(all.high, packet.high);
         }
-        // n packets that fill a square are 1 / sqrt(n) as wide as it.
-        const float packets = std::ceil(static_cast<float>(count) / static_cast<float>(width));
-        all.is_compact =
-            count <= width || !(diagonals > looseness * all.diagonal() * std::sqrt(packets));
+        all.is_compact = count <= width || sizes.are_compact(all.diagonal());
         return all;
     }
     [[nodiscard]] static int widest(const Box& box) {

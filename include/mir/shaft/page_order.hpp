@@ -6,6 +6,7 @@
 #include "mir/data/soa.hpp"
 #include "mir/shaft/cluster_record.hpp"
 #include "mir/shaft/luxel_pages.hpp"
+#include "mir/shaft/page_compactness.hpp"
 
 #include <cstring>
 #include <limits>
@@ -13,10 +14,10 @@
 namespace mir {
 
 /// Puts the luxels of a tile in an order in which every aligned run of 32 lies close together and
-/// looks the same way: kernel for groups, a page each. As cluster_order(), a recursive median split
-/// along the widest of six keys, position and weighted normal, ties by index, empty luxels last;
-/// but page by page, which is as good (docs/performance.md) and needs no more memory than a group
-/// has. It decides speed, never bits.
+/// looks the same way: kernel for groups, a page each. Pages whose runs are compact as they are stay
+/// so. Others are split as by cluster_order(), at medians along the widest of six keys, position
+/// and weighted normal, ties by index, empty luxels last; but page by page, which is as good
+/// (docs/performance.md) and needs no more memory than a group has. It decides speed, never bits.
 struct PageOrder {
     /// What a group works in.
     struct Workspace {
@@ -28,25 +29,26 @@ struct PageOrder {
     LuxelPages pages;                 ///< of the tile
     float normal_weight = 0.0f;       ///< what a difference of 1 in a normal counts as, metres
     SoaView<Hit> ordered;             ///< the same luxels, in their new slots
-    std::uint32_t* places = nullptr;  ///< by blocked index: number in its page of the new slot
+    /// By blocked index: number in its page of the new slot. `stays` in all of a page in which no
+    /// luxel moves.
+    std::uint32_t* places = nullptr;
+
+    static constexpr std::uint32_t stays = 0xFFFFFFFFu;  ///< in place of a number
 
     /// Page `i`.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
         const LuxelPage page = pages[i];
         const std::uint32_t count = page.luxels();
+        const bool moves = !is_compact(group, page);
         group.each([&](std::uint32_t lane) {
             for (std::uint32_t k = lane; k < count; k += LaneGroup::width) space.items[k] = k;
         });
-        for (std::uint32_t run = count; run > cluster_luxels; run /= 2) {
-            for (std::uint32_t first = 0; first < count; first += run)
-                set_keys(group, page, {first, run}, space);
-            sort_runs(group, space.items, count, run);
-        }
+        if (moves) sort(group, page, space);
         group.each([&](std::uint32_t lane) {
             for (std::uint32_t k = lane; k < count; k += LaneGroup::width) {
                 const LuxelIndex from = page.slot(luxel_of(space.items[k]));
                 ordered.store(page.slot(k), hits.load(from));
-                places[from] = k;
+                places[from] = moves ? k : stays;
             }
         });
     }
@@ -65,6 +67,62 @@ struct PageOrder {
         Vec3 position;
         Vec3 normal;
     };
+
+    /// A box around positions, metres.
+    struct Box {
+        Vec3 low;
+        Vec3 high;
+
+        MIR_HD static Box none() { return {Vec3(infinity), Vec3(-infinity)}; }
+        MIR_HD static Box of(const Hit& hit) {
+            return is_empty(hit) ? none() : Box{hit.position, hit.position};
+        }
+        [[nodiscard]] MIR_HD float diagonal() const { return glm::length(high - low); }
+    };
+    [[nodiscard]] MIR_HD static Box joined(const Box& a, const Box& b) {
+        return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+    }
+
+    [[nodiscard]] MIR_HD bool is_compact(const LaneGroup& group, const LuxelPage& page) const {
+        Box all = Box::none();
+        RunSizes sizes;
+        for (std::uint32_t run = 0; run < page.luxels() / cluster_luxels; ++run) {
+            LaneGroup::PerLane<Box> boxes;
+            group.each([&](std::uint32_t lane) {
+                boxes[lane] = Box::of(hits.load(page.slot(run * cluster_luxels + lane)));
+            });
+            const Box box = combined(group, boxes);
+            if (box.low.x > box.high.x) continue;
+            sizes.add(box.diagonal());
+            all = joined(all, box);
+        }
+        return sizes.are_compact(all.diagonal());
+    }
+
+    /// The box around those of all lanes.
+    [[nodiscard]] MIR_HD static Box combined(const LaneGroup& group,
+                                             const LaneGroup::PerLane<Box>& boxes) {
+        Box box = Box::none();
+        for (int axis = 0; axis < 3; ++axis) {
+            LaneGroup::PerLane<float> lows, highs;
+            group.each([&](std::uint32_t lane) {
+                lows[lane] = boxes[lane].low[axis];
+                highs[lane] = boxes[lane].high[axis];
+            });
+            box.low[axis] = group.combined(lows, [](float a, float b) { return smaller(a, b); });
+            box.high[axis] = group.combined(highs, [](float a, float b) { return larger(a, b); });
+        }
+        return box;
+    }
+
+    MIR_HD void sort(const LaneGroup& group, const LuxelPage& page, Workspace& space) const {
+        const std::uint32_t count = page.luxels();
+        for (std::uint32_t run = count; run > cluster_luxels; run /= 2) {
+            for (std::uint32_t first = 0; first < count; first += run)
+                set_keys(group, page, {first, run}, space);
+            sort_runs(group, space.items, count, run);
+        }
+    }
 
     MIR_HD static std::uint32_t luxel_of(std::uint64_t item) {
         return static_cast<std::uint32_t>(item);

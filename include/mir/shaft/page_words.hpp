@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/shaft/cluster_record.hpp"
-#include "mir/shaft/luxel_pages.hpp"
+#include "mir/shaft/page_order.hpp"
 
 namespace mir {
 
@@ -31,6 +31,7 @@ struct PageWords {
     /// Page i % count and the 32 VPLs from 32 (i / count) on.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
         const LuxelPage page = pages[i % pages.count()];
+        if (places[page.slot(0)] == PageOrder::stays) return;
         const std::uint32_t first = i / pages.count() * LaneGroup::width;
         read(group, page, first, space);
         for (std::uint32_t c = 0; c < page.luxels() / cluster_luxels; ++c)
