@@ -77,8 +77,10 @@ TEST_CASE("Packets keep to one of two surfaces, where those of the image reach a
     CHECK(stripes.clusters < 0.2f * stripes.squares);
 }
 
-TEST_CASE("Pages of every shape are put in order, empty ones and such of numbers that are none too") {
-    for (const BlockedLayout layout : {BlockedLayout{1, 1}, BlockedLayout{1, 2}, BlockedLayout{2, 1}})
+TEST_CASE(
+    "Pages of every shape are put in order, empty ones and such of numbers that are none too") {
+    for (const BlockedLayout layout :
+         {BlockedLayout{1, 1}, BlockedLayout{1, 2}, BlockedLayout{2, 1}})
         CHECK(sizes_of(stepped_plane(layout, 3), layout).ordered_pages == 1);
     const BlockedLayout layout{2, 2};
     CHECK(sizes_of(LuxelPlanes(layout.size()), layout).ordered_pages == 0);

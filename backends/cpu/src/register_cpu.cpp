@@ -30,7 +30,7 @@ RenderResult render_with(const HostRender& r, const HostEngine& engine) {
 
 /// Luxels times VPLs, for each triangle, from which shafts save more time than our hierarchy takes
 /// longer to build than Embree's (docs/performance.md, "A whole frame").
-constexpr double shafts_pay = 512;
+constexpr double shafts_pay = 128;
 
 /// Paths and discs ask ray by ray, which Embree answers fastest; so do luxels where masks forbid
 /// shafts.

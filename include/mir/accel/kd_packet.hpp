@@ -72,8 +72,9 @@ std::uint32_t PacketWalk<Set>::enter_children(KdNode node, LaneIntervals& part) 
         far.end.at[k] = part.end.at[k];
         part.end.at[k] = smaller(part.end.at[k], t);
     }
-    const std::uint32_t in_near =
-        open_ & lanes_where<Set>([&](std::uint32_t k) { return part.begin.at[k] <= part.end.at[k]; });
+    const std::uint32_t in_near = open_ & lanes_where<Set>([&](std::uint32_t k) {
+                                      return part.begin.at[k] <= part.end.at[k];
+                                  });
     const std::uint32_t in_far =
         open_ & lanes_where<Set>([&](std::uint32_t k) { return far.begin.at[k] <= far.end.at[k]; });
     const std::uint32_t near_child = node.below() + (starts_below ? 0u : 1u);
@@ -123,10 +124,9 @@ std::uint32_t PacketWalk<Set>::run() {
 /// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
 /// !is_hidden(tree, origin, point i, mask). Thread-safe.
 template <InstructionSet Set = InstructionSet::baseline>
-[[nodiscard]] std::uint32_t visible_in_packet(const KdTreeView<Space::host>& tree,
-                                                     Vec3 origin, const PointPacket& points,
-                                                     std::uint32_t active,
-                                                     const AlphaMaskView<Space::host>& mask = {}) {
+[[nodiscard]] std::uint32_t visible_in_packet(const KdTreeView<Space::host>& tree, Vec3 origin,
+                                              const PointPacket& points, std::uint32_t active,
+                                              const AlphaMaskView<Space::host>& mask = {}) {
     std::uint32_t seen = 0;
     std::uint32_t together = 0;
     const bool origin_within = within_reach(origin, tree.reach);

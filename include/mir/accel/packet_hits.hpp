@@ -25,8 +25,8 @@ inline OriginRows origin_rows(const TriangleRows& rows, Vec3 origin) {
 /// Where the ends lie on opposite sides the sign of the crossing's d is that of -s at the origin,
 /// which is why the edges are asked for that side alone.
 template <InstructionSet Set = InstructionSet::baseline>
-std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from,
-                               const PointPacket& points, std::uint32_t open) {
+std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from, const PointPacket& points,
+                        std::uint32_t open) {
     const float side = from.s < 0.0f ? 1.0f : -1.0f;
     return open & lanes_where<Set>([&](std::uint32_t k) {
                const Vec3 to{points.x[k], points.y[k], points.z[k]};

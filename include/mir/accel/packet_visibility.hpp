@@ -16,8 +16,7 @@ template <class Tree, class... Mask>
                                                       const PointPacket& points,
                                                       std::uint32_t active, const Mask&... mask) {
     std::uint32_t seen = 0;
-    run_with(best_instruction_set(),
-             [&](auto set) {
+    run_with(best_instruction_set(), [&](auto set) {
         seen = visible_in_packet<set.value>(tree, origin, points, active, mask...);
     });
     return seen;

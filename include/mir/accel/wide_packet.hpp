@@ -34,8 +34,9 @@ class PacketSlabs {
             for (std::uint32_t k = 0; k < lane_count; ++k)
                 offset_[axis].at[k] = strict::mul(from, inverse.at[k]);
             inverse_[axis] = inverse;
-            const std::uint32_t back =
-                active & lanes_where<Set>([&](std::uint32_t k) { return inverse_[axis].at[k] < 0.0f; });
+            const std::uint32_t back = active & lanes_where<Set>([&](std::uint32_t k) {
+                                           return inverse_[axis].at[k] < 0.0f;
+                                       });
             near_[axis] = 2 * axis + (back == active ? 1 : 0);
             far_[axis] = 2 * axis + (back == active ? 0 : 1);
             mixed_ = mixed_ || (back != 0 && back != active);
@@ -72,9 +73,9 @@ class PacketSlabs {
 
     LaneFloats inverse_[3];
     LaneFloats offset_[3];
-    int near_[3];         ///< plane of a node through which all lanes enter, by axis
-    int far_[3];          ///< and through which they leave
-    bool mixed_;          ///< on some axis lanes go both ways
+    int near_[3];  ///< plane of a node through which all lanes enter, by axis
+    int far_[3];   ///< and through which they leave
+    bool mixed_;   ///< on some axis lanes go both ways
 };
 
 /// A bit for each child of a node.
@@ -83,7 +84,9 @@ inline constexpr std::uint32_t all_slots = (1u << WideNode::width) - 1u;
 /// Every child may be met.
 struct AllSlots {
     template <InstructionSet>
-    [[nodiscard]] static std::uint32_t met(const WideNode&) { return all_slots; }
+    [[nodiscard]] static std::uint32_t met(const WideNode&) {
+        return all_slots;
+    }
 };
 
 /// Asks the cache for what will be read soon.
@@ -190,7 +193,8 @@ class WidePacketWalk {
         }
     }
 
-    /// Puts those of the listed children that open lanes meet on the stack, or lists their triangles.
+    /// Puts those of the listed children that open lanes meet on the stack, or lists their
+    /// triangles.
     void meet_lanes(Round& round) {
         for (std::uint32_t i = 0; i < round.child_count; ++i) {
             const WideNode& node = *round.children[i].parent;
@@ -233,8 +237,8 @@ class WidePacketWalk {
                                       std::uint32_t hit) const {
         std::uint32_t there = 0;
         for (std::uint32_t p = 0; p < Packets; ++p)
-            there |= solid_lanes(rows, bvh_.indices[t], origin_, points_[p], lanes_of_packet(hit, p),
-                                 *mask_)
+            there |= solid_lanes(rows, bvh_.indices[t], origin_, points_[p],
+                                 lanes_of_packet(hit, p), *mask_)
                      << p * lane_count;
         return there;
     }
@@ -256,10 +260,9 @@ class WidePacketWalk {
 /// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
 /// !is_hidden(bvh, origin, point i, mask). Thread-safe.
 template <InstructionSet Set = InstructionSet::baseline>
-[[nodiscard]] std::uint32_t visible_in_packet(const WideBvhView<Space::host>& bvh,
-                                                     Vec3 origin, const PointPacket& points,
-                                                     std::uint32_t active,
-                                                     const AlphaMaskView<Space::host>& mask = {}) {
+[[nodiscard]] std::uint32_t visible_in_packet(const WideBvhView<Space::host>& bvh, Vec3 origin,
+                                              const PointPacket& points, std::uint32_t active,
+                                              const AlphaMaskView<Space::host>& mask = {}) {
     std::uint32_t seen = 0;
     std::uint32_t together = 0;
     const bool origin_within = within_reach(origin, bvh.reach);
@@ -272,9 +275,8 @@ template <InstructionSet Set = InstructionSet::baseline>
             seen |= 1u << k;
     }
     if (together == 0) return seen;
-    return seen |
-           detail::WidePacketWalk<Set, detail::AllSlots>(bvh, detail::AllSlots{}, origin, &points,
-                                                         together, &mask)
+    return seen | detail::WidePacketWalk<Set, detail::AllSlots>(bvh, detail::AllSlots{}, origin,
+                                                                &points, together, &mask)
                       .run();
 }
 

@@ -57,8 +57,8 @@ run_avx512(const Body& body) {
 
 }  // namespace detail
 
-/// Calls `body()`, or `body(std::integral_constant<InstructionSet, set>)`, compiled for `set`, which
-/// the processor must have.
+/// Calls `body()`, or `body(std::integral_constant<InstructionSet, set>)`, compiled for `set`,
+/// which the processor must have.
 template <class Body>
 void run_with(InstructionSet set, const Body& body) {
 #if defined(__x86_64__)

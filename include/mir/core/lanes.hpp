@@ -81,8 +81,7 @@ inline std::uint32_t bits_of(const SlotTruths& truths) {
 /// Likewise.
 [[gnu::target("avx512f,avx512dq,avx512bw,avx512vl")]] inline std::uint32_t bits_by_avx512(
     const SlotTruths& truths) {
-    return _mm256_movepi32_mask(
-        _mm256_load_si256(reinterpret_cast<const __m256i*>(truths.at)));
+    return _mm256_movepi32_mask(_mm256_load_si256(reinterpret_cast<const __m256i*>(truths.at)));
 }
 #endif
 

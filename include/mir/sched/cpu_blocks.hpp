@@ -10,15 +10,19 @@
 #include "mir/sched/detail/luxel_block.hpp"
 #include "mir/sched/detail/page_sight.hpp"
 
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
 namespace mir::sched {
 
 /// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
 /// luxels are found and their rays traced; the lit ones of some VPLs are shaded together, sixteen
 /// luxels to a register. A
-/// BlockVisibility is asked for clusters of 256 luxels, others for packets of sixteen rays that start
-/// at the VPL. Same image as sched::Cpu in every bit where those faces give the bits of the single one,
-/// provided that the caller compiles with -ffp-contract=off. Given a KnownVisibility it traces no
-/// ray.
+/// BlockVisibility is asked for clusters of 256 luxels, others for packets of sixteen rays that
+/// start at the VPL. Same image as sched::Cpu in every bit where those faces give the bits of the
+/// single one, provided that the caller compiles with -ffp-contract=off. Given a KnownVisibility it
+/// traces no ray.
 template <Executor E>
 struct CpuBlocks {
     E& executor;                                           ///< runs blocks of luxels

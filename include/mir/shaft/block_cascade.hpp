@@ -50,8 +50,8 @@ class BlockCascade {
         open = narrow(block_.packet[g].box, chosen) ? 0 : seen_past(chosen, g, open);
     }
 
-    /// Packets g and g + 1 below the nodes that wait: together if both have open lanes, because they
-    /// mostly meet the same nodes and triangles.
+    /// Packets g and g + 1 below the nodes that wait: together if both have open lanes, because
+    /// they mostly meet the same nodes and triangles.
     void walk_pair(std::uint32_t g, std::uint32_t& first, std::uint32_t& second) {
         const BlockRecords::Cluster& pair = block_.pair[g / 2];
         if (first != 0 && second != 0 && pair.within) {
@@ -92,15 +92,15 @@ class BlockCascade {
             for (std::uint32_t rest = chosen.lanes[b]; rest != 0;) {
                 const std::uint32_t k = detail::pop_lowest(rest);
                 open &= ~detail::hit_lanes<Set>(triangles_[batch.group].rows(k), batch.origin(k),
-                                           block_.points[g], open);
+                                                block_.points[g], open);
                 if (open == 0) return 0;
             }
         }
         return open;
     }
 
-    /// Packets from `g` on, which are a cluster, below the nodes that wait, after the triangles that
-    /// blocked the packets before.
+    /// Packets from `g` on, which are a cluster, below the nodes that wait, after the triangles
+    /// that blocked the packets before.
     template <std::uint32_t Packets>
     [[nodiscard]] std::uint32_t walk(const BlockRecords::Cluster& cluster, std::uint32_t g,
                                      std::uint32_t open) {
@@ -125,7 +125,8 @@ class BlockCascade {
     const TriangleLanes* triangles_;
     const BlockRecords& block_;
     Vec3 apex_;
-    std::uint32_t blockers_[2] = {detail::no_triangle, detail::no_triangle};  ///< the last one first
+    std::uint32_t blockers_[2] = {detail::no_triangle,
+                                  detail::no_triangle};  ///< the last one first
     detail::LaneSearch search_;
 };
 

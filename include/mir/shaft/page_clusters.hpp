@@ -19,8 +19,8 @@ using PagePositions = std::array<Vec3, LuxelPage::most_luxels>;
 using PageSlots = std::array<std::uint16_t, LuxelPage::most_luxels>;
 
 /// Takes a run of luxels apart where some of its packets of sixteen reach from one surface to
-/// another (RunSizes): by the middle of the widest axis, again and again, until none does. Each part
-/// keeps the order that it had, which is that of the image: there, luxels of one surface are
+/// another (RunSizes): by the middle of the widest axis, again and again, until none does. Each
+/// part keeps the order that it had, which is that of the image: there, luxels of one surface are
 /// neighbours already.
 class SurfaceSplitter {
  public:
@@ -100,8 +100,8 @@ class SurfaceSplitter {
 
 }  // namespace detail
 
-/// The luxels of a page on the host, in an order in which packets and blocks lie close together, and
-/// masks of who of them sees some VPLs: these come in that order and leave in blocked order. It
+/// The luxels of a page on the host, in an order in which packets and blocks lie close together,
+/// and masks of who of them sees some VPLs: these come in that order and leave in blocked order. It
 /// decides speed, never bits. For one thread.
 class PageClusters {
  public:

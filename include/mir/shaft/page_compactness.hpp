@@ -23,8 +23,8 @@ struct RunSizes {
     }
     /// False when some runs reach from one surface to another: if they are few, their arithmetic
     /// mean is much larger than the harmonic one; if they are many, it is larger than for a square
-    /// that is cut into n squares, which are 1 / sqrt(n) as wide. `diagonal` is that of the box around
-    /// all runs, metres. What is no number counts as compact.
+    /// that is cut into n squares, which are 1 / sqrt(n) as wide. `diagonal` is that of the box
+    /// around all runs, metres. What is no number counts as compact.
     [[nodiscard]] MIR_HD bool are_compact(float diagonal) const {
         // Looser bounds find fewer edges, stricter ones move luxels for nothing
         // (docs/performance.md).

@@ -14,10 +14,11 @@
 namespace mir {
 
 /// Puts the luxels of a tile in an order in which every aligned run of 32 lies close together and
-/// looks the same way: kernel for groups, a page each. Pages whose runs are compact as they are stay
-/// so. Others are split as by cluster_order(), at medians along the widest of six keys, position
-/// and weighted normal, ties by index, empty luxels last; but page by page, which is as good
-/// (docs/performance.md) and needs no more memory than a group has. It decides speed, never bits.
+/// looks the same way: kernel for groups, a page each. Pages whose runs are compact as they are
+/// stay so. Others are split as by cluster_order(), at medians along the widest of six keys,
+/// position and weighted normal, ties by index, empty luxels last; but page by page, which is as
+/// good (docs/performance.md) and needs no more memory than a group has. It decides speed, never
+/// bits.
 struct PageOrder {
     /// What a group works in.
     struct Workspace {
@@ -25,10 +26,10 @@ struct PageOrder {
         std::uint64_t items[LuxelPage::most_luxels];
     };
 
-    SoaView<const Hit> hits;          ///< in blocked order
-    LuxelPages pages;                 ///< of the tile
-    float normal_weight = 0.0f;       ///< what a difference of 1 in a normal counts as, metres
-    SoaView<Hit> ordered;             ///< the same luxels, in their new slots
+    SoaView<const Hit> hits;     ///< in blocked order
+    LuxelPages pages;            ///< of the tile
+    float normal_weight = 0.0f;  ///< what a difference of 1 in a normal counts as, metres
+    SoaView<Hit> ordered;        ///< the same luxels, in their new slots
     /// By blocked index: number in its page of the new slot. `stays` in all of a page in which no
     /// luxel moves.
     std::uint32_t* places = nullptr;
