@@ -4,12 +4,16 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/vpl_set.hpp"
+#include "mir/core/error.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/data/visibility_matrix.hpp"
 #include "mir/sched/detail/block_list.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
 #include "mir/sched/detail/page_sight.hpp"
 #include "mir/shading/contribution.hpp"
+
+#include <algorithm>
+#include <vector>
 
 namespace mir {
 

@@ -32,15 +32,15 @@ TEST_CASE("The processor chooses its structure by how many pairs a triangle serv
     const auto used = [&s](const mir::Scene& scene) {
         return mirtest::render(scene, s).statistics.acceleration;
     };
-    // 1888 triangles: 512 pairs for each are 943 VPLs of this image.
+    // 1888 triangles: 128 pairs for each are 236 VPLs of this image.
     const mir::Scene sphere = mir::builtin::make("sphere");
     CHECK(used(sphere) == "embree");
-    s.vpls = 943;
+    s.vpls = 235;
     CHECK(used(sphere) == "embree");
-    s.vpls = 944;
+    s.vpls = 236;
     CHECK(used(sphere) == "bvh");
     s.luxels_per_pixel = 4;
-    s.vpls = 236;
+    s.vpls = 59;
     CHECK(used(sphere) == "bvh");
     s.acceleration = mir::Acceleration::embree;
     CHECK(used(sphere) == "embree");

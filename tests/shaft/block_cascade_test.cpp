@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/block_cascade.hpp"
 
+#include "accel/build_worlds.hpp"
 #include "shaft/block_words.hpp"
 #include "support/catch.hpp"
 
@@ -59,6 +60,20 @@ TEST_CASE("Leaves of any size are right") {
         options.leaf_size = leaf;
         const ShaftStage stage(world.geometry, lit, options);
         CHECK(different_bits(by_blocks(stage), stage.by_brute_force()) == 0);
+    }
+}
+
+TEST_CASE("Trees as deep as can be give the bits of single segments") {
+    const mirtest::World world = mirtest::nested_triangles(3000, 30);
+    const Lit lit = mirtest::random_lit(world.geometry, 512, 20, mirtest::test_random(28));
+    mir::WideBvhOptions options;
+    options.leaf_size = 1;
+    options.max_depth = mir::WideBvhOptions::depth_limit;
+    const ShaftStage stage(world.geometry, lit, options);
+    const std::vector<std::uint32_t> truth = stage.by_segments();
+    for (std::uint32_t nodes : {0u, 1u, 8u, 1000u}) {
+        CAPTURE(nodes);
+        CHECK(different_bits(by_blocks(stage, {nodes, 16}), truth) == 0);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "shaft/stepped_plane.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -84,13 +85,29 @@ TEST_CASE(
         CHECK(sizes_of(stepped_plane(layout, 3), layout).ordered_pages == 1);
     const BlockedLayout layout{2, 2};
     CHECK(sizes_of(LuxelPlanes(layout.size()), layout).ordered_pages == 0);
-    LuxelPlanes odd = stepped_plane(layout, 3);
-    const Hit nowhere{mir::Vec3(std::numeric_limits<float>::quiet_NaN()), {0, 0, 1}};
-    const Hit far_away{mir::Vec3(std::numeric_limits<float>::infinity()), {0, 0, 1}};
-    odd.view().store(17, nowhere);
-    CHECK_NOTHROW(PageClusters(std::as_const(odd).view(), LuxelPages{layout}[0]));
-    odd.view().store(17, far_away);
-    CHECK_NOTHROW(PageClusters(std::as_const(odd).view(), LuxelPages{layout}[0]));
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    const float far_away = std::numeric_limits<float>::infinity();
+    for (const float odd : {none, far_away, -far_away}) {
+        LuxelPlanes luxels = stepped_plane(layout, 3);
+        luxels.view().store(17, {mir::Vec3(odd), {0, 0, 1}});
+        const PageClusters clusters(std::as_const(luxels).view(), LuxelPages{layout}[0]);
+        std::set<std::uint32_t> slots;
+        for (std::uint32_t i = 0; i < layout.size(); ++i) slots.insert(clusters.slot(i));
+        CHECK(slots.size() == layout.size());
+        CHECK(*slots.rbegin() == layout.size() - 1);
+    }
+}
+
+TEST_CASE("Luxels at ever larger distances are put in order in few steps") {
+    const BlockedLayout layout{2, 2};
+    LuxelPlanes luxels(layout.size());
+    for (std::uint32_t i = 0; i < layout.size(); ++i) {
+        const float x = std::ldexp(1.0f, static_cast<int>(i % 200) - 100);
+        luxels.view().store(i, {mir::Vec3(x, 0.0f, 0.0f), {0, 0, 1}});
+    }
+    const PageClusters clusters(std::as_const(luxels).view(), LuxelPages{layout}[0]);
+    CHECK(clusters.is_ordered());
+    check_places(luxels, LuxelPages{layout}[0], clusters);
 }
 
 TEST_CASE("Masks of clusters come back into the order of the page's blocks") {

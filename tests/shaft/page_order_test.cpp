@@ -72,7 +72,7 @@ TEST_CASE("Pages hold every luxel of a tile once") {
 
 TEST_CASE("A page's luxels change places within the page, and clusters become small") {
     const BlockedLayout layout{5, 3};
-    const LuxelPlanes luxels = stepped_plane(layout, 20);
+    const LuxelPlanes luxels = stepped_plane(layout, 21);
     const Ordered result = ordered(luxels, layout);
     const LuxelPages pages{layout};
     for (std::uint32_t i = 0; i < pages.count(); ++i) {
@@ -115,7 +115,7 @@ TEST_CASE("A page on one surface stays as it is") {
 
 TEST_CASE("Words of ordered luxels come back into the order of the tile") {
     const BlockedLayout layout{3, 5};
-    const LuxelPlanes luxels = stepped_plane(layout, 20);
+    const LuxelPlanes luxels = stepped_plane(layout, 21);
     const Ordered result = ordered(luxels, layout);
     const LuxelPages pages{layout};
     constexpr std::uint32_t vpls = 45;

@@ -29,7 +29,7 @@ inline LuxelPlanes stepped_plane(const mir::BlockedLayout& layout, std::uint32_t
     LuxelPlanes luxels(layout.size());
     for (std::uint32_t i = 0; i < layout.size(); ++i) {
         const mir::LuxelPlace at = layout.place(i);
-        const bool is_far = at.x % (2 * step) > step;
+        const bool is_far = at.x % (2 * step) >= step;
         const mir::Hit hit{{0.01f * static_cast<float>(at.x), is_far ? 3.0f : 0.0f,
                             0.03f * static_cast<float>(at.y)},
                            i % 7 == 3 ? mir::Vec3(0.0f) : mir::Vec3(0.0f, 0.0f, 1.0f)};

@@ -28,7 +28,10 @@ class WaitingNodes {
     }
     /// Adds the root of a hierarchy of that reach, metres.
     void push_root(float reach) {
-        add(WideBvhView<Space::host>::root, [reach](int) { return Range{-reach, reach}; });
+        // More than reach and what boxes lie beyond it: as with any box, what a segment needs lies
+        // inside with room to spare.
+        const float edge = reach * (1.0f + 0x1p-16f);
+        add(WideBvhView<Space::host>::root, [edge](int) { return Range{-edge, edge}; });
     }
 
     /// Made-up nodes, which hold those that wait in the order in which they came.

@@ -11,7 +11,9 @@ namespace mir {
 /// What traversal reads of a wide bounding volume hierarchy. Every box holds the accept boxes
 /// (accept_box.hpp) of all triangles below it. There is always a root, even without triangles. The
 /// children of a node that are nodes have consecutive numbers in the order of their slots, and so
-/// have the triangles of its own leaves their places.
+/// have the triangles of its own leaves their places. A leaf holds at most
+/// WideBvhOptions::largest_leaf triangles, and no way from the root to one has more than max_depth
+/// nodes.
 template <Space S>
 struct WideBvhView {
     static constexpr Space space = S;  ///< of the memory that it points to

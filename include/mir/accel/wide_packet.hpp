@@ -5,11 +5,14 @@
 #include "mir/accel/waiting_nodes.hpp"
 #include "mir/accel/wide_traverse.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace mir {
 
-// Sixteen segments from one origin walk a wide hierarchy together: a node is fetched once, and each
-// of its children is tested against all lanes at the same time, by the numbers and with the proof
-// of wide_traverse.hpp. Loops over lanes have no branches.
+// Segments from one origin, packets of sixteen, walk a wide hierarchy together: a node is fetched
+// once, and each of its children is tested against all lanes at the same time, by the numbers and
+// with the proof of wide_traverse.hpp. Loops over lanes have no branches.
 
 namespace detail {
 
@@ -100,7 +103,7 @@ inline constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
 
 /// Some packets that walk together, and which of their lanes have met a triangle: a bit for each
 /// lane, packet after packet. `Hull` says which children of a node the lanes may meet at all,
-/// met(node), and spares asking all lanes about the others.
+/// met<Set>(node), and spares asking all lanes about the others.
 template <InstructionSet Set, class Hull, std::uint32_t Packets = 1>
 class WidePacketWalk {
  public:
@@ -120,7 +123,7 @@ class WidePacketWalk {
         for (std::uint32_t g = 0; g < roots.groups() && open_ != 0; ++g) {
             Round round;
             meet_hull(roots.group(g), roots.slots_of(g), round);
-            finish(round);
+            visit(round);
         }
         return finish();
     }
@@ -129,7 +132,7 @@ class WidePacketWalk {
     std::uint32_t run() {
         Round round;
         meet_hull(bvh_.nodes[WideBvhView<Space::host>::root], all_slots, round);
-        finish(round);
+        visit(round);
         return finish();
     }
 
@@ -150,9 +153,10 @@ class WidePacketWalk {
     /// Nodes are visited some at a time, so that loops are long and know their lengths before they
     /// begin: a processor guesses wrong once a loop, not once a node.
     static constexpr std::uint32_t nodes_at_once = 8;
-    /// A round takes nodes from the top of the stack and puts their children there, of which the
-    /// shallowest lies deeper than the shallowest of what the round before has left: so what is on
-    /// the stack comes from no more rounds than there are levels.
+    /// A round takes from the stack only what lies above what an earlier one has left there, hence
+    /// nodes below those that the earlier one put: so the shallowest node that it puts lies deeper
+    /// than the shallowest of those, and what is on the stack comes from no more rounds than there
+    /// are levels.
     static constexpr std::uint32_t most_waiting =
         (nodes_at_once * WideBvhView<Space::host>::max_depth + 1) * WideNode::width +
         WaitingNodes::capacity;
@@ -162,9 +166,9 @@ class WidePacketWalk {
         static constexpr std::uint32_t most_children = nodes_at_once * WideNode::width;
         static constexpr std::uint32_t leaf_size = WideBvhOptions::largest_leaf;
 
-        Child children[most_children + 1];  ///< that the hull meets
+        Child children[most_children];  ///< that the hull meets
         std::uint32_t child_count = 0;
-        std::uint32_t triangles[(most_children + 1) * leaf_size];  ///< of leaves that lanes meet
+        std::uint32_t triangles[most_children * leaf_size];  ///< of leaves that lanes meet
         std::uint32_t triangle_count = 0;
     };
 
@@ -175,11 +179,11 @@ class WidePacketWalk {
                 const Waiting next = stack_[--waiting_];
                 if ((next.lanes & open_) != 0) meet_hull(bvh_.nodes[next.node], all_slots, round);
             }
-            finish(round);
+            visit(round);
         }
         return open_;
     }
-    void finish(Round& round) {
+    void visit(Round& round) {
         meet_lanes(round);
         ask_triangles(round);
     }

@@ -18,14 +18,13 @@ namespace mir::sched {
 
 /// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
 /// luxels are found and their rays traced; the lit ones of some VPLs are shaded together, sixteen
-/// luxels to a register. A
-/// BlockVisibility is asked for clusters of 256 luxels, others for packets of sixteen rays that
-/// start at the VPL. Same image as sched::Cpu in every bit where those faces give the bits of the
-/// single one, provided that the caller compiles with -ffp-contract=off. Given a KnownVisibility it
-/// traces no ray.
+/// luxels to a register. A BlockVisibility is asked page by page for clusters of 256 luxels, about
+/// some VPLs at a time; others for packets of sixteen rays that start at the VPL. Same image as
+/// sched::Cpu in every bit where those faces give the bits of the single one, provided that the
+/// caller compiles with -ffp-contract=off. Given a KnownVisibility it traces no ray.
 template <Executor E>
 struct CpuBlocks {
-    E& executor;                                           ///< runs blocks of luxels
+    E& executor;                                           ///< runs blocks or pages
     Monitor* monitor = nullptr;                            ///< may be null
     InstructionSet instructions = best_instruction_set();  ///< of its loops; changes no bit
 
@@ -59,7 +58,7 @@ struct CpuBlocks {
         using V = std::remove_const_t<decltype(In::visibility)>;
         using LuxelBlock = detail::LuxelBlock<F>;
 
-        static constexpr bool by_pages = BlockVisibility<V>;
+        static constexpr bool by_pages = BlockVisibility<V> && !KnownVisibility<V>;
         using Part = std::conditional_t<by_pages, detail::PlacedPage, detail::Block>;
 
         /// A block of a page while VPLs are added to it.

@@ -30,14 +30,17 @@ class SurfaceSplitter {
 
     /// Orders `count` luxels from place `first` on; false when they stay as they are.
     bool split(std::uint32_t first, std::uint32_t count) {
-        const Box all = measure(first, count);
-        if (all.is_compact) return false;
-        const std::uint32_t low = part(first, count, widest(all), middle(all));
-        if (low != 0 && low != count) {
-            split(first, low);
-            split(first + low, count - low);
+        for (bool moved = false;; moved = true) {
+            const Box all = measure(first, count);
+            if (all.is_compact) return moved;
+            const std::uint32_t low = part(first, count, widest(all), middle(all));
+            const std::uint32_t high = count - low;
+            if (low == 0 || high == 0) return true;
+            // Goes on with the larger part, so that no more than ten calls are under way.
+            split(low < high ? first : first + low, std::min(low, high));
+            if (low < high) first += low;
+            count = std::max(low, high);
         }
-        return true;
     }
 
  private:
@@ -133,16 +136,16 @@ class PageClusters {
     void restore() {
         if (!is_ordered_) return;
         Masks found;
-        std::copy(&masks_[0][0], &masks_[count_ / width][0], &found[0][0]);
+        std::copy(masks_.begin(), masks_.begin() + count_ / width, found.begin());
         for (std::uint32_t g = 0; g < count_ / width; ++g) {
-            std::uint32_t mask[most_vpls] = {};
+            PacketMasks masks{};
             for (std::uint32_t bit = 0; bit < width; ++bit) {
                 const std::uint32_t place = places_[g * width + bit];
-                const std::uint32_t* from = found[place / width];
+                const PacketMasks& from = found[place / width];
                 for (std::uint32_t k = 0; k < most_vpls; ++k)
-                    mask[k] |= (from[k] >> place % width & 1u) << bit;
+                    masks[k] |= (from[k] >> place % width & 1u) << bit;
             }
-            std::copy(mask, mask + most_vpls, masks_[g]);
+            masks_[g] = masks;
         }
     }
 
@@ -158,8 +161,9 @@ class PageClusters {
     static constexpr std::uint32_t width = PointPacket::width;
     static constexpr std::size_t most_words =
         std::size_t{SoaView<Hit>::words} * LuxelPage::most_luxels;
-    /// By packet and VPL: loops over VPLs are loops over neighbours in memory.
-    using Masks = std::uint32_t[LuxelPage::most_luxels / width][most_vpls];
+    /// By VPL: loops over VPLs are loops over neighbours in memory.
+    using PacketMasks = std::array<std::uint32_t, most_vpls>;
+    using Masks = std::array<PacketMasks, LuxelPage::most_luxels / width>;
 
     [[nodiscard]] SoaView<Hit> planes() { return {words_.data(), count_}; }
 

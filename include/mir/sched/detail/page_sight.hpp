@@ -9,10 +9,11 @@
 
 namespace mir::sched::detail {
 
-/// One page of a submitted tile: the grain of parallel work where blocks are asked for as a whole.
+/// One page of a submitted tile: the grain of parallel work where visibility is asked for 256
+/// luxels at a time.
 struct PlacedPage {
-    TileIndex tile = 0;
-    LuxelPage page;
+    TileIndex tile = 0;  ///< of the image or band
+    LuxelPage page;      ///< of that tile
 };
 
 /// Appends the pages of a tile.
@@ -54,12 +55,13 @@ class PageSight {
     template <VplSet P, class Matters>
     [[gnu::always_inline]] void look(const P& vpls, VplIndex first, std::uint32_t count,
                                      const Matters& matters) {
-        for (std::uint32_t c = 0; c < blocks_.size(); ++c)
-            for (std::uint32_t k = 0; k < count; ++k) {
-                const Vpl vpl = vpls[first + k];
-                const bool is_asked = matters(vpl) && !blocks_[c].cannot_face(vpl);
-                clusters_.set(c, k, is_asked ? sights_[c](vpl) : BlockMask{});
-            }
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const Vpl vpl = vpls[first + k];
+            const bool is_asked = matters(vpl);
+            for (std::uint32_t c = 0; c < blocks_.size(); ++c)
+                clusters_.set(
+                    c, k, is_asked && !blocks_[c].cannot_face(vpl) ? sights_[c](vpl) : BlockMask{});
+        }
         clusters_.restore();
     }
 
