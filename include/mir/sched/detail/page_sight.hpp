@@ -30,8 +30,7 @@ class PageSight {
     static constexpr std::uint32_t most_vpls = PageClusters::most_vpls;  ///< at a time
 
     /// Of a page of a tile; the luxel in a slot of the page counts if it sees something and
-    /// `wanted(slot)`.
-    /// `visibility` must outlive it.
+    /// `wanted(slot)`. `visibility` must outlive it.
     template <class Wanted>
     PageSight(const SoaView<const Hit>& tile, const LuxelPage& page, const V& visibility,
               InstructionSet set, const Wanted& wanted)
@@ -49,6 +48,7 @@ class PageSight {
     }
     PageSight(const PageSight&) = delete;
     PageSight& operator=(const PageSight&) = delete;
+    ~PageSight() = default;
 
     /// Asks for VPLs first .. first + count - 1, at most `most_vpls`, of which those count that
     /// `matters(vpl)`: nobody sees the others.
