@@ -72,24 +72,12 @@ TEST_CASE("A matrix filled by whole blocks has the bits of single segments") {
     }
 }
 
-TEST_CASE("The image of sched::CpuBlocks does not depend on the size of tiles") {
+TEMPLATE_TEST_CASE("The image of sched::CpuBlocks does not depend on the size of tiles", "",
+                   BruteStage<mir::CookTorrance>, ShaftStage<mir::CookTorrance>) {
     const mir::VplShading<mir::CookTorrance> shading{2.0f};
-    const auto wanted =
-        mirtest::oracle(BruteStage<mir::CookTorrance>({100, 70}, {48, 32}, 37), shading);
+    const auto wanted = mirtest::oracle(TestType({100, 70}, {48, 32}, 37), shading);
     const std::uint32_t side = GENERATE(5u, 16u, 64u, 256u);
-    const BruteStage<mir::CookTorrance> stage({100, 70}, {side, side}, 37);
-    mir::InlineExecutor executor;
-    const auto found = mir::reconstruct(mir::sched::CpuBlocks{executor}, stage.gbuffer(),
-                                        stage.vpls(), stage.visibility(), shading);
-    CHECK(mirtest::pixels_that_differ(found, wanted) == 0);
-}
-
-TEST_CASE("Pages that tiles cut change no bit of the image") {
-    const mir::VplShading<mir::CookTorrance> shading{2.0f};
-    const auto wanted =
-        mirtest::oracle(ShaftStage<mir::CookTorrance>({100, 70}, {48, 32}, 37), shading);
-    const std::uint32_t side = GENERATE(5u, 16u, 64u, 256u);
-    const ShaftStage<mir::CookTorrance> stage({100, 70}, {side, side}, 37);
+    const TestType stage({100, 70}, {side, side}, 37);
     mir::InlineExecutor executor;
     const auto found = mir::reconstruct(mir::sched::CpuBlocks{executor}, stage.gbuffer(),
                                         stage.vpls(), stage.visibility(), shading);
