@@ -29,13 +29,15 @@ Answers answers(int draws, float share) {
         const mir::Pyramid pyramid = mir::make_pyramid(d.cluster, d.apex, sigma);
         SegmentForms forms;
         if (occlusion(d.rows, pyramid, forms) != mir::Occlusion::partial) continue;
-        forms.margin *= share;
-        const float plane = share * mir::OcclusionMargins::plane * sigma;
+        forms.margins = {share * forms.margins.u, share * forms.margins.v,
+                         share * forms.margins.w};
+        const mir::SureForms sure =
+            in_margins(forms, share * mir::OcclusionMargins::plane * sigma);
         for (int k = 0; k < 8; ++k) {
             const Vec3 p = mirtest::random_luxel(random, d.cluster);
-            const mir::SegmentValues at = values_at(forms, p - pyramid.centre);
-            const bool hit = surely_hit(at, forms, plane);
-            const bool missed = surely_missed(at, forms, plane);
+            const float value = sure.at(p - pyramid.centre);
+            const bool hit = value > 1.0f;
+            const bool missed = value < -1.0f;
             const bool truth = mir::hits_segment(d.rows, p, d.apex);
             ++answers.asked;
             answers.hit += hit ? 1 : 0;
@@ -56,7 +58,9 @@ TEST_CASE("What forms say of a segment surely is so") {
     CHECK(found.wrong == 0);
 }
 
-TEST_CASE("Forms without margins say wrong things") { CHECK(answers(200000, 0.0f).wrong > 100); }
+TEST_CASE("Forms with next to no margins say wrong things") {
+    CHECK(answers(200000, 1e-6f).wrong > 100);
+}
 
 TEST_CASE("Nothing is sure of a triangle in whose plane the apex lies, nor of what is no number") {
     const mir::TriangleRows rows = mir::make_triangle_rows({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -68,8 +72,8 @@ TEST_CASE("Nothing is sure of a triangle in whose plane the apex lies, nor of wh
         const mir::Pyramid pyramid = mir::make_pyramid(cluster, apex, 1e-6f);
         SegmentForms forms;
         REQUIRE(occlusion(rows, pyramid, forms) == mir::Occlusion::partial);
-        const mir::SegmentValues at = values_at(forms, end);
-        return surely_hit(at, forms, 2e-6f) || surely_missed(at, forms, 2e-6f);
+        const float value = in_margins(forms, 2e-6f).at(end);
+        return value > 1.0f || value < -1.0f;
     };
     CHECK_FALSE(says_something({0.5f, -3.0f, 0.0f}, Vec3(0)));
     CHECK(says_something({0.2f, 0.2f, -1.0f}, {-0.3f, -0.3f, 0.0f}));

@@ -62,11 +62,11 @@ struct alignas(16) NodeLinks {
  private:
     [[nodiscard]] MIR_HD static std::uint32_t half(std::uint32_t ends, std::uint32_t slots) {
         std::uint32_t bits = 0;
-        for (; slots != 0; slots &= slots - 1) {
-            const std::uint32_t shift = 8 * LaneGroup::lowest(slots);
-            const std::uint32_t end = ends >> shift & 0xFFu;
-            const std::uint32_t begin = (ends << 8) >> shift & 0xFFu;
-            bits |= ((1u << (end - begin)) - 1u) << (begin & 31u);
+        std::uint32_t begin = 0;
+        for (std::uint32_t k = 0; k < WideNode::width / 2; ++k) {
+            const std::uint32_t end = ends >> 8 * k & 0xFFu;
+            if ((slots >> k & 1u) != 0) bits |= LaneGroup::bits(begin, end - begin);
+            begin = end;
         }
         return bits;
     }

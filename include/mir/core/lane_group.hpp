@@ -91,6 +91,18 @@ class LaneGroup {
 #endif
     }
 
+    /// For each lane the value of the lane whose number, 0 to width - 1, it has in `from`.
+    [[nodiscard]] MIR_HD PerLane<std::uint32_t> gather(const PerLane<std::uint32_t>& values,
+                                                       const PerLane<std::uint32_t>& from) const {
+        PerLane<std::uint32_t> gathered;
+#if defined(__CUDA_ARCH__)
+        gathered[0] = __shfl_sync(all, values[0], static_cast<int>(from[0]));
+#else
+        for (std::uint32_t lane = 0; lane < width; ++lane) gathered[lane] = values[from[lane]];
+#endif
+        return gathered;
+    }
+
     /// Replaces each value by the sum of those of the lanes before; returns the sum of all.
     MIR_HD std::uint32_t sums_before(PerLane<std::uint32_t>& values) const {
 #if defined(__CUDA_ARCH__)
@@ -156,6 +168,17 @@ class LaneGroup {
     /// Number of bits that are set below a lane's.
     [[nodiscard]] MIR_HD static std::uint32_t count_before(std::uint32_t bits, std::uint32_t lane) {
         return count(bits & ((1u << lane) - 1u));
+    }
+
+    /// `n` bits from bit `first` on; what lies beyond the last one is left out.
+    [[nodiscard]] MIR_HD static std::uint32_t bits(std::uint32_t first, std::uint32_t n) {
+#if defined(__CUDA_ARCH__)
+        std::uint32_t mask = 0;
+        asm("bmsk.clamp.b32 %0, %1, %2;" : "=r"(mask) : "r"(first), "r"(n));
+        return mask;
+#else
+        return first < width ? (n < width ? (1u << n) - 1u : all) << first : 0u;
+#endif
     }
 
     /// Number of bits that are set.

@@ -3,6 +3,7 @@
 
 #include "mir/concepts/backend.hpp"
 #include "mir/shaft/cluster_lists.hpp"
+#include "mir/shaft/cluster_shafts.hpp"
 #include "mir/shaft/cluster_visibility.hpp"
 #include "mir/shaft/facing_pass.hpp"
 #include "mir/shaft/group_records.hpp"

@@ -66,7 +66,7 @@ inline constexpr float largest_margin = 1e30f;
 /// the VPL at `apex` than `spread` in a coordinate, metres.
 inline void prepare_lanes(const TriangleLanes& triangles, Vec3 apex, float spread, float sigma,
                           CandidateLanes& lanes) {
-    const float sigmas = OcclusionMargins::edge * sigma;
+    const float sigmas = 4.0f * sigma;
     for (std::uint32_t k = 0; k < lane_count; ++k) {
         const AffineRow s = triangles.s.row(k);
         const AffineRow u = triangles.u.row(k);

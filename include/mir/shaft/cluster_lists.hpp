@@ -2,39 +2,27 @@
 #pragma once
 
 #include "mir/concepts/vpl_set.hpp"
-#include "mir/shaft/cluster_shafts.hpp"
+#include "mir/shaft/kept_forms.hpp"
+#include "mir/shaft/list_batch.hpp"
+#include "mir/shaft/occlusion.hpp"
 
 namespace mir {
 
-/// Decides pairs of 32 luxels and a VPL by the leaves that their shafts meet: kernel for groups,
-/// one pair after another. First a triangle per lane against the pyramid, then a luxel per lane
-/// against the triangles that are partial. Pairs with too many triangles are queued.
+/// Decides pairs of 32 luxels and a VPL by the leaves that their shafts meet: kernel for groups, a
+/// few pairs at a time. First a triangle per lane against the pyramid of its pair, then, pair by
+/// pair, a luxel per lane against the triangles that are partial. Pairs with too many triangles are
+/// queued.
 template <Space S, VplSet P>
 struct ClusterLists {
-    static constexpr std::uint32_t most_triangles = 192;  ///< of a pair
-    /// Partial triangles that are kept until luxels are asked; more are asked about in turns. Few,
-    /// because what groups work in is taken from the cache of the nodes and triangles.
-    static constexpr std::uint32_t most_forms = LaneGroup::width;
-    /// Lists that a group takes together: neighbours, which share nodes and triangles.
-    static constexpr std::uint32_t lists_at_once = 4;
     /// As BlockShafts::resident_blocks.
     static constexpr std::uint32_t resident_blocks = 10;
 
-    /// Numbers of a SegmentForms that are no row. Aligned so that the device moves it as one word.
-    struct alignas(8) FormScalars {
-        float depth;   ///< metres
-        float margin;  ///< metres
-    };
-
-    /// What a group works in. Rows stand in arrays of their own: 32 lanes that write whole forms,
-    /// 64 bytes apart, meet in few banks of the device's memory and take four times as long.
+    /// What a group works in: little, because it is taken from the cache of nodes and triangles.
     struct Workspace {
-        PlainRow beyond[most_forms];              ///< of triangles that are partial
-        PlainRow u[most_forms];                   ///< of the same
-        PlainRow v[most_forms];                   ///< of the same
-        FormScalars scalars[most_forms];          ///< of the same
-        std::uint32_t partial[most_forms];        ///< the same, by place in the hierarchy
-        std::uint32_t triangles[most_triangles];  ///< of a pair, by place in the hierarchy
+        KeptForms forms;                                     ///< of triangles that are partial
+        std::uint32_t partial[KeptForms::capacity];          ///< the same, by place
+        std::uint32_t triangles[ListBatch::most_triangles];  ///< of all pairs, by place
+        Pyramid pyramids[ListBatch::most_lists];             ///< of the pairs
     };
 
     SoaView<const Hit> hits;                  ///< in cluster order
@@ -49,181 +37,209 @@ struct ClusterLists {
 
     /// Takes pairs from `listed` until none is left: any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace& space) const {
+        constexpr std::uint32_t at_once = ListBatch::most_lists;
         const std::uint32_t count = listed.size();
-        std::uint32_t next = listed.take(group, lists_at_once);
+        std::uint32_t next = listed.take(group, at_once);
         while (next < count) {
-            const std::uint32_t first = next;
+            std::uint32_t at = next;
             // Asked for before it is needed, because the answer takes its time.
-            next = listed.take(group, lists_at_once);
-            const std::uint32_t end = first + lists_at_once < count ? first + lists_at_once : count;
-            for (std::uint32_t at = first; at < end; ++at) decide(group, listed.items[at], space);
+            next = listed.take(group, at_once);
+            const std::uint32_t end = at + at_once < count ? at + at_once : count;
+            while (at < end) at += decide(group, listed.items + at, end - at, space);
         }
     }
 
  private:
-    static constexpr std::uint32_t too_many = 0xFFFFFFFFu;
-
-    /// The segments of a pair.
-    struct Cone {
-        const Pyramid& pyramid;
-        const LaneGroup::PerLane<Vec3>& luxels;  ///< their ends, metres
+    /// What is known of a batch.
+    struct Progress {
+        LaneGroup::PerLane<std::uint32_t> lit;  ///< lane k: luxels of pair k that no triangle hides
+        std::uint32_t dark = 0;                 ///< bit k: no luxel of pair k is lit
+        std::uint32_t list = 0;                 ///< the pair whose triangles come next
+        std::uint32_t first_form = 0;           ///< of that pair
+        std::uint32_t end_form = 0;             ///< behind the last one; 0: there are none
     };
 
-    MIR_HD void decide(const LaneGroup& group, ListedPair list, Workspace& space) const {
-        // What is read here arrives while the list is unpacked.
-        const OpenPair pair = list.pair;
-        std::uint32_t& word = words[std::size_t{pair.cluster} * vpls.size() + pair.vpl];
-        const std::uint32_t before = word;
-        const ClusterRecord cluster = clusters[pair.cluster];
-        const Vec3 apex = vpls[pair.vpl].position;
-        LaneGroup::PerLane<Vec3> luxels;
+    /// Decides the first of `count` pairs and as many of the others as a batch holds; returns how
+    /// many.
+    MIR_HD std::uint32_t decide(const LaneGroup& group, const ListedPair* lists,
+                                std::uint32_t count, Workspace& space) const {
+        ListBatch batch;
+        unpack_lists(group, bvh, pool, lists, count, batch, space.triangles);
+        if (batch.lists == 0) {
+            static_cast<void>(open.append(group, 1u, [&](std::uint32_t lane) {
+                return OpenPair{batch.clusters[lane], batch.vpls[lane]};
+            }));
+            return 1;
+        }
+        Progress progress;
+        LaneGroup::PerLane<std::uint32_t> before;
         group.each([&](std::uint32_t lane) {
-            luxels[lane] = hits.load(pair.cluster * cluster_luxels + lane).position;
+            if (lane >= batch.lists) return;
+            before[lane] = word_of(batch, lane);
+            progress.lit[lane] = before[lane];
+            space.pyramids[lane] = make_pyramid(clusters[batch.clusters[lane]],
+                                                vpls[batch.vpls[lane]].position, sigma);
         });
-        const std::uint32_t count = unpack(group, list, space);
-        if (count == too_many) {
-            static_cast<void>(open.append(group, 1u, [&](std::uint32_t) { return pair; }));
-            return;
-        }
-        const Pyramid pyramid = make_pyramid(cluster, apex, sigma);
-        const std::uint32_t lit = lit_behind_all(group, {pyramid, luxels}, before, count, space);
+        for (std::uint32_t first = 0; first < batch.triangles;)
+            first = test(group, batch, first, progress, space);
         group.each([&](std::uint32_t lane) {
-            if (lane == 0 && lit != before) word = lit;
+            if (lane >= batch.lists) return;
+            const bool is_dark = (progress.dark >> lane & 1u) != 0;
+            const std::uint32_t lit = is_dark ? 0 : progress.lit[lane];
+            if (lit != before[lane]) word_of(batch, lane) = lit;
         });
+        return batch.lists;
     }
 
-    /// Writes the triangles of a pair's leaves to the workspace, a node per lane; returns how many
-    /// there are.
-    [[nodiscard]] MIR_HD std::uint32_t unpack(const LaneGroup& group, const ListedPair& list,
-                                              Workspace& space) const {
-        std::uint32_t written = 0;
-        for (std::uint32_t first = 0; first < list.nodes; first += LaneGroup::width) {
-            LaneGroup::PerLane<LeafTriangles> triangles;
-            LaneGroup::PerLane<std::uint32_t> place;
-            group.each([&](std::uint32_t lane) {
-                const MetLeaves met =
-                    first + lane < list.nodes ? pool[list.first + first + lane] : MetLeaves{};
-                triangles[lane] = bvh.links[met.node()].leaves(met.slots());
-                place[lane] = triangles[lane].count();
-            });
-            const std::uint32_t count = group.sums_before(place);
-            if (written + count > most_triangles) return too_many;
-            group.each([&](std::uint32_t lane) {
-                std::uint32_t* out = space.triangles + written + place[lane];
-                triangles[lane].for_each([&](std::uint32_t triangle) { *out++ = triangle; });
-            });
-            written += count;
-        }
-        return written;
+    [[nodiscard]] MIR_HD std::uint32_t& word_of(const ListBatch& batch, std::uint32_t lane) const {
+        return words[std::size_t{batch.clusters[lane]} * vpls.size() + batch.vpls[lane]];
     }
 
-    /// Luxels of `lit` whose segments none of the first `count` triangles hits.
-    [[nodiscard]] MIR_HD std::uint32_t lit_behind_all(const LaneGroup& group, const Cone& cone,
-                                                      std::uint32_t lit, std::uint32_t count,
-                                                      Workspace& space) const {
-        std::uint32_t kept = 0;
-        for (std::uint32_t first = 0; first < count; first += LaneGroup::width) {
-            LaneGroup::PerLane<Occlusion> found;
-            LaneGroup::PerLane<SegmentForms> forms;
-            LaneGroup::PerLane<std::uint32_t> triangles;
-            group.each([&](std::uint32_t lane) {
-                // Lanes without a triangle test another's, so that all have forms.
-                const bool is_own = first + lane < count;
-                triangles[lane] = space.triangles[is_own ? first + lane : first];
-                const TriangleRows& rows = bvh.exact.triangles[triangles[lane]];
-                found[lane] = occlusion(rows, cone.pyramid, forms[lane]);
-                if (!is_own) found[lane] = Occlusion::none;
-            });
-            if (group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::full; }) !=
-                0)
-                return 0;
-            const std::uint32_t partial =
-                group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::partial; });
-            if (kept + LaneGroup::count(partial) > most_forms) {
-                lit = lit_behind(group, cone, lit, kept, space);
-                kept = 0;
-                if (lit == 0) return 0;
-            }
-            group.each([&](std::uint32_t lane) {
-                if ((partial >> lane & 1u) != 0)
-                    keep(forms[lane], triangles[lane],
-                         kept + LaneGroup::count_before(partial, lane), space);
-            });
-            kept += LaneGroup::count(partial);
-        }
-        return lit_behind(group, cone, lit, kept, space);
-    }
-
-    MIR_HD static void keep(const SegmentForms& forms, std::uint32_t triangle, std::uint32_t at,
-                            Workspace& space) {
-        space.beyond[at] = forms.beyond;
-        space.u[at] = forms.u;
-        space.v[at] = forms.v;
-        space.scalars[at] = {forms.depth, forms.margin};
-        space.partial[at] = triangle;
-    }
-    [[nodiscard]] MIR_HD static SegmentForms kept_forms(std::uint32_t at, const Workspace& space) {
-        const FormScalars scalars = space.scalars[at];
-        return {space.beyond[at], space.u[at], space.v[at], scalars.depth, scalars.margin};
-    }
-
-    /// What a lane knows of its luxel's segment.
-    struct Segment {
-        Vec3 end;              ///< from the centre of the pyramid's base, metres
-        std::uint32_t lit;     ///< 1: no triangle is known to hit it
-        std::uint32_t unsure;  ///< bit k: the margins of triangle k leave it open
-    };
-
-    /// The same by the first `count` of the triangles that are partial, a luxel per lane. Those
-    /// that are left open are asked exactly, and last: by then most of the segments are hidden.
-    [[nodiscard]] MIR_HD std::uint32_t lit_behind(const LaneGroup& group, const Cone& cone,
-                                                  std::uint32_t lit, std::uint32_t count,
-                                                  const Workspace& space) const {
-        LaneGroup::PerLane<Segment> segments;
+    /// Tests the triangles from `first` on, one per lane, and ends the pairs whose last one is
+    /// among them. Returns which one is next.
+    MIR_HD std::uint32_t test(const LaneGroup& group, const ListBatch& batch, std::uint32_t first,
+                              Progress& progress, Workspace& space) const {
+        const LaneGroup::PerLane<std::uint32_t> list = batch.lists_from(group, first);
+        LaneGroup::PerLane<Occlusion> found;
+        LaneGroup::PerLane<SegmentForms> forms;
+        LaneGroup::PerLane<std::uint32_t> triangle;
         group.each([&](std::uint32_t lane) {
-            segments[lane] = {cone.luxels[lane] - cone.pyramid.centre, lit >> lane & 1u, 0};
+            // Lanes without a triangle test another's, so that all have forms.
+            const bool is_own = first + lane < batch.triangles;
+            triangle[lane] = space.triangles[is_own ? first + lane : first];
+            Pyramid pyramid = space.pyramids[is_own ? list[lane] : progress.list];
+            pyramid.sigma = sigma;  // which all lanes know
+            found[lane] = occlusion(bvh.exact.triangles[triangle[lane]], pyramid, forms[lane]);
+            if (!is_own) found[lane] = Occlusion::none;
         });
-        for (std::uint32_t k = 0; k < count; k += 2) {
-            group.each([&](std::uint32_t lane) {
-                ask(kept_forms(k, space), k, segments[lane]);
-                if (k + 1 < count) ask(kept_forms(k + 1, space), k + 1, segments[lane]);
-            });
-            if (lit_of(group, segments) == 0) return 0;
+        const std::uint32_t full =
+            group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::full; });
+        const std::uint32_t partial =
+            group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::partial; });
+        if (progress.end_form + LaneGroup::count(partial) > KeptForms::capacity) {
+            ask(group, batch, progress, space);
+            progress.first_form = progress.end_form = 0;
         }
-        ask_exactly(group, cone, space, segments);
-        return lit_of(group, segments);
+        const std::uint32_t first_kept = progress.end_form;
+        group.each([&](std::uint32_t lane) {
+            if ((partial >> lane & 1u) == 0) return;
+            const std::uint32_t at = first_kept + LaneGroup::count_before(partial, lane);
+            space.forms.put(at, in_margins(forms[lane], OcclusionMargins::plane * sigma));
+            space.partial[at] = triangle[lane];
+        });
+        return end_lists(group, batch, first, full, partial, progress, space);
     }
 
-    /// Asks triangle `k`.
-    MIR_HD void ask(const SegmentForms& forms, std::uint32_t k, Segment& segment) const {
-        const float plane = OcclusionMargins::plane * sigma;
-        const SegmentValues at = values_at(forms, segment.end);
-        const bool is_hit = surely_hit(at, forms, plane);
-        const bool is_decided = is_hit | surely_missed(at, forms, plane);
-        segment.unsure |= is_decided ? 0u : 1u << k;
-        segment.lit = is_hit ? 0u : segment.lit;
-    }
-
-    /// Asks the triangles that leave segments open.
-    MIR_HD void ask_exactly(const LaneGroup& group, const Cone& cone, const Workspace& space,
-                            LaneGroup::PerLane<Segment>& segments) const {
+    /// Ends the pairs whose last triangle is among the 32 from `first` on. Bits of `full` and
+    /// `partial` tell what those do. Returns the first triangle that is left.
+    MIR_HD std::uint32_t end_lists(const LaneGroup& group, const ListBatch& batch,
+                                   std::uint32_t first, std::uint32_t full, std::uint32_t partial,
+                                   Progress& progress, Workspace& space) const {
         for (;;) {
-            const std::uint32_t asked = group.any_bits(
-                [&](std::uint32_t lane) { return segments[lane].lit * segments[lane].unsure; });
-            if (asked == 0) return;
-            const std::uint32_t k = LaneGroup::lowest(asked);
-            const TriangleRows& rows = bvh.exact.triangles[space.partial[k]];
-            group.each([&](std::uint32_t lane) {
-                segments[lane].unsure &= ~(1u << k);
-                if (hits_segment(rows, cone.pyramid.apex, cone.luxels[lane]))
-                    segments[lane].lit = 0;
-            });
+            const std::uint32_t end = group.broadcast(batch.ends, progress.list);
+            const std::uint32_t its = LaneGroup::bits(0, end - first);
+            progress.end_form += LaneGroup::count(partial & its);
+            if ((full & its) != 0) progress.dark |= 1u << progress.list;
+            const bool is_dark = (progress.dark >> progress.list & 1u) != 0;
+            if (end > first + LaneGroup::width && !is_dark) return first + LaneGroup::width;
+            if (!is_dark) ask(group, batch, progress, space);
+            progress.first_form = progress.end_form;
+            if (++progress.list == batch.lists) return batch.triangles;
+            if (end >= first + LaneGroup::width) {
+                progress.first_form = progress.end_form = 0;
+                return end;
+            }
+            full &= ~its;
+            partial &= ~its;
         }
     }
 
-    [[nodiscard]] MIR_HD static std::uint32_t lit_of(const LaneGroup& group,
-                                                     const LaneGroup::PerLane<Segment>& segments) {
-        return group.ballot([&](std::uint32_t lane) { return segments[lane].lit != 0; });
+    /// What a lane knows of two luxels, `lane` % 16 and the one 16 behind it: lanes 0 to 15 ask every
+    /// other form, lanes 16 to 31 those between, so that a form is read for two luxels.
+    struct Segments {
+        Vec3 luxel[2];           ///< metres
+        Vec3 end[2];             ///< from the centre of the pyramid's base, metres
+        bool is_hit[2];          ///< surely
+        std::uint32_t unsure;    ///< bit k: one of the two is not sure of the k-th form before the last
+    };
+    static constexpr std::uint32_t half = LaneGroup::width / 2;
+
+    /// Which luxels of the pair that comes next the forms leave lit. Triangles that are not sure are
+    /// asked exactly, and last: by then most of the segments are hidden.
+    MIR_HD void ask(const LaneGroup& group, const ListBatch& batch, Progress& progress,
+                    const Workspace& space) const {
+        if (progress.first_form == progress.end_form) return;
+        const std::uint32_t last = progress.end_form - 1;
+        const std::uint32_t steps = (last - progress.first_form) / 2 + 1;
+        const std::uint32_t first_luxel =
+            cluster_luxels * group.broadcast(batch.clusters, progress.list);
+        const Pyramid& pyramid = space.pyramids[progress.list];
+        LaneGroup::PerLane<Segments> segments;
+        LaneGroup::PerLane<std::uint32_t> form;
+        group.each([&](std::uint32_t lane) {
+            Segments& s = segments[lane];
+            for (std::uint32_t j = 0; j < 2; ++j) {
+                s.luxel[j] = hits.load(first_luxel + lane % half + j * half).position;
+                s.end[j] = s.luxel[j] - pyramid.centre;
+                s.is_hit[j] = false;
+            }
+            s.unsure = 0;
+            form[lane] = progress.first_form + lane / half;
+        });
+        for (std::uint32_t step = 0; step < steps; ++step)
+            group.each([&](std::uint32_t lane) {
+                // The last form once more where there is no other.
+                ask(space.forms.get(form[lane] < last ? form[lane] : last), segments[lane]);
+                form[lane] += 2;
+            });
+        std::uint32_t lit = group.broadcast(progress.lit, progress.list);
+        for (std::uint32_t j = 0; j < 2; ++j) {
+            const std::uint32_t hit =
+                group.ballot([&](std::uint32_t lane) { return segments[lane].is_hit[j]; });
+            lit &= ~(((hit | hit >> half) & 0xFFFFu) << j * half);
+        }
+        if (lit != 0) lit = ask_exactly(group, pyramid.apex, progress, segments, lit, space);
+        group.each([&](std::uint32_t lane) {
+            if (lane == progress.list) progress.lit[lane] = lit;
+        });
+        if (lit == 0) progress.dark |= 1u << progress.list;
+    }
+
+    MIR_HD static void ask(const SureForms& forms, Segments& s) {
+        const float first = forms.at(s.end[0]);
+        const float second = forms.at(s.end[1]);
+        s.is_hit[0] = s.is_hit[0] | (first > 1.0f);
+        s.is_hit[1] = s.is_hit[1] | (second > 1.0f);
+        const bool is_sure = fminf(fabsf(first), fabsf(second)) > 1.0f;
+        s.unsure = 2 * s.unsure + (is_sure ? 0u : 1u);
+    }
+
+    /// Luxels of `lit` that are not hit by the triangles that leave segments open either.
+    [[nodiscard]] MIR_HD std::uint32_t ask_exactly(const LaneGroup& group, Vec3 apex,
+                                                   const Progress& progress,
+                                                   const LaneGroup::PerLane<Segments>& segments,
+                                                   std::uint32_t lit, const Workspace& space) const {
+        const std::uint32_t last = progress.end_form - 1;
+        const std::uint32_t last_step = (last - progress.first_form) / 2;
+        for (std::uint32_t h = 0; h < 2; ++h) {
+            std::uint32_t asked = group.any_bits([&](std::uint32_t lane) {
+                const bool is_asked =
+                    lane / half == h && (lit >> lane % half & 0x10001u) != 0;
+                return is_asked ? segments[lane].unsure : 0u;
+            });
+            for (; asked != 0 && lit != 0; asked &= asked - 1) {
+                const std::uint32_t form =
+                    progress.first_form + 2 * (last_step - LaneGroup::lowest(asked)) + h;
+                const TriangleRows& rows =
+                    bvh.exact.triangles[space.partial[form < last ? form : last]];
+                lit &= group.ballot([&](std::uint32_t lane) {
+                    const Segments& s = segments[lane];
+                    return (lit >> lane & 1u) != 0 &&
+                           !hits_segment(rows, apex, lane < half ? s.luxel[0] : s.luxel[1]);
+                });
+            }
+        }
+        return lit;
     }
 };
 

@@ -14,13 +14,14 @@ enum class Occlusion : std::uint8_t {
     full      ///< it hits all of them
 };
 
-/// A VPL and the box of a cluster, as triangles are tested against them.
-struct Pyramid {
-    Vec3 apex{0};         ///< the VPL, metres
-    Vec3 centre{0};       ///< of the box, up to rounding
-    Vec3 half{0};         ///< the box keeps within centre -+ half
-    float spread = 0.0f;  ///< no coordinate of a point of the box is farther from the VPL's, metres
-    float sigma = 0.0f;   ///< of the scene, metres
+/// A VPL and the box of a cluster, as triangles are tested against them. Without defaults, and
+/// aligned so that the device moves it as three words.
+struct alignas(16) Pyramid {
+    Vec3 apex;     ///< the VPL, metres
+    float spread;  ///< no coordinate of a point of the box is farther from the VPL's, metres
+    Vec3 centre;   ///< of the box, up to rounding
+    float sigma;   ///< of the scene, metres
+    Vec3 half;     ///< the box keeps within centre -+ half
 };
 
 /// Pyramid of a cluster that has luxels and a VPL at `apex`, metres. `sigma` as for the cluster.
@@ -35,12 +36,12 @@ struct Pyramid {
     return p;
 }
 
-/// How far from 0 a bound must be for hits_segment() to compute numbers of its sign, in units of
-/// sigma for the plane and of sigma (1 + |u| + |v| at the apex + gradients times lengths) for the
-/// edges. docs/shafts.md derives 1.31 and 3.69 of them.
+/// How far from 0 a bound must be for hits_segment() to compute numbers of its sign: of the distance
+/// from the plane in units of sigma, of the edges in those of edge_margins(). docs/shafts.md
+/// derives 1.8 and 0.96 of them.
 struct OcclusionMargins {
     static constexpr float plane = 2.0f;  ///< of the distance from the plane
-    static constexpr float edge = 4.0f;   ///< of U, V and W
+    static constexpr float edge = 1.0f;   ///< of U, V and W
 };
 
 namespace detail {
@@ -103,13 +104,18 @@ struct ApexRows {
     float depth = 0.0f;  ///< distance from the plane, metres
 };
 
-/// Margin of the three forms below, metres.
-MIR_HD inline float edge_margin(const TriangleRows& rows, const Pyramid& p, const ApexRows& apex,
-                                float sigmas) {
-    const float gradients = strict::add(l1_of_gradient(rows.u), l1_of_gradient(rows.v));
-    const float varied = strict::mul(gradients, strict::add(p.spread, apex.depth));
-    const float at_apex = strict::add(fabsf(apex.u), fabsf(apex.v));
-    return strict::mul(sigmas * p.sigma, strict::add(1.0f, strict::add(at_apex, varied)));
+/// Margins of U, V and W, metres.
+MIR_HD inline EdgeMargins edge_margins(const TriangleRows& rows, const Pyramid& p,
+                                       const ApexRows& apex, float sigma) {
+    const float way = strict::add(p.spread, apex.depth);
+    const float u = fabsf(apex.u);
+    const float v = fabsf(apex.v);
+    const float varied_u = strict::mul(l1_of_gradient(rows.u), way);
+    const float varied_v = strict::mul(l1_of_gradient(rows.v), way);
+    const float at_apex = loose::mul_add(5.0f, strict::add(u, v), 5.0f);
+    return {strict::mul(sigma, loose::mul_add(4.0f, u, varied_u)),
+            strict::mul(sigma, loose::mul_add(4.0f, v, varied_v)),
+            strict::mul(sigma, loose::mul_add(2.0f, strict::add(varied_u, varied_v), at_apex))};
 }
 
 /// Whether all segments that cross a plane do so outside of the same edge (negative) or inside all
@@ -118,16 +124,17 @@ MIR_HD inline float edge_margin(const TriangleRows& rows, const Pyramid& p, cons
 /// the segment to p crosses inside when none is negative. They are affine in p, so their ranges
 /// over a box are known. Fills `forms`.
 MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
-                                  const AffineForm& beyond, const ApexRows& apex, float margin,
-                                  SegmentForms& forms) {
+                                  const AffineForm& beyond, const ApexRows& apex,
+                                  EdgeMargins margins, SegmentForms& forms) {
     const AffineForm u = combine(apex.u, beyond, apex.depth, affine_form(rows.u, p.centre));
     const AffineForm v = combine(apex.v, beyond, apex.depth, affine_form(rows.v, p.centre));
     const AffineForm d{strict::add(beyond.value, apex.depth), beyond.slope};
     const AffineForm w = subtract(subtract(d, u), v);
-    forms = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), apex.depth, margin};
-    const SureSign edge_u = sure_sign(u, p.half, margin);
-    const SureSign edge_v = sure_sign(v, p.half, margin);
-    const SureSign edge_w = sure_sign(w, p.half, margin);
+    forms = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), row_from_centre(w),
+             margins};
+    const SureSign edge_u = sure_sign(u, p.half, margins.u);
+    const SureSign edge_v = sure_sign(v, p.half, margins.v);
+    const SureSign edge_w = sure_sign(w, p.half, margins.w);
     return {edge_u.negative || edge_v.negative || edge_w.negative,
             edge_u.positive && edge_v.positive && edge_w.positive};
 }
@@ -153,9 +160,10 @@ template <class Margins = OcclusionMargins>
     const detail::SureSign plane = detail::sure_sign(beyond, p.half, Margins::plane * p.sigma);
     const detail::ApexRows apex{detail::loose_at(rows.u, p.apex), detail::loose_at(rows.v, p.apex),
                                 depth};
-    const float usual_margin = detail::edge_margin(rows, p, apex, Margins::edge);
-    const float margin = is_near ? INFINITY : usual_margin;
-    const detail::SureSign edges = detail::sure_edges(rows, p, beyond, apex, margin, forms);
+    // Where the apex is near no edge is sure.
+    const float sigma = is_near ? INFINITY : Margins::edge * p.sigma;
+    const EdgeMargins margins = detail::edge_margins(rows, p, apex, sigma);
+    const detail::SureSign edges = detail::sure_edges(rows, p, beyond, apex, margins, forms);
     if (is_near) return Occlusion::partial;
     if (plane.negative || edges.negative) return Occlusion::none;
     return plane.positive && edges.positive ? Occlusion::full : Occlusion::partial;

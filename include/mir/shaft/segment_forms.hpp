@@ -15,15 +15,22 @@ struct alignas(16) PlainRow {
     float w;  ///< value at the origin
 };
 
+/// How far from 0 U, V and W must be for hits_segment() to compute numbers of their signs, metres.
+struct EdgeMargins {
+    float u;
+    float v;
+    float w;
+};
+
 /// A triangle as the segments of one pyramid are tested against it: affine functions of the
 /// segments' ends, given by their difference from the centre of the pyramid's base. Source and
 /// names: occlusion.hpp. Without defaults.
 struct SegmentForms {
-    PlainRow beyond;  ///< s': distance beyond the plane as seen from the apex, metres
-    PlainRow u;       ///< U, metres
-    PlainRow v;       ///< V, metres
-    float depth;      ///< S: distance of the apex from the plane, metres
-    float margin;     ///< of U, V and W, metres
+    PlainRow beyond;      ///< s': distance beyond the plane as seen from the apex, metres
+    PlainRow u;           ///< U, metres
+    PlainRow v;           ///< V, metres
+    PlainRow w;           ///< W, metres
+    EdgeMargins margins;  ///< of U, V and W
 };
 
 namespace detail {
@@ -33,57 +40,62 @@ MIR_HD inline float loose_dot(Vec3 a, Vec3 b) {
     return loose::mul_add(a.z, b.z, loose::mul_add(a.y, b.y, strict::mul(a.x, b.x)));
 }
 
-/// Value of an AffineRow or a PlainRow at a point, likewise: no worse than row_at().
-template <class Row>
-MIR_HD inline float loose_at(const Row& row, Vec3 p) {
+/// Value of a row at a point, likewise: no worse than row_at().
+MIR_HD inline float loose_at(AffineRow row, Vec3 p) {
     return strict::add(loose_dot({row.x, row.y, row.z}, p), row.w);
 }
 
+/// The same in one fused operation per axis; rounding is that of loose_at() and twice that of the
+/// value at the origin.
+MIR_HD inline float quick_at(const PlainRow& row, Vec3 p) {
+    return loose::mul_add(row.z, p.z, loose::mul_add(row.y, p.y, loose::mul_add(row.x, p.x, row.w)));
+}
+
+MIR_HD inline PlainRow scaled(const PlainRow& row, float factor) {
+    return {strict::mul(row.x, factor), strict::mul(row.y, factor), strict::mul(row.z, factor),
+            strict::mul(row.w, factor)};
+}
+
+/// The least of four numbers; no number where all are none.
+MIR_HD inline float least(float a, float b, float c, float d) {
+    return fminf(fminf(a, b), fminf(c, d));
+}
+
 }  // namespace detail
+
+/// SegmentForms in units of margins, so that one number tells what is sure of a segment. Without
+/// defaults.
+struct SureForms {
+    PlainRow beyond;  ///< s'
+    PlainRow u;       ///< U; zero, as V and W, where nothing is sure of it
+    PlainRow v;       ///< V
+    PlainRow w;       ///< W
+
+    /// Above 1 where hits_segment() is true for the end that lies at `end` from the base's centre,
+    /// metres, whatever is rounded, and below -1 where it is false. No number where `end` is none.
+    [[nodiscard]] MIR_HD float at(Vec3 end) const {
+        return detail::least(detail::quick_at(beyond, end), detail::quick_at(u, end),
+                             detail::quick_at(v, end), detail::quick_at(w, end));
+    }
+};
 
 namespace detail {
 
-/// The least of U, V and W; no number if one of them is none.
-MIR_HD inline float least_edge(float u, float v, float w) {
-#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
-    float least = 0.0f;
-    asm("min.NaN.f32 %0, %1, %2;" : "=f"(least) : "f"(u), "f"(v));
-    asm("min.NaN.f32 %0, %0, %1;" : "+f"(least) : "f"(w));
-    return least;
-#else
-    // smaller() returns what it is given second where it cannot compare: W, which is no number
-    // where U or V is none.
-    return smaller(smaller(u, v), w);
-#endif
+MIR_HD inline PlainRow in_margins(const PlainRow& row, float margin) {
+    constexpr float most = 1e30f;  // metres: up to it no coefficient overflows
+    if (!(margin <= most)) return {0.0f, 0.0f, 0.0f, 0.0f};
+    return scaled(row, loose::reciprocal(margin));
 }
 
 }  // namespace detail
 
-/// The forms at one end of a segment.
-struct SegmentValues {
-    float beyond = 0.0f;  ///< s', metres
-    float edge = 0.0f;    ///< least of U, V and W, metres; no number if one is none
-};
-
-/// At the point that lies at `end` from the centre of the base.
-[[nodiscard]] MIR_HD inline SegmentValues values_at(const SegmentForms& f, Vec3 end) {
-    const float beyond = detail::loose_at(f.beyond, end);
-    const float u = detail::loose_at(f.u, end);
-    const float v = detail::loose_at(f.v, end);
-    const float w = strict::sub(strict::sub(strict::add(beyond, f.depth), u), v);
-    return {beyond, detail::least_edge(u, v, w)};
-}
-
-/// hits_segment() is true, whatever is rounded. `plane` is the margin of s', metres. docs/shafts.md
-/// derives the margins.
-[[nodiscard]] MIR_HD inline bool surely_hit(SegmentValues at, const SegmentForms& f, float plane) {
-    return (at.beyond > plane) & (at.edge > f.margin);
-}
-
-/// hits_segment() is false, whatever is rounded.
-[[nodiscard]] MIR_HD inline bool surely_missed(SegmentValues at, const SegmentForms& f,
-                                               float plane) {
-    return (at.beyond < -plane) | (at.edge < -f.margin);
+/// Forms in units of margins; `plane` is that of s', metres, 2^-120 or more like the others.
+/// docs/shafts.md derives them.
+[[nodiscard]] MIR_HD inline SureForms in_margins(const SegmentForms& forms, float plane) {
+    return {detail::scaled(forms.beyond, loose::reciprocal(plane)),
+            detail::in_margins(forms.u, forms.margins.u),
+            detail::in_margins(forms.v, forms.margins.v),
+            detail::in_margins(forms.w, forms.margins.w)};
 }
 
 }  // namespace mir

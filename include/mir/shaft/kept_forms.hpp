@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/lane_group.hpp"
+#include "mir/shaft/segment_forms.hpp"
+
+namespace mir {
+
+/// Forms of up to 32 triangles in the memory of a group, each written by one lane and read by all.
+/// Rows stand in arrays of their own: 32 lanes that write whole forms, 64 bytes apart, meet in few
+/// banks of the device's memory and take four times as long.
+class KeptForms {
+ public:
+    static constexpr std::uint32_t capacity = LaneGroup::width;  ///< forms
+
+    /// Writes forms to place `at`.
+    MIR_HD void put(std::uint32_t at, const SureForms& forms) {
+        beyond_[at] = forms.beyond;
+        u_[at] = forms.u;
+        v_[at] = forms.v;
+        w_[at] = forms.w;
+    }
+    /// The forms at place `at`.
+    [[nodiscard]] MIR_HD SureForms get(std::uint32_t at) const {
+        return {beyond_[at], u_[at], v_[at], w_[at]};
+    }
+
+ private:
+    PlainRow beyond_[capacity];
+    PlainRow u_[capacity];
+    PlainRow v_[capacity];
+    PlainRow w_[capacity];
+};
+
+}  // namespace mir
