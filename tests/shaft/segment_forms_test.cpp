@@ -35,7 +35,7 @@ Answers answers(int draws, float share) {
             in_margins(forms, share * mir::OcclusionMargins::plane * sigma);
         for (int k = 0; k < 8; ++k) {
             const Vec3 p = mirtest::random_luxel(random, d.cluster);
-            const float value = sure.at(p - pyramid.centre);
+            const float value = sure.at(pyramid.local(p));
             const bool hit = value > 1.0f;
             const bool missed = value < -1.0f;
             const bool truth = mir::hits_segment(d.rows, p, d.apex);

@@ -15,7 +15,7 @@ namespace mir {
 template <Space S, VplSet P>
 struct ClusterLists {
     /// As BlockShafts::resident_blocks.
-    static constexpr std::uint32_t resident_blocks = 10;
+    static constexpr std::uint32_t resident_blocks = 8;
 
     /// What a group works in: little, because it is taken from the cache of nodes and triangles.
     struct Workspace {
@@ -158,7 +158,7 @@ struct ClusterLists {
     /// other form, lanes 16 to 31 those between, so that a form is read for two luxels.
     struct Segments {
         Vec3 luxel[2];           ///< metres
-        Vec3 end[2];             ///< from the centre of the pyramid's base, metres
+        Vec3 end[2];             ///< in the pyramid's local coordinates, metres
         bool is_hit[2];          ///< surely
         std::uint32_t unsure;    ///< bit k: one of the two is not sure of the k-th form before the last
     };
@@ -180,7 +180,7 @@ struct ClusterLists {
             Segments& s = segments[lane];
             for (std::uint32_t j = 0; j < 2; ++j) {
                 s.luxel[j] = hits.load(first_luxel + lane % half + j * half).position;
-                s.end[j] = s.luxel[j] - pyramid.centre;
+                s.end[j] = pyramid.local(s.luxel[j]);
                 s.is_hit[j] = false;
             }
             s.unsure = 0;

@@ -29,7 +29,13 @@ struct GroupRecords {
             cluster.high = sum.high + sigma;
             cluster.luxels = sum.luxels;
             cluster.front = detail::direction_row(sum.normals);
-            cluster.front.w = strict::sub(2.0f * sigma, least_at(group, cluster.front, i * run));
+            const AffineRow front = cluster.front;
+            const auto in_front = [front](Vec3 p) { return row_at(front, p); };
+            cluster.front.w = strict::sub(2.0f * sigma, range_of(group, i * run, in_front).low);
+            const TiltedAxis tilt = detail::tilted_axis(front);
+            const auto along = [tilt](Vec3 p) { return tilt.along(p); };
+            const detail::Range range = range_of(group, i * run, along);
+            detail::set_tilt(cluster, tilt, range.low, range.high, sigma);
         }
         group.each([&](std::uint32_t lane) {
             if (lane == 0) records[i] = cluster;
@@ -85,17 +91,23 @@ struct GroupRecords {
         return sum;
     }
 
-    [[nodiscard]] MIR_HD float least_at(const LaneGroup& group, AffineRow row,
-                                        std::uint32_t first) const {
-        Floats least;
+    /// Of `value` at the luxels of a run that are not empty.
+    template <class Value>
+    [[nodiscard]] MIR_HD detail::Range range_of(const LaneGroup& group, std::uint32_t first,
+                                                const Value& value) const {
+        Floats least, greatest;
         group.each([&](std::uint32_t lane) {
             least[lane] = infinity;
+            greatest[lane] = -infinity;
             for (std::uint32_t k = lane; k < run; k += LaneGroup::width) {
                 const Hit hit = hits.load(first + k);
-                if (!is_empty(hit)) least[lane] = smaller(row_at(row, hit.position), least[lane]);
+                if (is_empty(hit)) continue;
+                const float at = value(hit.position);
+                least[lane] = smaller(at, least[lane]);
+                greatest[lane] = larger(at, greatest[lane]);
             }
         });
-        return smallest(group, least);
+        return {smallest(group, least), largest(group, greatest)};
     }
 };
 

@@ -15,13 +15,32 @@ enum class Occlusion : std::uint8_t {
 };
 
 /// A VPL and the box of a cluster, as triangles are tested against them. Without defaults, and
-/// aligned so that the device moves it as three words.
+/// aligned so that the device moves it as whole words.
 struct alignas(16) Pyramid {
-    Vec3 apex;     ///< the VPL, metres
-    float spread;  ///< no coordinate of a point of the box is farther from the VPL's, metres
-    Vec3 centre;   ///< of the box, up to rounding
-    float sigma;   ///< of the scene, metres
-    Vec3 half;     ///< the box keeps within centre -+ half
+    Vec3 apex;           ///< the VPL, metres
+    float spread;        ///< no coordinate of a point of the box is farther from the VPL's, metres
+    Vec3 centre;         ///< of the box, up to rounding
+    float sigma;         ///< of the scene, metres
+    Vec3 half;           ///< half edges: the box keeps within -+ half of local coordinates
+    std::uint32_t axis;  ///< that leans: TiltedAxis
+    Vec3 slope;          ///< likewise
+
+    /// Local coordinates: the difference from the centre, on the axis that leans from the tilted
+    /// plane through the centre.
+    [[nodiscard]] MIR_HD Vec3 local(Vec3 p) const {
+        Vec3 d = p - centre;
+        const float rise = detail::loose_dot(slope, d);
+        if (axis == 0) d.x -= rise;
+        if (axis == 1) d.y -= rise;
+        if (axis == 2) d.z -= rise;
+        return d;
+    }
+    /// Gradient in local coordinates of a function whose gradient is `g`.
+    [[nodiscard]] MIR_HD Vec3 local_gradient(Vec3 g) const {
+        const float own = axis == 0 ? g.x : axis == 1 ? g.y : g.z;
+        return {loose::mul_add(own, slope.x, g.x), loose::mul_add(own, slope.y, g.y),
+                loose::mul_add(own, slope.z, g.z)};
+    }
 };
 
 /// Pyramid of a cluster that has luxels and a VPL at `apex`, metres. `sigma` as for the cluster.
@@ -33,6 +52,15 @@ struct alignas(16) Pyramid {
     p.half = glm::max(cluster.high - p.centre, p.centre - cluster.low);
     p.spread = larger(max_abs(cluster.low - apex), max_abs(cluster.high - apex));
     p.sigma = sigma;
+    p.axis = cluster.tilt.axis;
+    p.slope = cluster.tilt.slope;
+    if (p.axis == TiltedAxis::none) return p;
+    const float middle = 0.5f * (cluster.tilt.low + cluster.tilt.high);
+    const float half = larger(cluster.tilt.high - middle, middle - cluster.tilt.low);
+    const float up = strict::sub(middle, cluster.tilt.along(p.centre));
+    const Vec3 own(p.axis == 0 ? 1.0f : 0.0f, p.axis == 1 ? 1.0f : 0.0f, p.axis == 2 ? 1.0f : 0.0f);
+    p.centre += up * own;
+    p.half = glm::mix(p.half, Vec3(half), own);
     return p;
 }
 
@@ -57,11 +85,12 @@ struct AffineForm {
     }
 };
 
-MIR_HD inline AffineForm affine_form(AffineRow row, Vec3 centre) {
-    return {loose_at(row, centre), {row.x, row.y, row.z}};
+/// In local coordinates.
+MIR_HD inline AffineForm affine_form(AffineRow row, const Pyramid& p) {
+    return {loose_at(row, p.centre), p.local_gradient({row.x, row.y, row.z})};
 }
 
-/// The same function of the difference from the centre.
+/// The same function as a row.
 MIR_HD inline PlainRow row_from_centre(const AffineForm& f) {
     return {f.slope.x, f.slope.y, f.slope.z, f.value};
 }
@@ -126,8 +155,8 @@ MIR_HD inline EdgeMargins edge_margins(const TriangleRows& rows, const Pyramid& 
 MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
                                   const AffineForm& beyond, const ApexRows& apex,
                                   EdgeMargins margins, SegmentForms& forms) {
-    const AffineForm u = combine(apex.u, beyond, apex.depth, affine_form(rows.u, p.centre));
-    const AffineForm v = combine(apex.v, beyond, apex.depth, affine_form(rows.v, p.centre));
+    const AffineForm u = combine(apex.u, beyond, apex.depth, affine_form(rows.u, p));
+    const AffineForm v = combine(apex.v, beyond, apex.depth, affine_form(rows.v, p));
     const AffineForm d{strict::add(beyond.value, apex.depth), beyond.slope};
     const AffineForm w = subtract(subtract(d, u), v);
     forms = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), row_from_centre(w),
@@ -156,7 +185,7 @@ template <class Margins = OcclusionMargins>
     const float depth = fabsf(s);
     const bool is_near = !(depth > p.sigma);
     const detail::AffineForm beyond =
-        detail::affine_form(s > 0.0f ? detail::negated(rows.s) : rows.s, p.centre);
+        detail::affine_form(s > 0.0f ? detail::negated(rows.s) : rows.s, p);
     const detail::SureSign plane = detail::sure_sign(beyond, p.half, Margins::plane * p.sigma);
     const detail::ApexRows apex{detail::loose_at(rows.u, p.apex), detail::loose_at(rows.v, p.apex),
                                 depth};

@@ -23,8 +23,7 @@ struct EdgeMargins {
 };
 
 /// A triangle as the segments of one pyramid are tested against it: affine functions of the
-/// segments' ends, given by their difference from the centre of the pyramid's base. Source and
-/// names: occlusion.hpp. Without defaults.
+/// segments' ends in Pyramid::local() coordinates. Source and names: occlusion.hpp. Without defaults.
 struct SegmentForms {
     PlainRow beyond;      ///< s': distance beyond the plane as seen from the apex, metres
     PlainRow u;           ///< U, metres
@@ -71,8 +70,8 @@ struct SureForms {
     PlainRow v;       ///< V
     PlainRow w;       ///< W
 
-    /// Above 1 where hits_segment() is true for the end that lies at `end` from the base's centre,
-    /// metres, whatever is rounded, and below -1 where it is false. No number where `end` is none.
+    /// Above 1 where hits_segment() is true for the end with local coordinates `end`, metres,
+    /// whatever is rounded, and below -1 where it is false. No number where `end` is none.
     [[nodiscard]] MIR_HD float at(Vec3 end) const {
         return detail::least(detail::quick_at(beyond, end), detail::quick_at(u, end),
                              detail::quick_at(v, end), detail::quick_at(w, end));
