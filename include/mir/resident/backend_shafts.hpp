@@ -20,7 +20,7 @@ namespace mir {
 /// Any numbers give the same bits.
 struct BackendShaftOptions {
     std::uint32_t block_nodes = 32;    ///< that the shaft of 256 luxels and a VPL visits
-    std::uint32_t cluster_nodes = 64;  ///< that the shaft of 32 luxels and a VPL visits
+    std::uint32_t cluster_nodes = 80;  ///< that the shaft of 32 luxels and a VPL visits
     std::uint32_t vpls = 256;  ///< at a time, at least 1: queues have room for all their pairs
     std::uint32_t groups = 1u << 14;  ///< that empty a queue together, at least 1
     std::uint32_t leaves = 1u << 26;  ///< room for the leaves that shafts meet, 4 bytes each
@@ -73,12 +73,9 @@ class BackendShafts {
                 "shafts were asked for luxels that are not those of their tile's layout; give that "
                 "of the tile, or none");
         if (layout) hits = in_clusters(queue, hits, {*layout}, visibility.bvh.exact.reach);
-        const std::uint32_t block_count = hits.stride / block_luxels;
-        const std::uint32_t cluster_count = hits.stride / cluster_luxels;
-        queue.for_each_group(block_count,
-                             GroupRecords{hits, block_luxels, visibility.sigma, blocks_.data()});
         queue.for_each_group(
-            cluster_count, GroupRecords{hits, cluster_luxels, visibility.sigma, clusters_.data()});
+            GroupRecords::groups(hits.stride),
+            GroupRecords{hits, visibility.sigma, blocks_.data(), clusters_.data()});
         queue.for_each_group(FacingPass<P>::groups(hits.stride), FacingPass{hits, vpls, words});
         for (std::uint32_t first = 0; first < vpls.size(); first += options_.vpls)
             fill_batch(queue, hits, vpls, visibility,

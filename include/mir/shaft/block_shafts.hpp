@@ -20,7 +20,7 @@ struct VplBatch {
 template <Space S, VplSet P>
 struct BlockShafts {
     /// Thread blocks that a multiprocessor of a GPU is to hold at least.
-    static constexpr std::uint32_t resident_blocks = 8;
+    static constexpr std::uint32_t resident_blocks = 7;
     /// Words of visibility of a block and a VPL.
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
     static constexpr std::uint32_t most_triangles = 32;  ///< tested for a pair

@@ -15,7 +15,7 @@ namespace mir {
 template <Space S, VplSet P>
 struct ClusterLists {
     /// As BlockShafts::resident_blocks.
-    static constexpr std::uint32_t resident_blocks = 8;
+    static constexpr std::uint32_t resident_blocks = 9;
 
     /// What a group works in: little, because it is taken from the cache of nodes and triangles.
     struct Workspace {
@@ -154,51 +154,58 @@ struct ClusterLists {
         }
     }
 
-    /// What a lane knows of two luxels, `lane` % 16 and the one 16 behind it: lanes 0 to 15 ask every
-    /// other form, lanes 16 to 31 those between, so that a form is read for two luxels.
+    /// What a lane knows of two luxels, lane % 16 and the one 16 behind it. Lanes 0 to 15 ask the
+    /// first half of the forms and the others the second, so that a form is read for two luxels.
     struct Segments {
-        Vec3 luxel[2];           ///< metres
-        Vec3 end[2];             ///< in the pyramid's local coordinates, metres
-        bool is_hit[2];          ///< surely
-        std::uint32_t unsure;    ///< bit k: one of the two is not sure of the k-th form before the last
+        Vec3 luxel[2];         ///< metres
+        Vec3 end[2];           ///< in the pyramid's local coordinates, metres
+        bool is_hit[2];        ///< surely
+        std::uint32_t unsure;  ///< bit k: the k-th form from the half's last one leaves one open
     };
-    static constexpr std::uint32_t half = LaneGroup::width / 2;
+    static constexpr std::uint32_t half_width = LaneGroup::width / 2;
+
+    /// The forms of a pair in two halves of the same size: a form in the middle is in both.
+    struct Halves {
+        std::uint32_t first[2];  ///< place of the first form
+        std::uint32_t size;      ///< forms, at least 1
+
+        [[nodiscard]] MIR_HD static Halves of(const Progress& progress) {
+            const std::uint32_t size = (progress.end_form - progress.first_form + 1) / 2;
+            return {{progress.first_form, progress.end_form - size}, size};
+        }
+    };
 
     /// Which luxels of the pair that comes next the forms leave lit. Triangles that are not sure are
     /// asked exactly, and last: by then most of the segments are hidden.
     MIR_HD void ask(const LaneGroup& group, const ListBatch& batch, Progress& progress,
                     const Workspace& space) const {
         if (progress.first_form == progress.end_form) return;
-        const std::uint32_t last = progress.end_form - 1;
-        const std::uint32_t steps = (last - progress.first_form) / 2 + 1;
+        const Halves halves = Halves::of(progress);
         const std::uint32_t first_luxel =
             cluster_luxels * group.broadcast(batch.clusters, progress.list);
         const Pyramid& pyramid = space.pyramids[progress.list];
         LaneGroup::PerLane<Segments> segments;
-        LaneGroup::PerLane<std::uint32_t> form;
         group.each([&](std::uint32_t lane) {
             Segments& s = segments[lane];
             for (std::uint32_t j = 0; j < 2; ++j) {
-                s.luxel[j] = hits.load(first_luxel + lane % half + j * half).position;
+                s.luxel[j] = hits.load(first_luxel + lane % half_width + j * half_width).position;
                 s.end[j] = pyramid.local(s.luxel[j]);
                 s.is_hit[j] = false;
             }
             s.unsure = 0;
-            form[lane] = progress.first_form + lane / half;
         });
-        for (std::uint32_t step = 0; step < steps; ++step)
-            group.each([&](std::uint32_t lane) {
-                // The last form once more where there is no other.
-                ask(space.forms.get(form[lane] < last ? form[lane] : last), segments[lane]);
-                form[lane] += 2;
-            });
+        group.each([&](std::uint32_t lane) {
+            const std::uint32_t first = lane < half_width ? halves.first[0] : halves.first[1];
+            for (std::uint32_t k = 0; k < halves.size; ++k)
+                ask(space.forms.get(first + k), segments[lane]);
+        });
         std::uint32_t lit = group.broadcast(progress.lit, progress.list);
         for (std::uint32_t j = 0; j < 2; ++j) {
             const std::uint32_t hit =
                 group.ballot([&](std::uint32_t lane) { return segments[lane].is_hit[j]; });
-            lit &= ~(((hit | hit >> half) & 0xFFFFu) << j * half);
+            lit &= ~(((hit | hit >> half_width) & 0xFFFFu) << j * half_width);
         }
-        if (lit != 0) lit = ask_exactly(group, pyramid.apex, progress, segments, lit, space);
+        if (lit != 0) lit = ask_exactly(group, pyramid.apex, halves, segments, lit, space);
         group.each([&](std::uint32_t lane) {
             if (lane == progress.list) progress.lit[lane] = lit;
         });
@@ -216,26 +223,23 @@ struct ClusterLists {
 
     /// Luxels of `lit` that are not hit by the triangles that leave segments open either.
     [[nodiscard]] MIR_HD std::uint32_t ask_exactly(const LaneGroup& group, Vec3 apex,
-                                                   const Progress& progress,
+                                                   const Halves& halves,
                                                    const LaneGroup::PerLane<Segments>& segments,
                                                    std::uint32_t lit, const Workspace& space) const {
-        const std::uint32_t last = progress.end_form - 1;
-        const std::uint32_t last_step = (last - progress.first_form) / 2;
         for (std::uint32_t h = 0; h < 2; ++h) {
             std::uint32_t asked = group.any_bits([&](std::uint32_t lane) {
                 const bool is_asked =
-                    lane / half == h && (lit >> lane % half & 0x10001u) != 0;
+                    lane / half_width == h && (lit >> lane % half_width & 0x10001u) != 0;
                 return is_asked ? segments[lane].unsure : 0u;
             });
             for (; asked != 0 && lit != 0; asked &= asked - 1) {
                 const std::uint32_t form =
-                    progress.first_form + 2 * (last_step - LaneGroup::lowest(asked)) + h;
-                const TriangleRows& rows =
-                    bvh.exact.triangles[space.partial[form < last ? form : last]];
+                    halves.first[h] + halves.size - 1 - LaneGroup::lowest(asked);
+                const TriangleRows& rows = bvh.exact.triangles[space.partial[form]];
                 lit &= group.ballot([&](std::uint32_t lane) {
                     const Segments& s = segments[lane];
                     return (lit >> lane & 1u) != 0 &&
-                           !hits_segment(rows, apex, lane < half ? s.luxel[0] : s.luxel[1]);
+                           !hits_segment(rows, apex, lane < half_width ? s.luxel[0] : s.luxel[1]);
                 });
             }
         }

@@ -8,41 +8,59 @@
 
 namespace mir {
 
-/// Records of runs of luxels, as cluster_record() makes them but for the order in which normals are
-/// summed: kernel for groups, a run of `run` luxels each, which neighbouring lanes read side by
-/// side. Luxels beyond the last one are padding, that is empty, and are there to be read.
+/// Records of all blocks of 256 luxels and all clusters of 32, as cluster_record() makes them but
+/// for the order in which normals are summed: kernel for groups, a run of luxels each, which
+/// neighbouring lanes read side by side. Luxels beyond the last one are padding, that is empty, and
+/// are there to be read.
 struct GroupRecords {
     /// Groups need no memory.
     struct Workspace {};
 
-    SoaView<const Hit> hits;             ///< in cluster order
-    std::uint32_t run = cluster_luxels;  ///< a multiple of 32
-    float sigma = 0.0f;                  ///< of the scene, metres
-    ClusterRecord* records = nullptr;    ///< one for each run
+    SoaView<const Hit> hits;            ///< in cluster order, whole blocks
+    float sigma = 0.0f;                 ///< of the scene, metres
+    ClusterRecord* blocks = nullptr;    ///< one for each block
+    ClusterRecord* clusters = nullptr;  ///< one for each cluster
 
-    /// Run `i`: luxels i run to i run + run - 1.
+    /// Groups that make all records.
+    [[nodiscard]] static std::uint32_t groups(std::uint32_t luxels) {
+        return luxels / block_luxels + luxels / cluster_luxels;
+    }
+
+    /// Group `i` < groups(): a block or, behind the last one, a cluster. What takes longest is first.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace&) const {
-        const detail::ClusterSum sum = sum_of(group, i * run);
-        ClusterRecord cluster;
-        if (sum.luxels > 0) {
-            cluster.low = sum.low - sigma;
-            cluster.high = sum.high + sigma;
-            cluster.luxels = sum.luxels;
-            cluster.front = detail::direction_row(sum.normals);
-            const AffineRow front = cluster.front;
-            const auto in_front = [front](Vec3 p) { return row_at(front, p); };
-            cluster.front.w = strict::sub(2.0f * sigma, range_of(group, i * run, in_front).low);
-            const TiltedAxis tilt = detail::tilted_axis(front);
-            const auto along = [tilt](Vec3 p) { return tilt.along(p); };
-            const detail::Range range = range_of(group, i * run, along);
-            detail::set_tilt(cluster, tilt, range.low, range.high, sigma);
-        }
+        const std::uint32_t block_count = hits.stride / block_luxels;
+        const bool is_block = i < block_count;
+        const std::uint32_t k = is_block ? i : i - block_count;
+        const Run run = is_block ? Run{k * block_luxels, block_luxels}
+                                 : Run{k * cluster_luxels, cluster_luxels};
+        const ClusterRecord record = record_of(group, run);
         group.each([&](std::uint32_t lane) {
-            if (lane == 0) records[i] = cluster;
+            if (lane == 0) (is_block ? blocks : clusters)[k] = record;
         });
     }
 
  private:
+    /// Luxels one behind the other, a multiple of 32.
+    struct Run {
+        std::uint32_t first;
+        std::uint32_t count;
+    };
+
+    [[nodiscard]] MIR_HD ClusterRecord record_of(const LaneGroup& group, Run run) const {
+        const detail::ClusterSum sum = sum_of(group, run);
+        ClusterRecord cluster;
+        if (sum.luxels == 0) return cluster;
+        cluster.low = sum.low - sigma;
+        cluster.high = sum.high + sigma;
+        cluster.luxels = sum.luxels;
+        cluster.front = detail::direction_row(sum.normals);
+        const TiltedAxis tilt = detail::tilted_axis(cluster.front);
+        const Ranges ranges = ranges_of(group, run, cluster.front, tilt);
+        cluster.front.w = strict::sub(2.0f * sigma, ranges.front);
+        detail::set_tilt(cluster, tilt, ranges.along.low, ranges.along.high, sigma);
+        return cluster;
+    }
+
     static constexpr float infinity = std::numeric_limits<float>::infinity();
 
     using Floats = LaneGroup::PerLane<float>;
@@ -63,14 +81,13 @@ struct GroupRecords {
         return group.combined(values, [](float a, float b) { return strict::add(a, b); });
     }
 
-    [[nodiscard]] MIR_HD detail::ClusterSum sum_of(const LaneGroup& group,
-                                                   std::uint32_t first) const {
+    [[nodiscard]] MIR_HD detail::ClusterSum sum_of(const LaneGroup& group, Run run) const {
         LaneGroup::PerLane<detail::ClusterSum> own;
         LaneGroup::PerLane<std::uint32_t> counts;
         group.each([&](std::uint32_t lane) {
             own[lane] = {Vec3(infinity), Vec3(-infinity), Vec3(0.0f), 0};
-            for (std::uint32_t k = lane; k < run; k += LaneGroup::width) {
-                const Hit hit = hits.load(first + k);
+            for (std::uint32_t k = lane; k < run.count; k += LaneGroup::width) {
+                const Hit hit = hits.load(run.first + k);
                 if (!is_empty(hit) && is_number(hit)) own[lane].add(hit);
             }
             counts[lane] = own[lane].luxels;
@@ -91,23 +108,29 @@ struct GroupRecords {
         return sum;
     }
 
-    /// Of `value` at the luxels of a run that are not empty.
-    template <class Value>
-    [[nodiscard]] MIR_HD detail::Range range_of(const LaneGroup& group, std::uint32_t first,
-                                                const Value& value) const {
-        Floats least, greatest;
+    /// At the luxels of a run that are not empty.
+    struct Ranges {
+        float front;          ///< the least value of the half-space's row
+        detail::Range along;  ///< of TiltedAxis::along()
+    };
+
+    [[nodiscard]] MIR_HD Ranges ranges_of(const LaneGroup& group, Run run,
+                                          AffineRow front, const TiltedAxis& tilt) const {
+        Floats least, low, high;
         group.each([&](std::uint32_t lane) {
             least[lane] = infinity;
-            greatest[lane] = -infinity;
-            for (std::uint32_t k = lane; k < run; k += LaneGroup::width) {
-                const Hit hit = hits.load(first + k);
+            low[lane] = infinity;
+            high[lane] = -infinity;
+            for (std::uint32_t k = lane; k < run.count; k += LaneGroup::width) {
+                const Hit hit = hits.load(run.first + k);
                 if (is_empty(hit)) continue;
-                const float at = value(hit.position);
-                least[lane] = smaller(at, least[lane]);
-                greatest[lane] = larger(at, greatest[lane]);
+                const float along = tilt.along(hit.position);
+                least[lane] = smaller(row_at(front, hit.position), least[lane]);
+                low[lane] = smaller(along, low[lane]);
+                high[lane] = larger(along, high[lane]);
             }
         });
-        return {smallest(group, least), largest(group, greatest)};
+        return {smallest(group, least), {smallest(group, low), largest(group, high)}};
     }
 };
 

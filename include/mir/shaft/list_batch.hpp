@@ -12,7 +12,7 @@ namespace mir {
 /// the next.
 struct ListBatch {
     static constexpr std::uint32_t most_lists = 4;        ///< pairs
-    static constexpr std::uint32_t most_triangles = 192;  ///< of all pairs
+    static constexpr std::uint32_t most_triangles = 224;  ///< of all pairs
 
     std::uint32_t lists = 0;                     ///< pairs
     std::uint32_t triangles = 0;                 ///< of all

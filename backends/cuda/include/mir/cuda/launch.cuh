@@ -93,7 +93,12 @@ __global__ void __launch_bounds__(threads_of_groups<Kernel>, resident_blocks<Ker
     __shared__ typename Kernel::Workspace spaces[groups_per_block<Kernel>];
     const std::uint32_t warp = threadIdx.x / LaneGroup::width;
     const std::uint32_t i = blockIdx.x * groups_per_block<Kernel> + warp;
-    if (i < n) kernel(LaneGroup{}, i, spaces[warp]);
+    // Where the compiler knows how to make the address anew it does so in every loop, which costs
+    // more than the register. It still has to know that the address is of shared memory.
+    void* own = spaces + warp;
+    asm volatile("" : "+l"(own));
+    __builtin_assume(__isShared(own));
+    if (i < n) kernel(LaneGroup{}, i, *static_cast<typename Kernel::Workspace*>(own));
 }
 
 /// Refuses a kernel whose arguments have other sizes for the device's compiler than for the host's:
