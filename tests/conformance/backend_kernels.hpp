@@ -72,10 +72,16 @@ struct GroupVisit {
             group.any_bits([&](std::uint32_t lane) { return 1u << values[lane] % 32; });
         const std::uint32_t sum = group.sums_before(values);
         const std::uint32_t last = group.broadcast(values, 17);
+        mir::LaneGroup::PerLane<std::uint32_t> opposite;
+        group.each([&](std::uint32_t lane) { opposite[lane] = (lane + 16) % width; });
+        const auto gathered = group.gather(values, opposite);
+        const std::uint32_t smaller =
+            group.ballot([&](std::uint32_t lane) { return gathered[lane] < values[lane]; });
         static_cast<void>(group.add(*lanes, mir::LaneGroup::count(mir::LaneGroup::all)));
         group.each([&](std::uint32_t lane) {
             if (lane == 0)
-                out[i] += odd + any + sum + last + (odd != 0 ? mir::LaneGroup::lowest(odd) : 0);
+                out[i] += odd + any + sum + last + smaller + mir::LaneGroup::bits(i % 35, i % 37) +
+                          (odd != 0 ? mir::LaneGroup::lowest(odd) : 0);
         });
     }
 
@@ -89,7 +95,15 @@ struct GroupVisit {
             sum += value;
             if (lane < 17) last += value;
         }
-        return odd + any + sum + last + lowest;
+        std::uint32_t smaller = 0, before[32];
+        for (std::uint32_t lane = 0, so_far = 0; lane < 32; ++lane) {
+            before[lane] = so_far;
+            so_far += scrambled(i + 31 - lane) % 100;
+            if (lane >= 16 && before[lane - 16] < before[lane]) smaller |= 1u << lane;
+        }
+        std::uint32_t bits = 0;
+        for (std::uint32_t k = i % 35; k < 32 && k < i % 35 + i % 37; ++k) bits |= 1u << k;
+        return odd + any + sum + last + lowest + smaller + bits;
     }
 };
 

@@ -65,4 +65,31 @@ inline mir::Vec3 random_luxel(mir::Random& random, const mir::ClusterRecord& rec
     return p;
 }
 
+/// Gives a box that is small enough a leaning axis, as if its luxels lay on a slope: a part of the
+/// box that holds its centre.
+inline void lean(mir::Random& random, mir::ClusterRecord& record, float scale) {
+    const mir::Vec3 size = record.high - record.low;
+    if (mir::max_abs(size) > scale / 16.0f) return;
+    mir::TiltedAxis& tilt = record.tilt;
+    tilt.axis = static_cast<std::uint32_t>(3.0f * random.next()) % 3;
+    tilt.slope = point_in_cube(random);
+    const int axis = static_cast<int>(tilt.axis);
+    tilt.slope[axis] = 0.0f;
+    const float middle = tilt.along(0.5f * (record.low + record.high));
+    const float half = 0.5f * random.next() * random.next() * size[axis];
+    tilt.low = middle - half;
+    tilt.high = middle + half;
+}
+
+/// A luxel of the box, moved into the leaning one.
+inline mir::Vec3 random_leaning_luxel(mir::Random& random, const mir::ClusterRecord& record) {
+    mir::Vec3 p = random_luxel(random, record);
+    const mir::TiltedAxis& tilt = record.tilt;
+    if (tilt.axis == mir::TiltedAxis::none) return p;
+    const float share = chance(random, 0.3f) ? random.next() : chance(random, 0.5f) ? 0.0f : 1.0f;
+    const float wanted = tilt.low + share * (tilt.high - tilt.low);
+    p[static_cast<int>(tilt.axis)] += wanted - tilt.along(p);
+    return p;
+}
+
 }  // namespace mirtest

@@ -112,3 +112,36 @@ TEST_CASE("A cluster is within reach when its whole box is") {
     CHECK(mir::within_reach(r, 2.1f));
     CHECK_FALSE(mir::within_reach(r, 1.9f));
 }
+
+TEST_CASE("The leaning box of a cluster on a slope holds its luxels and is thin") {
+    const float scale = GENERATE(1e-3f, 1.0f, 1e3f);
+    const float own_sigma = scale * sigma;
+    mir::Random random = mirtest::test_random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 normal = mirtest::direction(random);
+        const Vec3 middle = 0.8f * mirtest::point_in_cube(random);
+        std::vector<Hit> hits;
+        for (int k = 0; k < 32; ++k)
+            hits.push_back(mirtest::hit_beside({scale * middle, normal}, 0.01f * scale, random));
+        const mirtest::HitRun run(hits);
+        const ClusterRecord r = mir::cluster_record(run.view(), 0, 32, own_sigma);
+        if (r.tilt.axis == mir::TiltedAxis::none) continue;  // flat along an axis as it is
+        for (const Hit& h : hits) {
+            REQUIRE(r.tilt.along(h.position) >= r.tilt.low + own_sigma);
+            REQUIRE(r.tilt.along(h.position) <= r.tilt.high - own_sigma);
+        }
+        CHECK(r.tilt.high - r.tilt.low < 6.0f * own_sigma);
+    }
+}
+
+TEST_CASE("Boxes lean only where that makes them thinner, and none as large as the scene") {
+    const auto leans = [](const std::vector<Hit>& hits) {
+        return record_of(hits).tilt.axis != mir::TiltedAxis::none;
+    };
+    const Vec3 sloping = glm::normalize(Vec3(1, 0, 1));
+    CHECK(leans({{{0, 0, 0}, sloping}, {{0.01f, 0.01f, -0.01f}, sloping}}));
+    CHECK_FALSE(leans({{{0, 0, 0}, sloping}, {{0.2f, 0.2f, -0.2f}, sloping}}));
+    CHECK_FALSE(leans({{{0, 0, 0}, sloping}, {{0.01f, 0.01f, 0.01f}, sloping}}));
+    CHECK_FALSE(leans({{{0, 0, 0}, {0, 0, 1}}, {{0.01f, 0.01f, 0}, {0, 0, 1}}}));
+    CHECK_FALSE(leans({{{0, 0, 0}, sloping}, {{0.01f, 0, -0.01f}, -sloping}}));
+}

@@ -72,4 +72,11 @@ inline OcclusionDraw occlusion_draw(mir::Random& random, float scale) {
     return d;
 }
 
+/// The same with a box that leans, where it is small enough for that.
+inline OcclusionDraw leaning_draw(mir::Random& random, float scale) {
+    OcclusionDraw d = occlusion_draw(random, scale);
+    lean(random, d.cluster, scale);
+    return d;
+}
+
 }  // namespace mirtest

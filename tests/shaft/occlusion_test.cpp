@@ -32,23 +32,25 @@ Hits count_hits(mir::Random& random, const Draw& d) {
         ++hits.asked;
         if (mir::hits_segment(d.rows, p, d.apex)) ++hits.some;
     };
-    for (std::uint32_t k = 0; k < 8; ++k)
+    const bool leans = d.cluster.tilt.axis != mir::TiltedAxis::none;
+    for (std::uint32_t k = 0; k < 8 && !leans; ++k)
         ask({(k & 1u) != 0 ? d.cluster.high.x : d.cluster.low.x,
              (k & 2u) != 0 ? d.cluster.high.y : d.cluster.low.y,
              (k & 4u) != 0 ? d.cluster.high.z : d.cluster.low.z});
-    for (int k = 0; k < 8; ++k) ask(mirtest::random_luxel(random, d.cluster));
+    for (int k = 0; k < (leans ? 16 : 8); ++k) ask(mirtest::random_leaning_luxel(random, d.cluster));
     return hits;
 }
 
 using Classify = Occlusion (*)(const TriangleRows&, const mir::Pyramid&);
 
 /// Of draws at three scales.
-Wrong wrong_answers(Classify classify, int draws) {
+Wrong wrong_answers(Classify classify, int draws, bool lean = false) {
     Wrong wrong;
     mir::Random random = mirtest::test_random(5);
     for (int i = 0; i < draws; ++i) {
         const float scale = std::pow(10.0f, static_cast<float>(i % 3 - 1) * 3.0f);
-        const Draw d = mirtest::occlusion_draw(random, scale);
+        const Draw d =
+            lean ? mirtest::leaning_draw(random, scale) : mirtest::occlusion_draw(random, scale);
         const mir::Pyramid pyramid =
             mir::make_pyramid(d.cluster, d.apex, mirtest::float_sigma(scale));
         const Occlusion found = classify(d.rows, pyramid);
@@ -97,10 +99,24 @@ Occlusion centre_alone(const TriangleRows& rows, const mir::Pyramid& p) {
     return mir::occlusion(rows, point);
 }
 
+/// The box as thin as if it leaned, but upright.
+Occlusion thin_and_upright(const TriangleRows& rows, const mir::Pyramid& p) {
+    mir::Pyramid upright = p;
+    upright.slope = Vec3(0);
+    return mir::occlusion(rows, upright);
+}
+
+/// The plane sloping the other way.
+Occlusion slope_turned_round(const TriangleRows& rows, const mir::Pyramid& p) {
+    mir::Pyramid turned = p;
+    turned.slope = -p.slope;
+    return mir::occlusion(rows, turned);
+}
+
 }  // namespace
 
 TEST_CASE("Triangles that miss or cover a pyramid hit none or all of its segments") {
-    const Wrong wrong = wrong_answers(mir::occlusion<>, 1000000);
+    const Wrong wrong = wrong_answers(mir::occlusion<>, 1000000, GENERATE(false, true));
     INFO(wrong.none << " none, " << wrong.full << " full");
     CHECK(wrong.none > 10000);
     CHECK(wrong.full > 10000);
@@ -116,4 +132,9 @@ TEST_CASE("Pyramid tests without margins or with a wrong sign give wrong answers
     CHECK(wrong_answers(third_edge_far_off, 200000).wrongly_full > 100);
     CHECK(wrong_answers(plane_turned_round, 200000).wrongly_none > 100);
     CHECK(wrong_answers(centre_alone, 200000).wrongly_full > 100);
+}
+
+TEST_CASE("Boxes that lean the wrong way or not at all give wrong answers") {
+    CHECK(wrong_answers(thin_and_upright, 200000, true).wrongly_none > 100);
+    CHECK(wrong_answers(slope_turned_round, 200000, true).wrongly_none > 100);
 }

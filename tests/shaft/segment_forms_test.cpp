@@ -19,12 +19,13 @@ struct Answers {
 };
 
 /// Of draws at three scales, of triangles that are partial. `share` of the margins is kept.
-Answers answers(int draws, float share) {
+Answers answers(int draws, float share, bool lean = false) {
     Answers answers;
     mir::Random random = mirtest::test_random(15);
     for (int i = 0; i < draws; ++i) {
         const float scale = std::pow(10.0f, static_cast<float>(i % 3 - 1) * 3.0f);
-        const mirtest::OcclusionDraw d = mirtest::occlusion_draw(random, scale);
+        const mirtest::OcclusionDraw d =
+            lean ? mirtest::leaning_draw(random, scale) : mirtest::occlusion_draw(random, scale);
         const float sigma = mirtest::float_sigma(scale);
         const mir::Pyramid pyramid = mir::make_pyramid(d.cluster, d.apex, sigma);
         SegmentForms forms;
@@ -34,7 +35,7 @@ Answers answers(int draws, float share) {
         const mir::SureForms sure =
             in_margins(forms, share * mir::OcclusionMargins::plane * sigma);
         for (int k = 0; k < 8; ++k) {
-            const Vec3 p = mirtest::random_luxel(random, d.cluster);
+            const Vec3 p = mirtest::random_leaning_luxel(random, d.cluster);
             const float value = sure.at(pyramid.local(p));
             const bool hit = value > 1.0f;
             const bool missed = value < -1.0f;
@@ -51,7 +52,7 @@ Answers answers(int draws, float share) {
 }  // namespace
 
 TEST_CASE("What forms say of a segment surely is so") {
-    const Answers found = answers(600000, 1.0f);
+    const Answers found = answers(600000, 1.0f, GENERATE(false, true));
     INFO(found.asked << " asked, " << found.hit << " hit, " << found.missed << " missed");
     CHECK(found.hit > 10000);
     CHECK(found.missed > 10000);
