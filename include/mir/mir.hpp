@@ -311,6 +311,7 @@
 #include "mir/shaft/page_order.hpp"
 #include "mir/shaft/page_words.hpp"
 #include "mir/shaft/pair_search.hpp"
+#include "mir/shaft/pair_segments.hpp"
 #include "mir/shaft/pair_tally.hpp"
 #include "mir/shaft/segment_forms.hpp"
 #include "mir/shaft/shaft.hpp"

@@ -37,7 +37,8 @@ Hits count_hits(mir::Random& random, const Draw& d) {
         ask({(k & 1u) != 0 ? d.cluster.high.x : d.cluster.low.x,
              (k & 2u) != 0 ? d.cluster.high.y : d.cluster.low.y,
              (k & 4u) != 0 ? d.cluster.high.z : d.cluster.low.z});
-    for (int k = 0; k < (leans ? 16 : 8); ++k) ask(mirtest::random_leaning_luxel(random, d.cluster));
+    for (int k = 0; k < (leans ? 16 : 8); ++k)
+        ask(mirtest::random_leaning_luxel(random, d.cluster));
     return hits;
 }
 

@@ -30,10 +30,8 @@ Answers answers(int draws, float share, bool lean = false) {
         const mir::Pyramid pyramid = mir::make_pyramid(d.cluster, d.apex, sigma);
         SegmentForms forms;
         if (occlusion(d.rows, pyramid, forms) != mir::Occlusion::partial) continue;
-        forms.margins = {share * forms.margins.u, share * forms.margins.v,
-                         share * forms.margins.w};
-        const mir::SureForms sure =
-            in_margins(forms, share * mir::OcclusionMargins::plane * sigma);
+        forms.margins = {share * forms.margins.u, share * forms.margins.v, share * forms.margins.w};
+        const mir::SureForms sure = in_margins(forms, share * mir::OcclusionMargins::plane * sigma);
         for (int k = 0; k < 8; ++k) {
             const Vec3 p = mirtest::random_leaning_luxel(random, d.cluster);
             const float value = sure.at(pyramid.local(p));

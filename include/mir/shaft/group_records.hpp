@@ -26,7 +26,8 @@ struct GroupRecords {
         return luxels / block_luxels + luxels / cluster_luxels;
     }
 
-    /// Group `i` < groups(): a block or, behind the last one, a cluster. What takes longest is first.
+    /// Group `i` < groups(): a block or, behind the last one, a cluster. What takes longest is
+    /// first.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace&) const {
         const std::uint32_t block_count = hits.stride / block_luxels;
         const bool is_block = i < block_count;
@@ -114,8 +115,8 @@ struct GroupRecords {
         detail::Range along;  ///< of TiltedAxis::along()
     };
 
-    [[nodiscard]] MIR_HD Ranges ranges_of(const LaneGroup& group, Run run,
-                                          AffineRow front, const TiltedAxis& tilt) const {
+    [[nodiscard]] MIR_HD Ranges ranges_of(const LaneGroup& group, Run run, AffineRow front,
+                                          const TiltedAxis& tilt) const {
         Floats least, low, high;
         group.each([&](std::uint32_t lane) {
             least[lane] = infinity;

@@ -23,7 +23,7 @@ struct ListBatch {
 
     /// For each lane the number of the pair that has triangle first + lane, of those there are.
     [[nodiscard]] MIR_HD LaneGroup::PerLane<std::uint32_t> lists_from(const LaneGroup& group,
-                                                                     std::uint32_t first) const {
+                                                                      std::uint32_t first) const {
         LaneGroup::PerLane<std::uint32_t> list;
         group.each([&](std::uint32_t lane) { list[lane] = 0; });
         for (std::uint32_t k = 0; k + 1 < most_lists; ++k) {

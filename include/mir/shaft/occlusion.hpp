@@ -64,9 +64,9 @@ struct alignas(16) Pyramid {
     return p;
 }
 
-/// How far from 0 a bound must be for hits_segment() to compute numbers of its sign: of the distance
-/// from the plane in units of sigma, of the edges in those of edge_margins(). docs/shafts.md
-/// derives 1.8 and 0.96 of them.
+/// How far from 0 a bound must be for hits_segment() to compute numbers of its sign: of the
+/// distance from the plane in units of sigma, of the edges in those of edge_margins().
+/// docs/shafts.md derives 1.8 and 0.96 of them.
 struct OcclusionMargins {
     static constexpr float plane = 2.0f;  ///< of the distance from the plane
     static constexpr float edge = 1.0f;   ///< of U, V and W

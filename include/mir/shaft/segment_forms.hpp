@@ -23,7 +23,8 @@ struct EdgeMargins {
 };
 
 /// A triangle as the segments of one pyramid are tested against it: affine functions of the
-/// segments' ends in Pyramid::local() coordinates. Source and names: occlusion.hpp. Without defaults.
+/// segments' ends in Pyramid::local() coordinates. Source and names: occlusion.hpp. Without
+/// defaults.
 struct SegmentForms {
     PlainRow beyond;      ///< s': distance beyond the plane as seen from the apex, metres
     PlainRow u;           ///< U, metres
@@ -47,7 +48,8 @@ MIR_HD inline float loose_at(AffineRow row, Vec3 p) {
 /// The same in one fused operation per axis; rounding is that of loose_at() and twice that of the
 /// value at the origin.
 MIR_HD inline float quick_at(const PlainRow& row, Vec3 p) {
-    return loose::mul_add(row.z, p.z, loose::mul_add(row.y, p.y, loose::mul_add(row.x, p.x, row.w)));
+    return loose::mul_add(row.z, p.z,
+                          loose::mul_add(row.y, p.y, loose::mul_add(row.x, p.x, row.w)));
 }
 
 MIR_HD inline PlainRow scaled(const PlainRow& row, float factor) {
