@@ -94,3 +94,17 @@ TEST_CASE("A cluster of one point is decided where it is clear") {
     const mir::Pyramid at_apex = pyramid_of(point, point, point);
     CHECK(mir::occlusion(triangle_at({0, 0, 0}, 1), at_apex) == Occlusion::none);
 }
+
+TEST_CASE("Nothing is said of edges whose numbers overflow") {
+    const mir::TriangleRows rows =
+        mir::make_triangle_rows({-1e6f, 0, 0}, {1e6f, 0, 0}, {0, 3.03e-27f, 0});
+    const Vec3 apex(0, 1e6f, 1e6f);
+    const Vec3 luxel(0, -1e6f, -1e6f);
+    REQUIRE(mir::hits_segment(rows, apex, luxel));
+    mir::ClusterRecord c;
+    c.low = Vec3(0, -1.08e6f, -1e6f);
+    c.high = luxel;
+    c.luxels = 2;
+    CHECK(mir::occlusion(rows, mir::make_pyramid(c, apex, mirtest::float_sigma(1.08e6f))) ==
+          Occlusion::partial);
+}

@@ -142,6 +142,17 @@ namespace mir::loose {
 #endif
 }
 
+/// 1 / a with a relative error of at most 2^-22; `a` between 2^-120 and 2^120 in size.
+[[nodiscard]] MIR_HD inline float rough_reciprocal(float a) {
+#if defined(__CUDA_ARCH__)
+    float estimate = 0.0f;
+    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
+    return estimate;
+#else
+    return 1.0f / a;
+#endif
+}
+
 /// 1 / sqrt(a) with a relative error below 2^-21; `a` between 2^-120 and 2^120.
 [[nodiscard]] MIR_HD inline float inverse_root(float a) {
 #if defined(__CUDA_ARCH__)

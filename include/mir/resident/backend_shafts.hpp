@@ -31,7 +31,7 @@ struct BackendShaftOptions {
 
 /// Fills words of visibility on a backend by shafts: the better neighbours lie together, the
 /// faster. Holds the memory between the stages: 33 bytes for each 32 luxels and each VPL of a batch
-/// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 28
+/// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 31
 /// bytes for each luxel. One queue at a time.
 template <Backend B>
 class BackendShafts {

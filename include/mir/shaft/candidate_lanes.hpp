@@ -59,14 +59,15 @@ struct CandidateLanes {
     }
 };
 
-/// Where coefficients are larger, products of them and coordinates might be infinite.
-inline constexpr float largest_margin = 1e30f;
+/// Margin of U, V and W of lanes in units of sigma (1 + |u| + |v| at the apex + gradients times
+/// lengths): docs/shafts.md derives 2.9.
+inline constexpr float lane_margin = 4.0f;
 
 /// Makes sixteen triangles ready. No point of a cluster that will be asked about is farther from
 /// the VPL at `apex` than `spread` in a coordinate, metres.
 inline void prepare_lanes(const TriangleLanes& triangles, Vec3 apex, float spread, float sigma,
                           CandidateLanes& lanes) {
-    const float sigmas = 4.0f * sigma;
+    const float sigmas = lane_margin * sigma;
     for (std::uint32_t k = 0; k < lane_count; ++k) {
         const AffineRow s = triangles.s.row(k);
         const AffineRow u = triangles.u.row(k);
@@ -83,7 +84,7 @@ inline void prepare_lanes(const TriangleLanes& triangles, Vec3 apex, float sprea
         const float at_apex = strict::add(fabsf(at_u), fabsf(at_v));
         const float margin = strict::mul(sigmas, strict::add(1.0f, strict::add(at_apex, varied)));
         const bool usable = static_cast<bool>(static_cast<int>(depth > sigma) &
-                                              static_cast<int>(margin <= largest_margin));
+                                              static_cast<int>(margin <= EdgeMargins::largest));
         lanes.margin.at[k] = usable ? margin : std::numeric_limits<float>::infinity();
         // A plane that is zero everywhere shows nothing.
         const float side = usable ? (at_s > 0.0f ? -1.0f : 1.0f) : 0.0f;

@@ -66,7 +66,7 @@ struct alignas(16) Pyramid {
 
 /// How far from 0 a bound must be for hits_segment() to compute numbers of its sign: of the
 /// distance from the plane in units of sigma, of the edges in those of edge_margins().
-/// docs/shafts.md derives 1.8 and 0.96 of them.
+/// docs/shafts.md derives 1.8 and 0.93 of them.
 struct OcclusionMargins {
     static constexpr float plane = 2.0f;  ///< of the distance from the plane
     static constexpr float edge = 1.0f;   ///< of U, V and W
@@ -193,9 +193,11 @@ template <class Margins = OcclusionMargins>
     const float sigma = is_near ? INFINITY : Margins::edge * p.sigma;
     const EdgeMargins margins = detail::edge_margins(rows, p, apex, sigma);
     const detail::SureSign edges = detail::sure_edges(rows, p, beyond, apex, margins, forms);
+    // Sums of products that overflow have any sign.
+    const bool is_bounded = margins.w <= EdgeMargins::largest;
     if (is_near) return Occlusion::partial;
-    if (plane.negative || edges.negative) return Occlusion::none;
-    return plane.positive && edges.positive ? Occlusion::full : Occlusion::partial;
+    if (plane.negative || (is_bounded && edges.negative)) return Occlusion::none;
+    return is_bounded && plane.positive && edges.positive ? Occlusion::full : Occlusion::partial;
 }
 
 /// The same where single segments are not asked about.

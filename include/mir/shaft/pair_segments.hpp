@@ -14,10 +14,11 @@ namespace mir {
 /// the first half of the forms and the others the second, so that a form is read for two luxels.
 class PairSegments {
  public:
-    /// Of the luxels from `first_luxel` on and the VPL of `pyramid`, which is that of the forms.
+    /// Of the luxels from `first_luxel` on and the VPL of `pyramid`, which is that of the forms and
+    /// has to stay.
     MIR_HD PairSegments(const LaneGroup& group, const SoaView<const Hit>& hits,
                         std::uint32_t first_luxel, const Pyramid& pyramid)
-        : group_(group), apex_(pyramid.apex) {
+        : group_(group), pyramid_(pyramid) {
         group_.each([&](std::uint32_t lane) {
             Segments& s = segments_[lane];
             for (std::uint32_t j = 0; j < 2; ++j) {
@@ -103,12 +104,12 @@ class PairSegments {
         return lit & group_.ballot([&](std::uint32_t lane) {
             const Segments& s = segments_[lane];
             return (lit >> lane & 1u) != 0 &&
-                   !hits_segment(rows, apex_, lane < half_width ? s.luxel[0] : s.luxel[1]);
+                   !hits_segment(rows, pyramid_.apex, lane < half_width ? s.luxel[0] : s.luxel[1]);
         });
     }
 
     const LaneGroup& group_;
-    Vec3 apex_;
+    const Pyramid& pyramid_;
     LaneGroup::PerLane<Segments> segments_;
 };
 

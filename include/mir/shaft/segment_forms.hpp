@@ -17,9 +17,12 @@ struct alignas(16) PlainRow {
 
 /// How far from 0 U, V and W must be for hits_segment() to compute numbers of their signs, metres.
 struct EdgeMargins {
-    float u;
-    float v;
-    float w;
+    /// Where one is larger, metres, coefficients of its form might be infinite, or no numbers.
+    static constexpr float largest = 1e30f;
+
+    float u;  ///< of U
+    float v;  ///< of V
+    float w;  ///< of W, which is larger than the others
 };
 
 /// A triangle as the segments of one pyramid are tested against it: affine functions of the
@@ -57,7 +60,8 @@ MIR_HD inline PlainRow scaled(const PlainRow& row, float factor) {
             strict::mul(row.w, factor)};
 }
 
-/// The least of four numbers; no number where all are none.
+/// The least of four numbers; no number where all are none. Some alone are not left out to be none:
+/// forms are finite, so that only an end which is no number, and is hit by nothing, makes them so.
 MIR_HD inline float least(float a, float b, float c, float d) {
     return fminf(fminf(a, b), fminf(c, d));
 }
@@ -83,9 +87,8 @@ struct SureForms {
 namespace detail {
 
 MIR_HD inline PlainRow in_margins(const PlainRow& row, float margin) {
-    constexpr float most = 1e30f;  // metres: up to it no coefficient overflows
-    if (!(margin <= most)) return {0.0f, 0.0f, 0.0f, 0.0f};
-    return scaled(row, loose::reciprocal(margin));
+    if (!(margin <= EdgeMargins::largest)) return {0.0f, 0.0f, 0.0f, 0.0f};
+    return scaled(row, loose::rough_reciprocal(margin));
 }
 
 }  // namespace detail
@@ -93,7 +96,7 @@ MIR_HD inline PlainRow in_margins(const PlainRow& row, float margin) {
 /// Forms in units of margins; `plane` is that of s', metres, 2^-120 or more like the others.
 /// docs/shafts.md derives them.
 [[nodiscard]] MIR_HD inline SureForms in_margins(const SegmentForms& forms, float plane) {
-    return {detail::scaled(forms.beyond, loose::reciprocal(plane)),
+    return {detail::scaled(forms.beyond, loose::rough_reciprocal(plane)),
             detail::in_margins(forms.u, forms.margins.u),
             detail::in_margins(forms.v, forms.margins.v),
             detail::in_margins(forms.w, forms.margins.w)};
