@@ -5,6 +5,63 @@
 
 #include <cmath>
 
+namespace mir::loose {
+
+// Operations whose last bits may differ between host and device: for decisions that carry their own
+// margin, such as the order in which a traversal visits cells.
+
+/// 1 / a with a relative error of at most 2^-22; `a` between 2^-120 and 2^120 in size.
+[[nodiscard]] MIR_HD inline float rough_reciprocal(float a) {
+#if defined(__CUDA_ARCH__)
+    float estimate = 0.0f;
+    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
+    return estimate;
+#else
+    return 1.0f / a;
+#endif
+}
+
+/// 1 / a with a relative error below 2^-23; `a` between 2^-120 and 2^120 in size.
+[[nodiscard]] MIR_HD inline float reciprocal(float a) {
+#if defined(__CUDA_ARCH__)
+    const float estimate = rough_reciprocal(a);
+    return __fmaf_rn(estimate, __fmaf_rn(-a, estimate, 1.0f), estimate);
+#else
+    return 1.0f / a;
+#endif
+}
+
+/// 1 / sqrt(a) with a relative error below 2^-21; `a` between 2^-120 and 2^120.
+[[nodiscard]] MIR_HD inline float inverse_root(float a) {
+#if defined(__CUDA_ARCH__)
+    float estimate = 0.0f;
+    asm("rsqrt.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
+    return estimate;
+#else
+    return 1.0f / std::sqrt(a);
+#endif
+}
+
+/// a * b + c, rounded once or twice.
+[[nodiscard]] MIR_HD inline float mul_add(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    return __fmaf_rn(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
+/// a * b - c, rounded once or twice.
+[[nodiscard]] MIR_HD inline float mul_sub(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    return __fmaf_rn(a, b, -c);
+#else
+    return a * b - c;
+#endif
+}
+
+}  // namespace mir::loose
+
 namespace mir::strict {
 
 // Products, sums and quotients that are rounded one by one, to nearest even, in every compilation.
@@ -101,8 +158,7 @@ namespace mir::strict {
 /// without the branch for numbers out of that range.
 [[nodiscard]] MIR_HD inline float usual_sqrt(float a) {
 #if defined(__CUDA_ARCH__)
-    float estimate = 0.0f;
-    asm("rsqrt.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
+    const float estimate = loose::inverse_root(a);
     const float root = __fmul_rn(a, estimate);
     return __fmaf_rn(__fmaf_rn(-root, root, a), __fmul_rn(0.5f, estimate), root);
 #else
@@ -116,8 +172,7 @@ namespace mir::strict {
 #if defined(__CUDA_ARCH__)
     if (!(a >= 0x1p-100f && a <= 0x1p100f)) return 1.0f / sqrtf(a);
     const float root = usual_sqrt(a);
-    float estimate = 0.0f;
-    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(root));
+    const float estimate = loose::rough_reciprocal(root);
     return __fmaf_rn(estimate, __fmaf_rn(-root, estimate, 1.0f), estimate);
 #else
     return 1.0f / sqrtf(a);
@@ -125,61 +180,3 @@ namespace mir::strict {
 }
 
 }  // namespace mir::strict
-
-namespace mir::loose {
-
-// Operations whose last bits may differ between host and device: for decisions that carry their own
-// margin, such as the order in which a traversal visits cells.
-
-/// 1 / a with a relative error below 2^-23; `a` between 2^-120 and 2^120 in size.
-[[nodiscard]] MIR_HD inline float reciprocal(float a) {
-#if defined(__CUDA_ARCH__)
-    float estimate = 0.0f;
-    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
-    return __fmaf_rn(estimate, __fmaf_rn(-a, estimate, 1.0f), estimate);
-#else
-    return 1.0f / a;
-#endif
-}
-
-/// 1 / a with a relative error of at most 2^-22; `a` between 2^-120 and 2^120 in size.
-[[nodiscard]] MIR_HD inline float rough_reciprocal(float a) {
-#if defined(__CUDA_ARCH__)
-    float estimate = 0.0f;
-    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
-    return estimate;
-#else
-    return 1.0f / a;
-#endif
-}
-
-/// 1 / sqrt(a) with a relative error below 2^-21; `a` between 2^-120 and 2^120.
-[[nodiscard]] MIR_HD inline float inverse_root(float a) {
-#if defined(__CUDA_ARCH__)
-    float estimate = 0.0f;
-    asm("rsqrt.approx.ftz.f32 %0, %1;" : "=f"(estimate) : "f"(a));
-    return estimate;
-#else
-    return 1.0f / std::sqrt(a);
-#endif
-}
-
-/// a * b + c, rounded once or twice.
-[[nodiscard]] MIR_HD inline float mul_add(float a, float b, float c) {
-#if defined(__CUDA_ARCH__)
-    return __fmaf_rn(a, b, c);
-#else
-    return a * b + c;
-#endif
-}
-
-/// a * b - c, rounded once or twice.
-[[nodiscard]] MIR_HD inline float mul_sub(float a, float b, float c) {
-#if defined(__CUDA_ARCH__)
-    return __fmaf_rn(a, b, -c);
-#else
-    return a * b - c;
-#endif
-}
-
-}  // namespace mir::loose

@@ -46,7 +46,7 @@ struct BlockRecords {
     static Cluster cluster(const SoaView<const Hit>& hits, std::uint32_t first, std::uint32_t count,
                            float reach, float sigma) {
         Cluster c;
-        c.record = cluster_record(hits, first, count, sigma);
+        c.record = upright_record(hits, first, count, sigma);
         c.box = detail::cluster_box(c.record);
         c.within = c.record.luxels != 0 && within_reach(c.record, reach);
         return c;

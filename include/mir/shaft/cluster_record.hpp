@@ -154,9 +154,9 @@ MIR_HD inline Range range_along(const TiltedAxis& tilt, const SoaView<const Hit>
 
 }  // namespace detail
 
-/// Record of the luxels first .. first + count - 1. `sigma` is sigma_of() the scene's magnitude,
-/// metres.
-[[nodiscard]] MIR_HD inline ClusterRecord cluster_record(const SoaView<const Hit>& hits,
+/// Record of the luxels first .. first + count - 1 whose box does not lean: for shafts that do not
+/// ask how it does. `sigma` is sigma_of() the scene's magnitude, metres.
+[[nodiscard]] MIR_HD inline ClusterRecord upright_record(const SoaView<const Hit>& hits,
                                                          std::uint32_t first, std::uint32_t count,
                                                          float sigma) {
     const detail::ClusterSum sum = detail::sum_of_cluster(hits, first, count);
@@ -168,6 +168,15 @@ MIR_HD inline Range range_along(const TiltedAxis& tilt, const SoaView<const Hit>
     cluster.front = detail::direction_row(sum.normals);
     cluster.front.w =
         strict::sub(2.0f * sigma, detail::least_at(cluster.front, hits, first, count));
+    return cluster;
+}
+
+/// The same, and the box leans where that makes it thinner.
+[[nodiscard]] MIR_HD inline ClusterRecord cluster_record(const SoaView<const Hit>& hits,
+                                                         std::uint32_t first, std::uint32_t count,
+                                                         float sigma) {
+    ClusterRecord cluster = upright_record(hits, first, count, sigma);
+    if (cluster.luxels == 0) return cluster;
     const TiltedAxis tilt = detail::tilted_axis(cluster.front);
     const detail::Range range = detail::range_along(tilt, hits, first, count);
     detail::set_tilt(cluster, tilt, range.low, range.high, sigma);
