@@ -19,8 +19,8 @@ namespace mir {
 /// What the searches of shafts may cost on a backend, and how many pairs are worked on at a time.
 /// Any numbers give the same bits.
 struct BackendShaftOptions {
-    std::uint32_t block_nodes = 32;    ///< that the shaft of 256 luxels and a VPL visits
-    std::uint32_t cluster_nodes = 80;  ///< that the shaft of 32 luxels and a VPL visits
+    std::uint32_t block_nodes = 12;     ///< that the shaft of 256 luxels and a VPL visits
+    std::uint32_t cluster_nodes = 128;  ///< that the shaft of 32 luxels and a VPL visits
     std::uint32_t vpls = 256;  ///< at a time, at least 1: queues have room for all their pairs
     std::uint32_t groups = 1u << 14;  ///< that empty a queue together, at least 1
     std::uint32_t leaves = 1u << 26;  ///< room for the leaves that shafts meet, 4 bytes each

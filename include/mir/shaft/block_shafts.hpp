@@ -57,6 +57,7 @@ struct BlockShafts {
         LaneGroup::PerLane<PairState> states;
         LaneGroup::PerLane<LeafSearch> searches;
         LaneGroup::PerLane<ShaftSlabs> slabs;
+        LaneGroup::PerLane<detail::LeafStack> stacks;
         group.each([&](std::uint32_t lane) {
             const std::uint32_t block = first + lane;
             const bool is_alive = block < block_count && any_bit(block, j);
@@ -65,7 +66,8 @@ struct BlockShafts {
             if (on) slabs[lane] = make_shaft_slabs(blocks[block], apex, sigma, reach);
             searches[lane].begin(on);
         });
-        search_leaves(group, bvh, slabs, most_nodes, searches, space.leaves);
+        while (running_lanes(group, searches) != 0)
+            visit_nodes(group, bvh, slabs, most_nodes, searches, stacks, space.leaves);
         classify(group, first, apex, searches, space, states);
         group.each([&](std::uint32_t lane) {
             if (states[lane] == PairState::covered) clear_words(first + lane, j);

@@ -22,8 +22,10 @@ struct ClusterShafts {
     static constexpr std::uint32_t resident_blocks = 6;
     /// Words of visibility of a block and a VPL.
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
-    /// Blocks that a group takes together, a cluster per lane.
-    static constexpr std::uint32_t blocks_at_once = LaneGroup::width / block_words;
+    /// Lanes with nodes left at which the others are given new pairs.
+    static constexpr std::uint32_t few_lanes = 20;
+    /// Nodes that lanes visit at least before that is looked for.
+    static constexpr std::uint32_t least_turns = 8;
 
     /// What a group works in.
     struct Workspace {
@@ -43,10 +45,29 @@ struct ClusterShafts {
 
     /// Takes pairs from `blocks` until none is left: any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace& space) const {
-        const std::uint32_t count = blocks.size();
-        for (std::uint32_t first = blocks.take(group, blocks_at_once); first < count;
-             first = blocks.take(group, blocks_at_once))
-            search(group, first, count, space);
+        LaneGroup::PerLane<Task> tasks;
+        LaneGroup::PerLane<LeafSearch> searches;
+        LaneGroup::PerLane<ShaftSlabs> slabs;
+        LaneGroup::PerLane<detail::LeafStack> stacks;
+        group.each([&](std::uint32_t lane) {
+            tasks[lane] = {false, {}};
+            searches[lane].begin(false);
+        });
+        const std::uint32_t count = blocks.size() * block_words;
+        bool has_more = true;
+        for (std::uint32_t turns = 0;; ++turns) {
+            std::uint32_t running = running_lanes(group, searches);
+            const bool are_few = LaneGroup::count(running) <= few_lanes && turns >= least_turns;
+            if (has_more && (are_few || running == 0)) {
+                conclude(group, ~running, tasks, searches, space);
+                has_more = begin(group, ~running, count, tasks, searches, slabs);
+                running = running_lanes(group, searches);
+                turns = 0;
+            }
+            if (running == 0 && !has_more) break;
+            visit_nodes(group, bvh, slabs, most_nodes, searches, stacks, space.leaves);
+        }
+        conclude(group, LaneGroup::all, tasks, searches, space);
     }
 
  private:
@@ -56,13 +77,15 @@ struct ClusterShafts {
         OpenPair pair;
     };
 
-    MIR_HD void search(const LaneGroup& group, std::uint32_t first, std::uint32_t count,
-                       Workspace& space) const {
-        LaneGroup::PerLane<Task> tasks;
-        LaneGroup::PerLane<LeafSearch> searches;
-        LaneGroup::PerLane<ShaftSlabs> slabs;
+    /// Gives some lanes a search each. False when none is left.
+    MIR_HD bool begin(const LaneGroup& group, std::uint32_t lanes, std::uint32_t count,
+                      LaneGroup::PerLane<Task>& tasks, LaneGroup::PerLane<LeafSearch>& searches,
+                      LaneGroup::PerLane<ShaftSlabs>& slabs) const {
+        const std::uint32_t first = blocks.take(group, LaneGroup::count(lanes));
         group.each([&](std::uint32_t lane) {
-            tasks[lane] = task_of(first, count, lane);
+            if ((lanes >> lane & 1u) == 0) return;
+            const std::uint32_t at = first + LaneGroup::count_before(lanes, lane);
+            tasks[lane] = at < count ? task(at) : Task{false, {}};
             const bool on = tasks[lane].is_alive && is_proved(tasks[lane].pair);
             if (on)
                 slabs[lane] =
@@ -70,21 +93,26 @@ struct ClusterShafts {
                                      vpls[tasks[lane].pair.vpl].position, sigma, bvh.exact.reach);
             searches[lane].begin(on);
         });
-        search_leaves(group, bvh, slabs, most_nodes, searches, space.leaves);
-        std::uint32_t undecided = group.ballot([&](std::uint32_t lane) {
+        return first < count;
+    }
+
+    /// Passes on what the searches of some lanes, which have ended, found.
+    MIR_HD void conclude(const LaneGroup& group, std::uint32_t lanes,
+                         const LaneGroup::PerLane<Task>& tasks,
+                         const LaneGroup::PerLane<LeafSearch>& searches,
+                         const Workspace& space) const {
+        std::uint32_t undecided = lanes & group.ballot([&](std::uint32_t lane) {
             return tasks[lane].is_alive && searches[lane].state != LeafSearchState::complete;
         });
-        undecided |= store(group, tasks, searches, space);
+        undecided |= store(group, lanes, tasks, searches, space);
         static_cast<void>(
             open.append(group, undecided, [&](std::uint32_t lane) { return tasks[lane].pair; }));
     }
 
-    [[nodiscard]] MIR_HD Task task_of(std::uint32_t first, std::uint32_t count,
-                                      std::uint32_t lane) const {
-        const std::uint32_t at = first + lane / block_words;
-        if (at >= count) return {false, {}};
-        const OpenPair block = blocks.items[at];
-        const std::uint32_t cluster = block.cluster * block_words + lane % block_words;
+    /// Cluster at % block_words of the block at / block_words in the queue.
+    [[nodiscard]] MIR_HD Task task(std::uint32_t at) const {
+        const OpenPair block = blocks.items[at / block_words];
+        const std::uint32_t cluster = block.cluster * block_words + at % block_words;
         const std::uint32_t word = words[std::size_t{cluster} * vpls.size() + block.vpl];
         return {word != 0, {cluster, block.vpl}};
     }
@@ -95,15 +123,16 @@ struct ClusterShafts {
                within_reach(clusters[pair.cluster], reach);
     }
 
-    /// Queues the pairs of all lanes that have a complete list. Returns the lanes for which there
-    /// was no room.
-    [[nodiscard]] MIR_HD std::uint32_t store(const LaneGroup& group,
+    /// Queues the pairs of those of some lanes that have a complete list. Returns the lanes for
+    /// which there was no room.
+    [[nodiscard]] MIR_HD std::uint32_t store(const LaneGroup& group, std::uint32_t of,
                                              const LaneGroup::PerLane<Task>& tasks,
                                              const LaneGroup::PerLane<LeafSearch>& searches,
                                              const Workspace& space) const {
         LaneGroup::PerLane<std::uint32_t> place;
         group.each([&](std::uint32_t lane) {
-            const bool is_complete = searches[lane].state == LeafSearchState::complete;
+            const bool is_complete =
+                (of >> lane & 1u) != 0 && searches[lane].state == LeafSearchState::complete;
             place[lane] = is_complete ? searches[lane].listed : 0u;
         });
         const std::uint32_t lists =

@@ -38,24 +38,31 @@ struct LeafColumns {
 
 namespace detail {
 
-/// Children of a node that are still to be visited. Without defaults, which would clear the whole
-/// stack for every shaft.
-struct WaitingChildren {
-    std::uint32_t node;   ///< their parent
+/// Children of a node that are still to be visited. Aligned so that the device moves it as one
+/// word.
+struct alignas(8) WaitingChildren {
+    std::uint32_t first_node;  ///< NodeLinks::first_node of their parent
     std::uint32_t slots;  ///< a bit for each that waits; above them one for each that is a node
 
-    [[nodiscard]] MIR_HD static WaitingChildren of(std::uint32_t node, std::uint32_t inner,
+    [[nodiscard]] MIR_HD static WaitingChildren of(std::uint32_t first_node, std::uint32_t inner,
                                                    std::uint32_t waiting) {
-        return {node, inner << WideNode::width | waiting};
+        return {first_node, inner << WideNode::width | waiting};
     }
     [[nodiscard]] MIR_HD bool empty() const {
         return (slots & ((1u << WideNode::width) - 1u)) == 0;
     }
-    MIR_HD std::uint32_t pop(const NodeLinks* links) {
+    MIR_HD std::uint32_t pop() {
         const std::uint32_t k = LaneGroup::lowest(slots);
         slots &= slots - 1;
-        return NodeLinks::node(links[node].first_node, slots >> WideNode::width, k);
+        return NodeLinks::node(first_node, slots >> WideNode::width, k);
     }
+};
+
+/// What a lane's search comes back to. Apart from it, because what lies beside an array that is
+/// looked up by number is kept in memory, too. Without defaults, which would clear all of it for
+/// every shaft.
+struct LeafStack {
+    WaitingChildren entries[WideBvhOptions::depth_limit];  ///< of the way down
 };
 
 }  // namespace detail
@@ -71,17 +78,30 @@ enum class LeafSearchState : std::uint8_t {
 /// A lane's walk of its shaft through a wide hierarchy, a node per step. Leaves are listed without
 /// a look at their triangles: lanes that test triangles in between lose step.
 struct LeafSearch {
-    LeafSearchState state;  ///< begin() sets it
-    std::uint32_t listed;   ///< nodes with leaves that the shaft meets
-    std::uint32_t visited;  ///< nodes
-    std::uint32_t node;     ///< visited next
-    std::uint32_t waiting;  ///< nodes on the stack
-    detail::WaitingChildren stack[WideBvhOptions::depth_limit];  ///< of the way down
+    LeafSearchState state;        ///< begin() sets it
+    std::uint32_t listed;         ///< nodes with leaves that the shaft meets
+    std::uint32_t visited;        ///< nodes
+    std::uint32_t node;           ///< visited next
+    detail::WaitingChildren top;  ///< visited after it; none only where the stack is empty, too
+    std::uint32_t waiting;        ///< entries of the stack
 
     /// Starts at the root, or does nothing where `on` is false. Before it no member has a value.
     MIR_HD void begin(bool on) {
         state = on ? LeafSearchState::running : LeafSearchState::off;
         listed = visited = waiting = node = 0;
+        top = {0, 0};
+    }
+    /// Puts children before those that wait.
+    MIR_HD void push(detail::WaitingChildren children, detail::LeafStack& stack) {
+        if (!top.empty()) stack.entries[waiting++] = top;
+        top = children;
+    }
+    /// Goes to the next node; false when none waits.
+    MIR_HD bool next(const detail::LeafStack& stack) {
+        if (top.empty() && waiting > 0) top = stack.entries[--waiting];
+        if (top.empty()) return false;
+        node = top.pop();
+        return true;
     }
     /// True while nodes are left and there were not too many.
     [[nodiscard]] MIR_HD bool is_running() const { return state == LeafSearchState::running; }
@@ -92,8 +112,11 @@ namespace detail {
 /// One node.
 template <Space S, std::uint32_t Capacity>
 MIR_HD void step(const QuantisedBvhView<S>& bvh, const ShaftSlabs& slabs, std::uint32_t most_nodes,
-                 std::uint32_t lane, LeafSearch& search, LeafColumns<Capacity>& columns) {
+                 std::uint32_t lane, LeafSearch& search, LeafStack& stack,
+                 LeafColumns<Capacity>& columns) {
     const QuantisedNode node = bvh.boxes[search.node];
+    // Fetched beside the boxes, so that the way down waits once a node.
+    const std::uint32_t first_node = bvh.links[search.node].first_node;
     const std::uint32_t met = met_slots(node, slabs);
     const std::uint32_t inner = met & node.inner;
     const std::uint32_t leaf = met ^ inner;
@@ -102,35 +125,35 @@ MIR_HD void step(const QuantisedBvhView<S>& bvh, const ShaftSlabs& slabs, std::u
         over = search.listed == Capacity || search.node >= MetLeaves::most_nodes;
         if (!over) columns.met[search.listed++][lane] = MetLeaves::of(search.node, leaf);
     }
-    if (inner != 0)
-        search.stack[search.waiting++] = WaitingChildren::of(search.node, node.inner, inner);
-    const bool ended = search.waiting == 0;
+    if (inner != 0) search.push(WaitingChildren::of(first_node, node.inner, inner), stack);
+    const bool ended = !search.next(stack);
     over = over || (!ended && ++search.visited >= most_nodes);
-    if (!ended) {
-        WaitingChildren& top = search.stack[search.waiting - 1];
-        search.node = top.pop(bvh.links);
-        if (top.empty()) --search.waiting;
-    }
     if (ended) search.state = LeafSearchState::complete;
     if (over) search.state = LeafSearchState::given_up;
 }
 
 }  // namespace detail
 
-/// Runs the searches of all lanes to their ends, each within `most_nodes` nodes. Where one is
+/// The lanes whose searches have nodes left.
+[[nodiscard]] MIR_HD inline std::uint32_t running_lanes(
+    const LaneGroup& group, const LaneGroup::PerLane<LeafSearch>& searches) {
+    return group.ballot([&](std::uint32_t lane) { return searches[lane].is_running(); });
+}
+
+/// A node for each lane that has one left, within `most_nodes` of its search. Where one is
 /// complete, and cluster and VPL lie within reach, the lane's column holds every triangle that
-/// hits_segment() accepts for some segment of its shaft. A node per turn for all lanes that have
-/// one left: lanes that met a leaf or went up come together again before the next.
+/// hits_segment() accepts for some segment of its shaft. Lanes that met a leaf or went up come
+/// together again before the next.
 template <Space S, std::uint32_t Capacity>
-MIR_HD void search_leaves(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
-                          const LaneGroup::PerLane<ShaftSlabs>& slabs, std::uint32_t most_nodes,
-                          LaneGroup::PerLane<LeafSearch>& searches,
-                          LeafColumns<Capacity>& columns) {
-    while (group.ballot([&](std::uint32_t lane) { return searches[lane].is_running(); }) != 0)
-        group.each([&](std::uint32_t lane) {
-            if (searches[lane].is_running())
-                detail::step(bvh, slabs[lane], most_nodes, lane, searches[lane], columns);
-        });
+MIR_HD void visit_nodes(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
+                        const LaneGroup::PerLane<ShaftSlabs>& slabs, std::uint32_t most_nodes,
+                        LaneGroup::PerLane<LeafSearch>& searches,
+                        LaneGroup::PerLane<detail::LeafStack>& stacks,
+                        LeafColumns<Capacity>& columns) {
+    group.each([&](std::uint32_t lane) {
+        if (searches[lane].is_running())
+            detail::step(bvh, slabs[lane], most_nodes, lane, searches[lane], stacks[lane], columns);
+    });
 }
 
 }  // namespace mir
