@@ -36,9 +36,13 @@ TEST_CASE("The GPU's shafts give the bits of every triangle asked on the host") 
 }
 
 TEST_CASE("The GPU's shafts give the bits of single segments in a closed room") {
-    const mirtest::World world = mirtest::sphere_in_box();
-    const ShaftStage stage = stage_of(world, 60000, 70);
-    CHECK(different_bits(words(stage), stage.by_segments()) == 0);
+    for (const std::uint32_t slices : {12u, 120u}) {
+        CAPTURE(slices);
+        const mirtest::World world = mirtest::sphere_in_box(slices);
+        const ShaftStage stage = stage_of(world, 60000, 70);
+        CHECK(different_bits(words(stage), stage.by_segments()) == 0);
+        CHECK(different_bits(words(stage, {0, 1000}), stage.by_segments()) == 0);
+    }
 }
 
 TEST_CASE("No limit, batch or lack of room changes a bit of the GPU's shafts") {

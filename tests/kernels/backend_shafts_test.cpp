@@ -54,6 +54,19 @@ TEST_CASE("Most pairs of a closed room are decided without a single segment") {
     CHECK(untraced({}) < facing / 10);
 }
 
+TEST_CASE("Nothing of a deep hierarchy is lost, and lanes take new pairs while others search") {
+    const mirtest::World world = mirtest::sphere_in_box(120);
+    const ShaftStage stage = stage_of(world, 10000, 40, 24);
+    const auto truth = stage.by_segments();
+    CHECK(different_bits(words(stage), truth) == 0);
+    for (std::uint32_t groups : {1u, 5u}) {
+        const mir::BackendShaftOptions thorough{0, 1000, 40, groups};
+        CHECK(different_bits(words(stage, thorough), truth) == 0);
+        const std::size_t open = different_bits(words(stage, thorough, false), truth);
+        CHECK(open < different_bits(words(stage, {0, 0}, false), truth) / 2);
+    }
+}
+
 TEST_CASE("No limit of a backend's shafts changes a bit") {
     const mirtest::World world = soup(GENERATE(false, true), 1.0f, 0.0f);
     const ShaftStage stage = stage_of(world, 700, 30);

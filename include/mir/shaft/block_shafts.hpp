@@ -57,7 +57,7 @@ struct BlockShafts {
         LaneGroup::PerLane<PairState> states;
         LaneGroup::PerLane<LeafSearch> searches;
         LaneGroup::PerLane<ShaftSlabs> slabs;
-        LaneGroup::PerLane<detail::LeafStack> stacks;
+        LaneGroup::PerLane<LeafStack> stacks;
         group.each([&](std::uint32_t lane) {
             const std::uint32_t block = first + lane;
             const bool is_alive = block < block_count && any_bit(block, j);

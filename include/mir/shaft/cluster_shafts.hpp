@@ -22,9 +22,10 @@ struct ClusterShafts {
     static constexpr std::uint32_t resident_blocks = 6;
     /// Words of visibility of a block and a VPL.
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
-    /// Lanes with nodes left at which the others are given new pairs.
+    /// Lanes whose searches have ended wait for the next pairs until so few others search,
     static constexpr std::uint32_t few_lanes = 20;
-    /// Nodes that lanes visit at least before that is looked for.
+    /// and until so many nodes have been visited since pairs were last handed out: that has a
+    /// price.
     static constexpr std::uint32_t least_turns = 8;
 
     /// What a group works in.
@@ -48,7 +49,7 @@ struct ClusterShafts {
         LaneGroup::PerLane<Task> tasks;
         LaneGroup::PerLane<LeafSearch> searches;
         LaneGroup::PerLane<ShaftSlabs> slabs;
-        LaneGroup::PerLane<detail::LeafStack> stacks;
+        LaneGroup::PerLane<LeafStack> stacks;
         group.each([&](std::uint32_t lane) {
             tasks[lane] = {false, {}};
             searches[lane].begin(false);
@@ -59,7 +60,7 @@ struct ClusterShafts {
             std::uint32_t running = running_lanes(group, searches);
             const bool are_few = LaneGroup::count(running) <= few_lanes && turns >= least_turns;
             if (has_more && (are_few || running == 0)) {
-                conclude(group, ~running, tasks, searches, space);
+                conclude(group, tasks, searches, space);
                 has_more = begin(group, ~running, count, tasks, searches, slabs);
                 running = running_lanes(group, searches);
                 turns = 0;
@@ -67,7 +68,7 @@ struct ClusterShafts {
             if (running == 0 && !has_more) break;
             visit_nodes(group, bvh, slabs, most_nodes, searches, stacks, space.leaves);
         }
-        conclude(group, LaneGroup::all, tasks, searches, space);
+        conclude(group, tasks, searches, space);
     }
 
  private:
@@ -96,15 +97,15 @@ struct ClusterShafts {
         return first < count;
     }
 
-    /// Passes on what the searches of some lanes, which have ended, found.
-    MIR_HD void conclude(const LaneGroup& group, std::uint32_t lanes,
-                         const LaneGroup::PerLane<Task>& tasks,
+    /// Passes on what the searches that have ended found.
+    MIR_HD void conclude(const LaneGroup& group, const LaneGroup::PerLane<Task>& tasks,
                          const LaneGroup::PerLane<LeafSearch>& searches,
                          const Workspace& space) const {
-        std::uint32_t undecided = lanes & group.ballot([&](std::uint32_t lane) {
-            return tasks[lane].is_alive && searches[lane].state != LeafSearchState::complete;
+        std::uint32_t undecided = group.ballot([&](std::uint32_t lane) {
+            return tasks[lane].is_alive && !searches[lane].is_running() &&
+                   searches[lane].state != LeafSearchState::complete;
         });
-        undecided |= store(group, lanes, tasks, searches, space);
+        undecided |= store(group, tasks, searches, space);
         static_cast<void>(
             open.append(group, undecided, [&](std::uint32_t lane) { return tasks[lane].pair; }));
     }
@@ -123,16 +124,15 @@ struct ClusterShafts {
                within_reach(clusters[pair.cluster], reach);
     }
 
-    /// Queues the pairs of those of some lanes that have a complete list. Returns the lanes for
-    /// which there was no room.
-    [[nodiscard]] MIR_HD std::uint32_t store(const LaneGroup& group, std::uint32_t of,
+    /// Queues the pairs of all lanes that have a complete list. Returns the lanes for which there
+    /// was no room.
+    [[nodiscard]] MIR_HD std::uint32_t store(const LaneGroup& group,
                                              const LaneGroup::PerLane<Task>& tasks,
                                              const LaneGroup::PerLane<LeafSearch>& searches,
                                              const Workspace& space) const {
         LaneGroup::PerLane<std::uint32_t> place;
         group.each([&](std::uint32_t lane) {
-            const bool is_complete =
-                (of >> lane & 1u) != 0 && searches[lane].state == LeafSearchState::complete;
+            const bool is_complete = searches[lane].state == LeafSearchState::complete;
             place[lane] = is_complete ? searches[lane].listed : 0u;
         });
         const std::uint32_t lists =

@@ -58,14 +58,14 @@ struct alignas(8) WaitingChildren {
     }
 };
 
-/// What a lane's search comes back to. Apart from it, because what lies beside an array that is
-/// looked up by number is kept in memory, too. Without defaults, which would clear all of it for
-/// every shaft.
-struct LeafStack {
-    WaitingChildren entries[WideBvhOptions::depth_limit];  ///< of the way down
-};
-
 }  // namespace detail
+
+/// What a lane's search comes back to. Apart from it, because the device keeps what lies beside an
+/// array that is looked up by number in memory, too. Without defaults, which would clear all of it
+/// for every shaft.
+struct LeafStack {
+    detail::WaitingChildren entries[WideBvhOptions::depth_limit];  ///< the first `waiting` count
+};
 
 /// How far the search of one lane has come.
 enum class LeafSearchState : std::uint8_t {
@@ -82,7 +82,7 @@ struct LeafSearch {
     std::uint32_t listed;         ///< nodes with leaves that the shaft meets
     std::uint32_t visited;        ///< nodes
     std::uint32_t node;           ///< visited next
-    detail::WaitingChildren top;  ///< visited after it; none only where the stack is empty, too
+    detail::WaitingChildren top;  ///< visited after it, before those of the stack; may be empty
     std::uint32_t waiting;        ///< entries of the stack
 
     /// Starts at the root, or does nothing where `on` is false. Before it no member has a value.
@@ -92,12 +92,12 @@ struct LeafSearch {
         top = {0, 0};
     }
     /// Puts children before those that wait.
-    MIR_HD void push(detail::WaitingChildren children, detail::LeafStack& stack) {
+    MIR_HD void push(detail::WaitingChildren children, LeafStack& stack) {
         if (!top.empty()) stack.entries[waiting++] = top;
         top = children;
     }
     /// Goes to the next node; false when none waits.
-    MIR_HD bool next(const detail::LeafStack& stack) {
+    MIR_HD bool next(const LeafStack& stack) {
         if (top.empty() && waiting > 0) top = stack.entries[--waiting];
         if (top.empty()) return false;
         node = top.pop();
@@ -115,8 +115,6 @@ MIR_HD void step(const QuantisedBvhView<S>& bvh, const ShaftSlabs& slabs, std::u
                  std::uint32_t lane, LeafSearch& search, LeafStack& stack,
                  LeafColumns<Capacity>& columns) {
     const QuantisedNode node = bvh.boxes[search.node];
-    // Fetched beside the boxes, so that the way down waits once a node.
-    const std::uint32_t first_node = bvh.links[search.node].first_node;
     const std::uint32_t met = met_slots(node, slabs);
     const std::uint32_t inner = met & node.inner;
     const std::uint32_t leaf = met ^ inner;
@@ -125,7 +123,10 @@ MIR_HD void step(const QuantisedBvhView<S>& bvh, const ShaftSlabs& slabs, std::u
         over = search.listed == Capacity || search.node >= MetLeaves::most_nodes;
         if (!over) columns.met[search.listed++][lane] = MetLeaves::of(search.node, leaf);
     }
-    if (inner != 0) search.push(WaitingChildren::of(first_node, node.inner, inner), stack);
+    if (inner != 0) {
+        const std::uint32_t first_node = bvh.links[search.node].first_node;
+        search.push(WaitingChildren::of(first_node, node.inner, inner), stack);
+    }
     const bool ended = !search.next(stack);
     over = over || (!ended && ++search.visited >= most_nodes);
     if (ended) search.state = LeafSearchState::complete;
@@ -148,8 +149,7 @@ template <Space S, std::uint32_t Capacity>
 MIR_HD void visit_nodes(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
                         const LaneGroup::PerLane<ShaftSlabs>& slabs, std::uint32_t most_nodes,
                         LaneGroup::PerLane<LeafSearch>& searches,
-                        LaneGroup::PerLane<detail::LeafStack>& stacks,
-                        LeafColumns<Capacity>& columns) {
+                        LaneGroup::PerLane<LeafStack>& stacks, LeafColumns<Capacity>& columns) {
     group.each([&](std::uint32_t lane) {
         if (searches[lane].is_running())
             detail::step(bvh, slabs[lane], most_nodes, lane, searches[lane], stacks[lane], columns);
