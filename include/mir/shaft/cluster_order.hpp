@@ -4,11 +4,7 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/data/luxel.hpp"
 #include "mir/data/soa.hpp"
-
-#include <algorithm>
-#include <array>
-#include <numeric>
-#include <vector>
+#include "mir/shaft/detail/cluster_splitter.hpp"
 
 namespace mir {
 
@@ -21,91 +17,22 @@ struct ClusterOrderOptions {
 
 namespace detail {
 
-/// By what luxels are told apart: position and weighted normal, metres.
-using ClusterKey = std::array<float, 6>;
-
-/// Part of an order.
-struct ClusterRun {
-    std::size_t first = 0;
-    std::size_t count = 0;
-};
-
-/// Runs of this size are split no more: the smallest that anything decides at once.
-inline constexpr std::size_t smallest_cluster = 16;
-
-/// Elements of the first part of a run: the largest 16 2^k below its size, so that every aligned
-/// run of that many luxels is one part of the recursion.
-inline std::size_t first_part(std::size_t count) {
-    std::size_t part = smallest_cluster;
-    while (2 * part < count) part *= 2;
-    return part;
-}
-
-/// Order of the luxels that are not empty, while it is made.
-class ClusterSplitter {
- public:
-    ClusterSplitter(const std::vector<ClusterKey>& keys, std::vector<std::uint32_t>& order)
-        : keys_(&keys), order_(&order) {}
-
-    /// Puts the luxels of a run with the smaller keys in its first part. Equal keys go by index:
-    /// what the parts hold is then a function of the luxels alone.
-    [[nodiscard]] std::array<ClusterRun, 2> split(ClusterRun run) const {
-        const std::size_t k = widest(run);
-        const std::size_t part = first_part(run.count);
-        const auto begin = order_->begin() + static_cast<std::ptrdiff_t>(run.first);
-        std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(part),
-                         begin + static_cast<std::ptrdiff_t>(run.count),
-                         [this, k](std::uint32_t a, std::uint32_t b) {
-                             const float at_a = (*keys_)[a][k];
-                             const float at_b = (*keys_)[b][k];
-                             return at_a != at_b ? at_a < at_b : a < b;
-                         });
-        return {{{run.first, part}, {run.first + part, run.count - part}}};
-    }
-
-    /// Splits a run to the end. The smallest runs are sorted by index, since selection leaves them
-    /// in an order that depends on the standard library.
-    void split_all(ClusterRun run) const {
-        if (run.count <= smallest_cluster) {
-            const auto begin = order_->begin() + static_cast<std::ptrdiff_t>(run.first);
-            std::sort(begin, begin + static_cast<std::ptrdiff_t>(run.count));
-            return;
-        }
-        for (const ClusterRun part : split(run)) split_all(part);
-    }
-
- private:
-    /// The key with the largest extent in a run, the first of equals.
-    [[nodiscard]] std::size_t widest(ClusterRun run) const {
-        ClusterKey low = (*keys_)[(*order_)[run.first]];
-        ClusterKey high = low;
-        for (std::size_t i = run.first; i < run.first + run.count; ++i) {
-            const ClusterKey& key = (*keys_)[(*order_)[i]];
-            for (std::size_t k = 0; k < key.size(); ++k) {
-                low[k] = std::min(low[k], key[k]);
-                high[k] = std::max(high[k], key[k]);
-            }
-        }
-        std::size_t widest = 0;
-        for (std::size_t k = 1; k < low.size(); ++k)
-            if (high[k] - low[k] > high[widest] - low[widest]) widest = k;
-        return widest;
-    }
-
-    const std::vector<ClusterKey>* keys_;
-    std::vector<std::uint32_t>* order_;
-};
-
-/// Splits large runs level by level, those of a level at the same time, small ones to the end.
+/// Splits large runs level by level, all cuts of a level at the same time, small ones to the end.
 template <Executor E>
 void split_in_levels(const ClusterSplitter& splitter, ClusterRun all, E& executor) {
-    constexpr std::size_t small = 8192;
+    constexpr std::size_t cuts = ClusterSplitter::cuts;
+    const auto is_small = [](ClusterRun run) { return run.count <= 8192; };
     std::vector<ClusterRun> runs{all};
     while (!runs.empty()) {
+        std::vector<ClusterCut> tried(cuts * runs.size());
+        executor.for_each(tried.size(), [&](std::size_t i) {
+            const ClusterRun run = runs[i / cuts];
+            if (!is_small(run)) tried[i] = splitter.cut(run, i % cuts);
+        });
         std::vector<ClusterRun> parts(2 * runs.size());
         executor.for_each(runs.size(), [&](std::size_t i) {
-            if (runs[i].count <= small) return splitter.split_all(runs[i]);
-            const auto halves = splitter.split(runs[i]);
+            if (is_small(runs[i])) return splitter.split_all(runs[i]);
+            const auto halves = splitter.split(runs[i], &tried[cuts * i]);
             std::copy(halves.begin(), halves.end(),
                       parts.begin() + 2 * static_cast<std::ptrdiff_t>(i));
         });
@@ -140,10 +67,11 @@ inline float diagonal_of(const SoaView<const Hit>& luxels, const std::vector<std
 }  // namespace detail
 
 /// An order of luxels in which every aligned run of 16, 32, 64, ... lies close together and looks
-/// the same way: place i is for luxel order[i]. Recursive median split along the widest of six
-/// keys, position and weighted normal; empty luxels come last, in their order. A function of the
-/// luxels (finite numbers) and the options alone, whatever the executor does. It decides speed,
-/// never bits.
+/// the same way: place i is for luxel order[i]. Recursive median split: of seven cuts, by each of
+/// six keys, position and weighted normal, and along the principal axis of the keys, the one that
+/// leaves the smallest boxes; empty luxels come last, in their order. A function of the luxels
+/// (finite numbers) and the options alone, whatever the executor does. It decides speed, never
+/// bits.
 template <Executor E>
 [[nodiscard]] std::vector<std::uint32_t> cluster_order(const SoaView<const Hit>& luxels,
                                                        const ClusterOrderOptions& options,

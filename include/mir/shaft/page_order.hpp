@@ -15,7 +15,7 @@ namespace mir {
 
 /// Puts the luxels of a tile in an order in which every aligned run of 32 lies close together and
 /// looks the same way: kernel for groups, a page each. Pages whose runs are compact as they are
-/// stay so. Others are split as by cluster_order(), at medians along the widest of six keys,
+/// stay so. Others are split at medians, along the widest of the six keys of cluster_order(),
 /// position and weighted normal, ties by index, empty luxels last; but page by page, which is as
 /// good (docs/performance.md) and needs no more memory than a group has. It decides speed, never
 /// bits.
