@@ -7,6 +7,8 @@
 #include "mir/shaft/kept_forms.hpp"
 #include "mir/shaft/occlusion.hpp"
 
+#include <cstring>
+
 namespace mir {
 
 /// The segments between a VPL and 32 luxels, of a group: what triangles whose forms are kept do to
@@ -24,9 +26,9 @@ class PairSegments {
             for (std::uint32_t j = 0; j < 2; ++j) {
                 s.luxel[j] = hits.load(first_luxel + lane % half_width + j * half_width).position;
                 s.end[j] = pyramid.local(s.luxel[j]);
-                s.is_hit[j] = false;
+                s.most[j] = 0.0f;
             }
-            s.unsure = 0;
+            s.sure = 0;
         });
     }
 
@@ -44,11 +46,11 @@ class PairSegments {
         });
         for (std::uint32_t j = 0; j < 2; ++j) {
             const std::uint32_t hit =
-                group_.ballot([&](std::uint32_t lane) { return segments_[lane].is_hit[j]; });
+                group_.ballot([&](std::uint32_t lane) { return segments_[lane].most[j] > 1.0f; });
             lit &= ~(((hit | hit >> half_width) & 0xFFFFu) << j * half_width);
         }
         for (std::uint32_t h = 0; h < 2 && lit != 0; ++h) {
-            std::uint32_t asked = unsure_of(h, lit);
+            std::uint32_t asked = unsure_of(h, halves.size, lit);
             for (; asked != 0 && lit != 0; asked &= asked - 1) {
                 const std::uint32_t form =
                     halves.first[h] + halves.size - 1 - LaneGroup::lowest(asked);
@@ -63,10 +65,10 @@ class PairSegments {
 
     /// What a lane knows.
     struct Segments {
-        Vec3 luxel[2];         ///< metres
-        Vec3 end[2];           ///< in the pyramid's local coordinates, metres
-        bool is_hit[2];        ///< surely
-        std::uint32_t unsure;  ///< bit k: the k-th form from the half's last one leaves one open
+        Vec3 luxel[2];       ///< metres
+        Vec3 end[2];         ///< in the pyramid's local coordinates, metres
+        float most[2];       ///< largest number that a form has there: above 1 where one surely hits
+        std::uint32_t sure;  ///< bit k: the k-th form from the half's last one leaves none open
     };
 
     /// Forms in two halves of the same size: one in the middle is in both.
@@ -83,18 +85,26 @@ class PairSegments {
     MIR_HD static void ask(const SureForms& forms, Segments& s) {
         const float first = forms.at(s.end[0]);
         const float second = forms.at(s.end[1]);
-        s.is_hit[0] = s.is_hit[0] | (first > 1.0f);
-        s.is_hit[1] = s.is_hit[1] | (second > 1.0f);
-        const bool is_sure = fminf(fabsf(first), fabsf(second)) > 1.0f;
-        s.unsure = 2 * s.unsure + (is_sure ? 0u : 1u);
+        s.most[0] = fmaxf(s.most[0], first);
+        s.most[1] = fmaxf(s.most[1], second);
+        // A difference costs the device less than a comparison whose result becomes a number.
+        s.sure = s.sure << 1 | sign_of(1.0f - fminf(fabsf(first), fabsf(second)));
+    }
+    /// 1 for negative numbers.
+    MIR_HD static std::uint32_t sign_of(float x) {
+        std::uint32_t bits = 0;
+        memcpy(&bits, &x, sizeof bits);
+        return bits >> 31;
     }
 
-    /// Forms of half `h` that leave a luxel of `lit` open, or the lane's other one.
-    [[nodiscard]] MIR_HD std::uint32_t unsure_of(std::uint32_t h, std::uint32_t lit) const {
+    /// Of the `count` forms of half `h` those that leave a luxel of `lit` open, or the lane's other
+    /// one.
+    [[nodiscard]] MIR_HD std::uint32_t unsure_of(std::uint32_t h, std::uint32_t count,
+                                                 std::uint32_t lit) const {
         return group_.any_bits([&](std::uint32_t lane) {
             const bool is_asked =
                 lane / half_width == h && (lit >> lane % half_width & 0x10001u) != 0;
-            return is_asked ? segments_[lane].unsure : 0u;
+            return is_asked ? ~segments_[lane].sure & LaneGroup::bits(0, count) : 0u;
         });
     }
 
