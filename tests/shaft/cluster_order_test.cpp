@@ -10,6 +10,7 @@
 #include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
 
+#include <numeric>
 #include <set>
 
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/page_order.hpp"
 
+#include "conformance/worlds.hpp"
 #include "mir/data/visibility_words.hpp"
 #include "mir/shaft/cluster_order.hpp"
 #include "mir/shaft/page_words.hpp"

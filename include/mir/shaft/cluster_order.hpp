@@ -6,6 +6,9 @@
 #include "mir/data/soa.hpp"
 #include "mir/shaft/detail/cluster_splitter.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace mir {
 
 /// How luxels are put into clusters.

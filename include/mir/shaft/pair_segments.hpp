@@ -65,9 +65,9 @@ class PairSegments {
 
     /// What a lane knows.
     struct Segments {
-        Vec3 luxel[2];       ///< metres
-        Vec3 end[2];         ///< in the pyramid's local coordinates, metres
-        float most[2];       ///< largest number that a form has there: above 1 where one surely hits
+        Vec3 luxel[2];  ///< metres
+        Vec3 end[2];    ///< in the pyramid's local coordinates, metres
+        float most[2];  ///< largest number that a form has there: above 1 where one surely hits
         std::uint32_t sure;  ///< bit k: the k-th form from the half's last one leaves none open
     };
 
