@@ -274,6 +274,7 @@
 #include "mir/shading/environment_light.hpp"
 #include "mir/shading/ggx.hpp"
 #include "mir/shading/glossy_shading.hpp"
+#include "mir/shading/inverse_distance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/material_params.hpp"
 #include "mir/shading/mean_factors.hpp"

@@ -61,6 +61,16 @@ struct DoubleReach : archetype::Shading {
 };
 static_assert(mir::Shading<DoubleReach> && !mir::ReachLimitedShading<DoubleReach>);
 
+struct RedAtDistance : archetype::Shading {
+    [[nodiscard]] float at_distance(const mir::Hit&, const Surface&, const mir::Vpl&, float) const {
+        return 1.0f;
+    }
+};
+static_assert(mir::Shading<RedAtDistance> && !mir::DistanceShading<RedAtDistance>);
+static_assert(!mir::DistanceShading<archetype::Shading>);
+static_assert(mir::DistanceShading<mir::VplShading<CookTorrance>>);
+static_assert(!mir::DistanceShading<mir::RemovedByBound<CookTorrance>>);
+
 static_assert(mir::Shading<mir::VplShading<Lambert>>);
 static_assert(mir::Shading<mir::VplShading<CookTorrance>>);
 static_assert(!mir::ReachLimitedShading<mir::VplShading<Lambert>>);

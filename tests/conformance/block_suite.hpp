@@ -4,9 +4,9 @@
 #include "conformance/worlds.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "mir/core/ray.hpp"
-#include "shaft/hit_run.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
+#include "support/soa_run.hpp"
 
 // The axioms of BlockVisibility: a bit that was set stays if and only if visible() says so.
 

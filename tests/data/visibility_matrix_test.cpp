@@ -62,6 +62,20 @@ TEST_CASE("A bit is faces() and visible(), for packets and for single segments")
     CHECK(wrong_bits(stage, filled(stage, Segments{stage.visibility()})) == 0);
 }
 
+TEST_CASE("Masks of a block lie side by side, group by group") {
+    const Stage stage({70, 50}, {48, 32}, 23);
+    const Matrix matrix = filled(stage, stage.visibility());
+    const auto bits = matrix.view();
+    std::size_t wrong = 0;
+    for (mir::TileIndex t = 0; t < stage.gbuffer().tiles().size(); ++t)
+        for (mir::LuxelIndex i = 0; i < stage.gbuffer().view(t).size(); ++i)
+            for (mir::VplIndex j = 0; j < 23; ++j) {
+                const std::uint32_t mask = bits.block_masks(t, i / 256, j)[i % 256 / 16];
+                wrong += (mask >> i % 16 & 1u) == (bits.sees(t, i, j) ? 1u : 0u) ? 0 : 1;
+            }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("A matrix with a wrong bit is rejected") {
     const Stage stage({20, 20}, {16, 16}, 5);
     Matrix matrix = filled(stage, stage.visibility());

@@ -7,6 +7,7 @@
 #include "mir/host/shaft_scene.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
+#include "support/soa_run.hpp"
 
 namespace {
 
@@ -109,14 +110,18 @@ TEST_CASE("A block's bounds never reject a VPL that faces one of its luxels") {
         const mir::Vec3 normal = mirtest::direction(random);
         // From a flat block to one around a corner.
         const float spread = i % 3 == 0 ? 0.0f : random.next();
-        mir::sched::detail::BlockBounds bounds;
         std::vector<mir::Hit> hits;
-        for (int k = 0; k < 8; ++k) {
+        std::vector<mir::Hit> luxels(mir::BlockMask::luxels);
+        for (std::size_t k = 0; k < 8; ++k) {
             const mir::Vec3 position = centre + 0.1f * mirtest::point_in_cube(random);
             const mir::Vec3 tilt = spread * mirtest::point_in_cube(random);
             hits.push_back({position, glm::normalize(normal + 0.5f * tilt)});
-            bounds.add(hits.back());
+            luxels[(37 * k + static_cast<std::size_t>(i)) % luxels.size()] = hits.back();
         }
+        const mirtest::HitRun run(luxels);
+        const mir::sched::detail::HitBlock block(run.view(), {},
+                                                 [](std::uint32_t) { return true; });
+        const mir::sched::detail::BlockBounds& bounds = block.bounds;
         // Half of the VPLs lie on a luxel, so that rounding decides.
         const mir::Vec3 anywhere = mirtest::point_in_cube(random);
         const mir::Vpl vpl{

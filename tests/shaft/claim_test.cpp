@@ -4,8 +4,8 @@
 #include "mir/shaft/occlusion.hpp"
 #include "mir/shaft/shaft.hpp"
 #include "shaft/cluster_draws.hpp"
-#include "shaft/hit_run.hpp"
 #include "support/catch.hpp"
+#include "support/soa_run.hpp"
 
 // From luxels to answers, over whole scenes: what shafts and pyramids say of every triangle against
 // hits_segment() for every luxel.

@@ -3,8 +3,8 @@
 
 #include "mir/data/vpl_list.hpp"
 #include "shaft/cluster_draws.hpp"
-#include "shaft/hit_run.hpp"
 #include "support/catch.hpp"
+#include "support/soa_run.hpp"
 
 #include <algorithm>
 #include <cmath>

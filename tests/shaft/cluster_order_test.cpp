@@ -6,9 +6,9 @@
 #include "mir/core/morton.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/scene/builtin.hpp"
-#include "shaft/hit_run.hpp"
 #include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
+#include "support/soa_run.hpp"
 
 #include <numeric>
 #include <set>

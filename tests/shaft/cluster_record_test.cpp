@@ -3,8 +3,8 @@
 
 #include "conformance/worlds.hpp"
 #include "mir/accel/accept_box.hpp"
-#include "shaft/hit_run.hpp"
 #include "support/catch.hpp"
+#include "support/soa_run.hpp"
 
 namespace {
 

@@ -2,8 +2,8 @@
 #include "mir/shaft/group_records.hpp"
 
 #include "shaft/cluster_draws.hpp"
-#include "shaft/hit_run.hpp"
 #include "support/catch.hpp"
+#include "support/soa_run.hpp"
 
 #include <cmath>
 #include <limits>

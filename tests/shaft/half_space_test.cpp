@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/shaft.hpp"
 #include "shaft/cluster_draws.hpp"
-#include "shaft/hit_run.hpp"
 #include "support/catch.hpp"
+#include "support/soa_run.hpp"
 
 // What a shaft's half-space refuses must lie behind the VPL and behind every luxel, as judged in
 // long arithmetic. VPLs are put next to the plane, boxes next to the VPL.

@@ -10,7 +10,7 @@
 #include "mir/shaft/pair_tally.hpp"
 #include "mir/shaft/shaft_pass.hpp"
 #include "shaft/cluster_draws.hpp"
-#include "shaft/hit_run.hpp"
+#include "support/soa_run.hpp"
 
 #include <algorithm>
 #include <bit>

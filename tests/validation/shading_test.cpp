@@ -46,6 +46,7 @@ enum class Bug {
     counts_calls,
     denies_light,
     reaches_too_far,
+    rounds_the_distance,
     shines_along_the_normal
 };
 
@@ -79,6 +80,12 @@ struct Buggy {
         if (bug == Bug::shines_along_the_normal) return c * j * (s.normal.y * s.normal.y);
         return c * j;
     }
+    [[nodiscard]] Rgb at_distance(const Hit& hit, const Surface& s, const Vpl& vpl,
+                                  float inverse) const {
+        const float rounded = static_cast<float>(std::lround(4096.0f * inverse)) / 4096.0f;
+        const Rgb c = (*this)(hit, s, vpl);
+        return bug == Bug::rounds_the_distance ? c * (rounded / inverse) : c;
+    }
 
  private:
     static Rgb at_most(Rgb c, float most) {
@@ -97,7 +104,8 @@ struct Buggy {
         return cos_l * cos_v * inverse * (bug == Bug::distance_not_squared ? 1.0f : inverse);
     }
 };
-static_assert(mir::ReachLimitedShading<Buggy> && mir::SurfaceSelectiveShading<Buggy>);
+static_assert(mir::ReachLimitedShading<Buggy> && mir::SurfaceSelectiveShading<Buggy> &&
+              mir::DistanceShading<Buggy>);
 
 Report check(Bug bug) { return check_shading(Buggy{bug}, surfaces_with(grey), reflect_grey); }
 
@@ -164,6 +172,7 @@ TEST_CASE("check_shading finds each axiom that a shading breaks") {
     CHECK(finds(check(Bug::counts_calls), "the same question has the same answer"));
     CHECK(finds_only(check(Bug::denies_light), "what reflects() denies is black"));
     CHECK(finds_only(check(Bug::reaches_too_far), "what lies out of reach is black"));
+    CHECK(finds_only(check(Bug::rounds_the_distance), "at_distance() is the same in every bit"));
     CHECK(finds(check_shading(mir::VplShading<Lambert>{}, surfaces_with(Lambert::Params{})),
                 "VPLs light the luxels"));
 }

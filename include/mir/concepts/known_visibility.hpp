@@ -11,13 +11,13 @@ namespace mir {
 ///
 /// Axioms (tests/data/visibility_matrix_test.cpp):
 ///  1. sees(t, i, j) is faces() and visible() of luxel i of tile t and VPL j;
-///  2. bit k of mask(t, g, j) is sees(t, 16 g + k, j).
+///  2. block_masks(t, b, j) are 16 masks, and bit k of mask g is sees(t, 256 b + 16 g + k, j).
 template <class V>
 concept KnownVisibility = DeviceCopyable<V> &&
-    requires(const V v, TileIndex t, LuxelIndex i, std::uint32_t group, VplIndex j) {
+    requires(const V v, TileIndex t, LuxelIndex i, std::uint32_t block, VplIndex j) {
     { V::space } -> std::convertible_to<Space>;
     { v.sees(t, i, j) } -> std::same_as<bool>;
-    { v.mask(t, group, j) } -> std::same_as<std::uint32_t>;
+    { v.block_masks(t, block, j) } -> std::same_as<const std::uint16_t*>;
 };
 
 /// What a scheduler may be told about visibility: how to find out, or what was found.

@@ -20,6 +20,15 @@ concept Shading = DeviceCopyable<F> &&
     { f(h, s, v) } -> std::same_as<Rgb>;
 };
 
+/// Shading that can be told the distance beforehand, which takes a root and a quotient that most
+/// others wait for. `inverse` is inverse_distance(h, v), m^-1, and
+/// f.at_distance(h, s, v, inverse) is f(h, s, v) in every bit.
+template <class F>
+concept DistanceShading = Shading<F> &&
+    requires(const F f, const Hit& h, const typename F::Surface& s, const Vpl& v, float inverse) {
+    { f.at_distance(h, s, v, inverse) } -> std::same_as<Rgb>;
+};
+
 /// Shading that is zero beyond a distance, so that whole blocks can be skipped without loss.
 template <class F>
 concept ReachLimitedShading = Shading<F> && requires(const F f) {

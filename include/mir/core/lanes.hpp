@@ -3,6 +3,7 @@
 
 #include "mir/core/instruction_set.hpp"
 
+#include <array>
 #include <cstdint>
 
 #if defined(__SSE2__)
@@ -16,6 +17,13 @@ namespace mir::detail {
 // truths of lanes become the bits of a word.
 
 inline constexpr std::uint32_t lane_count = 16;
+
+/// Bit k of lane k, from memory: not every instruction set shifts lanes by different counts.
+inline constexpr auto lane_bits = [] {
+    std::array<std::uint32_t, lane_count> bits{};
+    for (std::uint32_t k = 0; k < lane_count; ++k) bits[k] = 1u << k;
+    return bits;
+}();
 
 /// A number per lane.
 struct alignas(64) LaneFloats {

@@ -46,8 +46,11 @@ MIR_HD constexpr float max_channel(Rgb c) {
     return rg > c.b ? rg : c.b;
 }
 
-/// True when every channel is exactly zero.
-MIR_HD constexpr bool is_black(Rgb c) { return c.r == 0.0f && c.g == 0.0f && c.b == 0.0f; }
+/// True when every channel is exactly zero. No branches: loops over lanes ask it.
+MIR_HD constexpr bool is_black(Rgb c) {
+    return (static_cast<int>(c.r == 0.0f) & static_cast<int>(c.g == 0.0f) &
+            static_cast<int>(c.b == 0.0f)) != 0;
+}
 
 /// True when no channel is NaN or infinite.
 MIR_HD constexpr bool is_finite(Rgb c) {

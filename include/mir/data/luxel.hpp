@@ -22,7 +22,11 @@ struct Surface {
     Params bsdf;     ///< of the material at this point
 };
 
-/// True for a luxel whose camera ray left the scene, and for padding.
-MIR_HD inline bool is_empty(const Hit& h) { return h.normal == Vec3(0.0f); }
+/// True for a luxel whose camera ray left the scene, and for padding. No branches: loops over lanes
+/// ask it.
+MIR_HD inline bool is_empty(const Hit& h) {
+    return (static_cast<int>(h.normal.x == 0.0f) & static_cast<int>(h.normal.y == 0.0f) &
+            static_cast<int>(h.normal.z == 0.0f)) != 0;
+}
 
 }  // namespace mir

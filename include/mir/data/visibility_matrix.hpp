@@ -53,6 +53,11 @@ struct VisibilityBits {
     [[nodiscard]] MIR_HD std::uint32_t mask(TileIndex t, std::uint32_t group, VplIndex j) const {
         return masks[index(t, group, j)];
     }
+    /// mask() of all groups of block `block` of tile `t`, side by side.
+    [[nodiscard]] MIR_HD const std::uint16_t* block_masks(TileIndex t, std::uint32_t block,
+                                                          VplIndex j) const {
+        return masks + index(t, block * groups_per_block, j);
+    }
     /// True when luxel `i` (blocked index) of tile `t` faces and sees VPL `j`.
     [[nodiscard]] MIR_HD bool sees(TileIndex t, LuxelIndex i, VplIndex j) const {
         return tile(t).sees(i, j);

@@ -45,7 +45,7 @@ inline constexpr std::uint32_t vpls_per_task = 32;
 static_assert(vpls_per_task <= sched::detail::LitVpls::capacity);
 
 /// Adds what VPLs first .. last - 1, those of a task, do to the luxels of one block to their sums.
-template <VplSet P, KnownVisibility V, Shading F>
+template <InstructionSet Set, VplSet P, KnownVisibility V, Shading F>
 void add_block(const sched::detail::LuxelBlock<F>& block, const P& vpls, const V& bits,
                const F& shading, VplIndex first, VplIndex last, ImageResponse* sums) {
     using namespace sched::detail;
@@ -59,7 +59,7 @@ void add_block(const sched::detail::LuxelBlock<F>& block, const P& vpls, const V
         for (const std::uint32_t mask : lit.packet)
             sums[j].lit_luxels += static_cast<std::uint64_t>(std::popcount(mask));
     }
-    lit_vpls.shade_each(block, shading, lanes);
+    lit_vpls.template shade_each<Set>(block, shading, lanes);
     for (VplIndex j = first; j < last; ++j) {
         const GroupRadiance& of_vpl = lanes[j - first];
         ImageResponse sum;
@@ -73,7 +73,7 @@ void add_block(const sched::detail::LuxelBlock<F>& block, const P& vpls, const V
 }
 
 /// Adds the blocks of one row of blocks of a band, left to right, for VPLs first .. last - 1.
-template <TiledGBuffer G, VplSet P, KnownVisibility V, Shading F>
+template <InstructionSet Set, TiledGBuffer G, VplSet P, KnownVisibility V, Shading F>
 void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shading,
                    std::uint32_t row, VplIndex first, VplIndex last, ImageResponse* sums) {
     constexpr std::uint32_t side = BlockedLayout::side;
@@ -87,7 +87,7 @@ void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shad
             const sched::detail::Block place{t, row_of_tile * layout.blocks_x + x};
             const sched::detail::LuxelBlock<F> block(view.hits, view.surfaces, place, shading);
             if (block.bounds.empty) continue;
-            add_block(block, vpls, bits, shading, first, last, sums);
+            add_block<Set>(block, vpls, bits, shading, first, last, sums);
         }
     }
 }
@@ -108,8 +108,8 @@ void ResponseSum::add_band(const G& gbuffer, P vpls, V bits, const F& shading, E
         const VplIndex first = static_cast<std::uint32_t>(i % tasks) * detail::vpls_per_task;
         const VplIndex last = std::min(first + detail::vpls_per_task, count);
         ImageResponse* sums = row_sums.data() + std::size_t{row} * count;
-        run_with(instructions, [&] {
-            detail::add_block_row(gbuffer, vpls, bits, shading, row, first, last, sums);
+        run_with(instructions, [&](auto set) {
+            detail::add_block_row<set()>(gbuffer, vpls, bits, shading, row, first, last, sums);
         });
     });
     for (std::size_t i = 0; i < row_sums.size(); ++i) sums_[i % count] += row_sums[i];

@@ -71,16 +71,22 @@ struct CpuBlocks {
 
         void run(detail::Block b) const;
         void run(const detail::PlacedPage& page) const;
-        void shade(Work& work) const { work.batch.shade(work.block, in_.shading, work.sums); }
+        template <InstructionSet Set>
+        void shade(Work& work) const {
+            work.batch.template shade<Set>(work.block, in_.shading, work.sums);
+        }
         [[nodiscard]] std::vector<Work> start(const detail::PlacedPage& page) const;
-        template <class LitMask>
+        template <InstructionSet Set, class LitMask>
         void add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
                       const LitMask& lit_mask) const;
         void store(detail::Block b, const detail::GroupRadiance* sums) const;
 
-        /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing.
+        /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing. Who
+        /// faces it is not asked where masks that tell are at hand.
         [[nodiscard]] bool is_out_of_reach(const LuxelBlock& block, const Vpl& vpl) const {
-            if (is_black(vpl.intensity) || block.cannot_face(vpl)) return true;
+            if (is_black(vpl.intensity)) return true;
+            if constexpr (!KnownVisibility<V>)
+                if (block.cannot_face(vpl)) return true;
             if constexpr (ReachLimitedShading<F>)
                 return block.bounds.distance_squared(vpl.position) >
                        in_.shading.reach_squared() * (1.0f + 0x1p-16f);
@@ -122,17 +128,17 @@ CpuBlocks(E&, Monitor*, InstructionSet) -> CpuBlocks<E>;
 template <Executor E>
 template <class In>
 void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
-    run_with(scheduler_.instructions, [this, b] {
+    run_with(scheduler_.instructions, [this, b](auto set) {
         const auto view = in_.gbuffer.view(b.tile);
         const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
         detail::GroupRadiance sums[detail::groups_per_block];
         if constexpr (KnownVisibility<V>) {
-            add_vpls(block, sums, [&](VplIndex j, const Vpl&) {
+            add_vpls<set()>(block, sums, [&](VplIndex j, const Vpl&) {
                 return detail::known_mask(block, j, in_.visibility);
             });
         } else {
             const detail::BlockSight<V> sight(block, in_.visibility, scheduler_.instructions);
-            add_vpls(block, sums, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
+            add_vpls<set()>(block, sums, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
         }
         store(b, sums);
     });
@@ -167,19 +173,20 @@ void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
                            [&](const Work& w) { return !is_out_of_reach(w.block, vpl); });
     };
     for (VplIndex first = 0; first < in_.vpls.size(); first += most)
-        run_with(scheduler_.instructions, [&] {
+        run_with(scheduler_.instructions, [&](auto set) {
             const std::uint32_t count = std::min(most, in_.vpls.size() - first);
             sight.look(in_.vpls, first, count, matters);
             for (std::uint32_t b = 0; b < works.size(); ++b)
                 for (std::uint32_t k = 0; k < count; ++k) {
                     const Vpl vpl = in_.vpls[first + k];
                     if (is_out_of_reach(works[b].block, vpl)) continue;
-                    works[b].batch.add(vpl, sight.seen(b, k));
-                    if (works[b].batch.is_full()) shade(works[b]);
+                    const BlockMask lit = sight.seen(b, k);
+                    if (lit.any()) works[b].batch.add(vpl, lit);
+                    if (works[b].batch.is_full()) shade<set()>(works[b]);
                 }
         });
     for (Work& work : works) {
-        run_with(scheduler_.instructions, [&] { shade(work); });
+        run_with(scheduler_.instructions, [&](auto set) { shade<set()>(work); });
         store(work.place, work.sums);
     }
 }
@@ -187,17 +194,18 @@ void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
 /// Adds all VPLs; `lit_mask(j, vpl)` says to which luxels of the block.
 template <Executor E>
 template <class In>
-template <class LitMask>
+template <InstructionSet Set, class LitMask>
 void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
                                           const LitMask& lit_mask) const {
     detail::LitVpls batch;
     for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
         const Vpl vpl = in_.vpls[j];
         if (is_out_of_reach(block, vpl)) continue;
-        batch.add(vpl, lit_mask(j, vpl));
-        if (batch.is_full()) batch.shade(block, in_.shading, sums);
+        const BlockMask lit = lit_mask(j, vpl);
+        if (lit.any()) batch.add(vpl, lit);
+        if (batch.is_full()) batch.template shade<Set>(block, in_.shading, sums);
     }
-    batch.shade(block, in_.shading, sums);
+    batch.template shade<Set>(block, in_.shading, sums);
 }
 
 template <Executor E>

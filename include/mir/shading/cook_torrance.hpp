@@ -55,9 +55,10 @@ struct CookTorrance {
         return {2.0f * cos_o * n - wo, smaller(k, ReflectionLobe::largest_sharpness)};
     }
 
-    /// True when nothing is reflected in any direction.
+    /// True when nothing is reflected in any direction. No branches: loops over lanes ask it.
     MIR_HD static bool is_black(const Params& p) {
-        return p.f90 == 0.0f && mir::is_black(p.f0) && mir::is_black(p.diffuse);
+        return (static_cast<int>(p.f90 == 0.0f) & static_cast<int>(mir::is_black(p.f0)) &
+                static_cast<int>(mir::is_black(p.diffuse))) != 0;
     }
 
     /// Reflectance towards `wo` for guide images and samplers: the diffuse base exactly, the

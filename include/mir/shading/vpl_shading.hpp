@@ -2,9 +2,9 @@
 #pragma once
 
 #include "mir/concepts/bsdf.hpp"
-#include "mir/core/strict_float.hpp"
 #include "mir/data/luxel.hpp"
 #include "mir/data/vpl.hpp"
+#include "mir/shading/inverse_distance.hpp"
 
 #include <limits>
 
@@ -36,9 +36,12 @@ struct VplShading {
     // Inlined by force: a call would keep loops over luxels from being vectorised.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
-        const Vec3 d = vpl.position - hit.position;
-        const float inverse = strict::reciprocal_of_root(length_squared(d));
-        const Vec3 wi = d * inverse;
+        return at_distance(hit, s, vpl, inverse_distance(hit, vpl));
+    }
+    /// The same, 1/d being known, m^-1.
+    [[gnu::always_inline]] MIR_HD Rgb at_distance(const Hit& hit, const Surface& s, const Vpl& vpl,
+                                                  float inverse) const {
+        const Vec3 wi = (vpl.position - hit.position) * inverse;
         const float g = smaller(geometry_term(wi, inverse, s.normal, vpl.normal), bound);
         return B::eval(s.bsdf, s.normal, wi, s.wo) * (vpl.intensity * g);
     }
@@ -56,9 +59,8 @@ struct RemovedByBound {
     /// Radiance towards the viewer, W m^-2 sr^-1; 0 where G is no larger than the bound.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
-        const Vec3 d = vpl.position - hit.position;
-        const float inverse = strict::reciprocal_of_root(length_squared(d));
-        const Vec3 wi = d * inverse;
+        const float inverse = inverse_distance(hit, vpl);
+        const Vec3 wi = (vpl.position - hit.position) * inverse;
         const float excess = geometry_term(wi, inverse, s.normal, vpl.normal) - bound;
         if (!(excess > 0.0f)) return {};
         return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * excess;

@@ -95,18 +95,35 @@ void expect_nothing_skipped(const F& shade, const MakeSurface& surface, Report& 
                       std::to_string(out_of_reach) + " of 20000 values are not");
 }
 
+/// Told the distance, it answers as if it had found it.
+template <DistanceShading F, class MakeSurface>
+void expect_same_at_distance(const F& shade, const MakeSurface& surface, Report& report) {
+    Random random = numbers(67);
+    std::size_t different = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const ShadedPlace at = random_shaded_place(random);
+        const auto s = surface(at.normal, at.wo);
+        const Rgb told = shade.at_distance(at.hit, s, at.vpl, inverse_distance(at.hit, at.vpl));
+        different += bits_of(told) == bits_of(shade(at.hit, s, at.vpl)) ? 0 : 1;
+    }
+    report.expect(different == 0, "at_distance() is the same in every bit",
+                  std::to_string(different) + " of 20000 values are not");
+}
+
 }  // namespace detail
 
-/// The axioms of Shading, and of ReachLimitedShading and SurfaceSelectiveShading where `shade` is
-/// one. `surface(normal, wo)` makes the surface data of a luxel of some material that reflects,
-/// from its unit shading normal and the unit direction towards the viewer; surfaces_with() does so
-/// for mir's own. Luxels and VPLs stand on all sides of each other, 0.1 mm to 1 km apart.
+/// The axioms of Shading, and of ReachLimitedShading, SurfaceSelectiveShading and DistanceShading
+/// where `shade` is one. `surface(normal, wo)` makes the surface data of a luxel of some material
+/// that reflects, from its unit shading normal and the unit direction towards the viewer;
+/// surfaces_with() does so for mir's own. Luxels and VPLs stand on all sides of each other, 0.1 mm
+/// to 1 km apart.
 template <Shading F, class MakeSurface>
 Report check_shading(const F& shade, const MakeSurface& surface) {
     Report report;
     detail::expect_radiances(shade, surface, report);
     detail::expect_linear(shade, surface, report);
     detail::expect_nothing_skipped(shade, surface, report);
+    if constexpr (DistanceShading<F>) detail::expect_same_at_distance(shade, surface, report);
     return report;
 }
 

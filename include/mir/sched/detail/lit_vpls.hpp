@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/instruction_set.hpp"
+#include "mir/sched/detail/add_shaded.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
+
+#include <bit>
 
 namespace mir::sched::detail {
 
-/// VPLs of which is known which luxels of a block they light. Sixteen luxels meet all of them
-/// before the next sixteen do, so that what a shading makes of a luxel alone is computed once.
+/// VPLs of which is known which luxels of a block they light. The luxels of a vector register meet
+/// all of them before the next ones do, so that what a shading makes of a luxel alone is computed
+/// once.
 class LitVpls {
  public:
     static constexpr std::uint32_t capacity = 64;
@@ -14,66 +19,86 @@ class LitVpls {
     [[nodiscard]] bool is_full() const { return count_ == capacity; }
 
     /// There must be room.
-    void add(const Vpl& vpl, const BlockMask& lit) {
+    [[gnu::always_inline]] void add(const Vpl& vpl, const BlockMask& lit) {
+        const std::uint64_t bit = std::uint64_t{1} << count_;
         vpls_[count_] = vpl;
-        for (std::uint32_t group = 0; group < groups_per_block; ++group)
-            lit_[group][count_] = static_cast<std::uint16_t>(lit.packet[group]);
+        for (std::uint32_t group = 0; group < groups_per_block; ++group) {
+            lit_[count_][group] = static_cast<std::uint16_t>(lit.packet[group]);
+            lighting_[group] |= lit.packet[group] != 0 ? bit : 0;
+        }
         ++count_;
     }
 
     /// Adds the light of all to luxels, `sums` having a place for each group, and forgets them.
-    template <Shading F>
+    /// For all of this the caller is compiled for `Set`.
+    template <InstructionSet Set, Shading F>
     [[gnu::always_inline]] void shade(const LuxelBlock<F>& block, const F& shading,
                                       GroupRadiance* sums) {
         for (std::uint32_t group = 0; group < groups_per_block; ++group) {
             // A copy, of which the compiler knows that no luxel is read from it.
             GroupRadiance sum = sums[group];
-            shade_group(block, shading, group,
-                        [&](std::uint32_t) -> GroupRadiance& { return sum; });
+            shade_group<Set>(block, shading, group,
+                             [&](std::uint32_t) -> GroupRadiance& { return sum; });
             sums[group] = sum;
         }
         count_ = 0;
     }
 
     /// Adds what each does to the luxels of all groups: `sums` has a place for each VPL.
-    template <Shading F>
+    template <InstructionSet Set, Shading F>
     [[gnu::always_inline]] void shade_each(const LuxelBlock<F>& block, const F& shading,
                                            GroupRadiance* __restrict sums) {
         for (std::uint32_t group = 0; group < groups_per_block; ++group)
-            shade_group(block, shading, group,
-                        [sums](std::uint32_t i) -> GroupRadiance& { return sums[i]; });
+            shade_group<Set>(block, shading, group,
+                             [sums](std::uint32_t i) -> GroupRadiance& { return sums[i]; });
         count_ = 0;
     }
 
  private:
-    /// Adds VPL i to `sum_of(i)`, for each that a luxel of the group sees.
-    template <Shading F, class SumOf>
+    /// Adds VPL i to `sum_of(i)`, for each that a luxel of the group sees, and forgets which do.
+    template <InstructionSet Set, Shading F, class SumOf>
     [[gnu::always_inline]] void shade_group(const LuxelBlock<F>& block, const F& shading,
                                             std::uint32_t group, const SumOf& sum_of) {
-        const auto hits = starting_at(block.hits, group * group_size);
-        const auto surfaces = starting_at(block.surfaces, group * group_size);
-        const std::uint32_t seen = list_seen(lit_[group]);
-        for (std::uint32_t s = 0; s < seen; ++s) {
-            const std::uint32_t i = seen_[s];
-            add_shaded(hits, surfaces, vpls_[i], shading, lit_[group][i], sum_of(i));
-        }
+        const std::uint64_t lighting = lighting_[group];
+        lighting_[group] = 0;
+        if (lighting == 0) return;
+        shade_runs<LaneRun<0, lanes_shaded_by(Set)>>(block, shading, group, lighting, sum_of);
     }
 
-    /// Lists those that light a group in seen_ and counts them: a loop over the list alone always
-    /// shades, so that what does not change in it may move out of it.
-    std::uint32_t list_seen(const std::uint16_t* lit) {
-        std::uint32_t seen = 0;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            seen_[seen] = static_cast<std::uint8_t>(i);
-            seen += lit[i] != 0 ? 1u : 0u;
-        }
-        return seen;
+    /// The same for a run of the group's lanes and for those after it.
+    template <class Run, Shading F, class SumOf>
+    [[gnu::always_inline]] void shade_runs(const LuxelBlock<F>& block, const F& shading,
+                                           std::uint32_t group, std::uint64_t lighting,
+                                           const SumOf& sum_of) {
+        shade_run<Run>(block, shading, group, lighting, sum_of);
+        if constexpr (!Run::is_last)
+            shade_runs<typename Run::Next>(block, shading, group, lighting, sum_of);
+    }
+
+    /// The same for one run, VPLs in the order of their bits in `left`, which has some. The loop
+    /// always shades, so that what does not change in it may move out of it.
+    template <class Run, Shading F, class SumOf>
+    [[gnu::always_inline]] void shade_run(const LuxelBlock<F>& block, const F& shading,
+                                          std::uint32_t group, std::uint64_t left,
+                                          const SumOf& sum_of) {
+        const auto hits = starting_at(block.hits, group * group_size + Run::first);
+        const auto surfaces = starting_at(block.surfaces, group * group_size + Run::first);
+        auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+        mir::detail::LaneFloats ahead = inverse_distances(Run{}, hits, vpls_[i]);
+        do {
+            left &= left - 1;
+            // After the last, once more the last.
+            const auto next = left == 0 ? i : static_cast<std::uint32_t>(std::countr_zero(left));
+            add_shaded(Run{}, hits, surfaces, vpls_[i], vpls_[next], shading, lit_[i][group], ahead,
+                       sum_of(i));
+            i = next;
+        } while (left != 0);
     }
 
     std::uint32_t count_ = 0;
     Vpl vpls_[capacity];
-    std::uint16_t lit_[groups_per_block][capacity];
-    std::uint8_t seen_[capacity];
+    std::uint16_t lit_[capacity][groups_per_block];
+    std::uint64_t lighting_[groups_per_block] = {};  ///< VPLs that light a group, a bit each
 };
 
 }  // namespace mir::sched::detail
