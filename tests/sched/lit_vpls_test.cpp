@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/sched/detail/lit_vpls.hpp"
 
+#include "conformance/worlds.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/vpl_shading.hpp"
 #include "mir/validation/detail/shaded_places.hpp"
@@ -33,18 +34,33 @@ Surface random_surface(mir::Random& random) {
     return {place.normal, place.wo, {}, {colour(), colour(), 1.0f, 0.1f + 0.9f * random.next()}};
 }
 
-/// A block of which some luxels are empty and some reflect nothing.
-struct Luxels {
-    explicit Luxels(mir::Random& random) {
-        for (std::uint32_t i = 0; i < luxels; ++i) {
-            hits.push_back({mirtest::point_in_cube(random), mirtest::direction(random)});
-            surfaces.push_back(random_surface(random));
-            if (i % 17 == 3) hits.back() = {};
-            if (i % 19 == 5) surfaces.back().bsdf = {{}, {}, 0.0f, 1.0f};
-        }
-    }
-    std::vector<mir::Hit> hits;
+std::vector<mir::Hit> random_hits(mir::Random& random) {
+    std::vector<mir::Hit> hits(luxels);
+    for (std::uint32_t i = 0; i < luxels; ++i)
+        if (i % 17 != 3) hits[i] = {mirtest::point_in_cube(random), mirtest::direction(random)};
+    return hits;
+}
+
+std::vector<Surface> random_surfaces(mir::Random& random) {
     std::vector<Surface> surfaces;
+    for (std::uint32_t i = 0; i < luxels; ++i) {
+        surfaces.push_back(random_surface(random));
+        if (i % 19 == 5) surfaces.back().bsdf = {{}, {}, 0.0f, 1.0f};
+    }
+    return surfaces;
+}
+
+/// A block of which some luxels are empty and some reflect nothing.
+template <mir::Shading F>
+struct Luxels {
+    Luxels(const F& shading, mir::Random& random)
+        : hits(random_hits(random)),
+          surfaces(random_surfaces(random)),
+          block(hits.view(), surfaces.view(), {}, shading) {}
+
+    mirtest::SoaRun<mir::Hit> hits;
+    mirtest::SoaRun<Surface> surfaces;
+    mir::sched::detail::LuxelBlock<F> block;
 };
 
 /// No luxel, all of them, or any, for each group by itself; only such as count.
@@ -73,27 +89,29 @@ Rgb sum_of(const GroupRadiance* sums, std::uint32_t i) {
     return {sum.r[i % group_size], sum.g[i % group_size], sum.b[i % group_size]};
 }
 
+template <mir::Shading F>
+Rgb shaded(const Luxels<F>& made, const F& shading, std::uint32_t i, const Vpl& vpl) {
+    return shading(made.hits.view().load(i), made.surfaces.view().load(i), vpl);
+}
+
 /// Batches of so many VPLs one after the other in one LitVpls; luxels whose sums differ in a bit.
 template <mir::Shading F>
 std::size_t wrong_sums(const F& shading, mir::InstructionSet set, mir::Random& random) {
-    const Luxels made(random);
-    const mirtest::SoaRun<mir::Hit> hits(made.hits);
-    const mirtest::SoaRun<Surface> surfaces(made.surfaces);
-    const mir::sched::detail::LuxelBlock<F> block(hits.view(), surfaces.view(), {}, shading);
+    const Luxels made(shading, random);
     const auto batch = std::make_unique<LitVpls>();
     std::vector<GroupRadiance> sums(BlockMask::packets);
     std::vector<Rgb> wanted(luxels);
     for (const std::uint32_t count : {LitVpls::capacity, 1u, 5u}) {
         for (std::uint32_t j = 0; j < count; ++j) {
             const Vpl vpl = random_vpl(random);
-            const BlockMask mask = random_mask(block, random);
+            const BlockMask mask = random_mask(made.block, random);
             batch->add(vpl, mask);
             for (std::uint32_t i = 0; i < luxels; ++i)
-                if (is_lit(mask, i)) wanted[i] += shading(made.hits[i], made.surfaces[i], vpl);
+                if (is_lit(mask, i)) wanted[i] += shaded(made, shading, i, vpl);
         }
         CHECK(batch->is_full() == (count == LitVpls::capacity));
         mir::run_with(set, [&](auto s) {
-            batch->template shade<decltype(s)::value>(block, shading, sums.data());
+            batch->template shade<decltype(s)::value>(made.block, shading, sums.data());
         });
     }
     std::size_t wrong = 0;
@@ -105,24 +123,20 @@ std::size_t wrong_sums(const F& shading, mir::InstructionSet set, mir::Random& r
 /// The same for what each VPL adds to all groups: lanes whose sums differ in a bit.
 template <mir::Shading F>
 std::size_t wrong_lanes(const F& shading, mir::InstructionSet set, mir::Random& random) {
-    const Luxels made(random);
-    const mirtest::SoaRun<mir::Hit> hits(made.hits);
-    const mirtest::SoaRun<Surface> surfaces(made.surfaces);
-    const mir::sched::detail::LuxelBlock<F> block(hits.view(), surfaces.view(), {}, shading);
+    const Luxels made(shading, random);
     const auto batch = std::make_unique<LitVpls>();
     std::vector<GroupRadiance> sums(LitVpls::capacity);
     std::vector<Rgb> wanted(std::size_t{LitVpls::capacity} * group_size);
     for (std::uint32_t j = 0; j < LitVpls::capacity; ++j) {
         const Vpl vpl = random_vpl(random);
-        const BlockMask mask = random_mask(block, random);
+        const BlockMask mask = random_mask(made.block, random);
         batch->add(vpl, mask);
         for (std::uint32_t i = 0; i < luxels; ++i)
             if (is_lit(mask, i))
-                wanted[j * group_size + i % group_size] +=
-                    shading(made.hits[i], made.surfaces[i], vpl);
+                wanted[j * group_size + i % group_size] += shaded(made, shading, i, vpl);
     }
     mir::run_with(set, [&](auto s) {
-        batch->template shade_each<decltype(s)::value>(block, shading, sums.data());
+        batch->template shade_each<decltype(s)::value>(made.block, shading, sums.data());
     });
     std::size_t wrong = 0;
     for (std::uint32_t k = 0; k < wanted.size(); ++k)
