@@ -67,6 +67,15 @@ struct RedAtDistance : archetype::Shading {
     }
 };
 static_assert(mir::Shading<RedAtDistance> && !mir::DistanceShading<RedAtDistance>);
+static_assert(mir::DistanceShading<archetype::DistanceShading>);
+
+/// Shades otherwise than its base, whose at_distance() it has.
+struct Doubled : mir::VplShading<Lambert> {
+    mir::Rgb operator()(const mir::Hit& h, const Surface& s, const mir::Vpl& v) const {
+        return mir::VplShading<Lambert>::operator()(h, s, v) * 2.0f;
+    }
+};
+static_assert(mir::Shading<Doubled> && !mir::DistanceShading<Doubled>);
 static_assert(!mir::DistanceShading<archetype::Shading>);
 static_assert(mir::DistanceShading<mir::VplShading<CookTorrance>>);
 static_assert(!mir::DistanceShading<mir::RemovedByBound<CookTorrance>>);

@@ -5,9 +5,12 @@
 #include "conformance/scheduler_suite.hpp"
 #include "mir/fill_visibility.hpp"
 #include "mir/host/shaft_scene.hpp"
+#include "mir/reshade.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/soa_run.hpp"
+
+#include <algorithm>
 
 namespace {
 
@@ -27,6 +30,20 @@ std::uint32_t ordered_pages(const Stage& stage) {
             count += mir::PageClusters(stage.gbuffer().view(t).hits, pages[i]).is_ordered() ? 1 : 0;
     }
     return count;
+}
+
+/// VPLs that a luxel of a block sees, of the block with the most. All tiles are one block.
+std::uint32_t most_lighting_a_block(const mir::VisibilityMatrix& matrix) {
+    std::uint32_t most = 0;
+    for (mir::TileIndex t = 0; t < matrix.tiles(); ++t) {
+        std::uint32_t count = 0;
+        for (mir::VplIndex j = 0; j < matrix.vpls(); ++j) {
+            const std::uint16_t* const masks = matrix.view().block_masks(t, 0, j);
+            count += std::any_of(masks, masks + 16, [](auto mask) { return mask != 0; }) ? 1u : 0u;
+        }
+        most = std::max(most, count);
+    }
+    return most;
 }
 
 }  // namespace
@@ -83,6 +100,26 @@ TEMPLATE_TEST_CASE("The image of sched::CpuBlocks does not depend on the size of
     const auto found = mir::reconstruct(mir::sched::CpuBlocks{executor}, stage.gbuffer(),
                                         stage.vpls(), stage.visibility(), shading);
     CHECK(mirtest::pixels_that_differ(found, wanted) == 0);
+}
+
+TEMPLATE_TEST_CASE("sched::CpuBlocks adds more VPLs than it shades together", "",
+                   BruteStage<mir::CookTorrance>, ShaftStage<mir::CookTorrance>) {
+    const TestType stage({40, 30}, {16, 16}, 300);
+    const mir::VplShading<mir::CookTorrance> shading{2.0f};
+    const auto wanted = mirtest::oracle(stage, shading);
+    mir::InlineExecutor executor;
+    mir::VisibilityMatrix matrix(stage.gbuffer().tiles(), stage.vpls().size());
+    fill_visibility(matrix, stage.gbuffer(), stage.vpls(), stage.visibility(), executor);
+    REQUIRE(most_lighting_a_block(matrix) > 2 * mir::sched::detail::LitVpls::capacity);
+    for (const mir::InstructionSet set : mirtest::instruction_sets()) {
+        INFO("instruction set " << static_cast<int>(set));
+        const mir::sched::CpuBlocks scheduler{executor, nullptr, set};
+        const auto traced =
+            mir::reconstruct(scheduler, stage.gbuffer(), stage.vpls(), stage.visibility(), shading);
+        CHECK(mirtest::pixels_that_differ(traced, wanted) == 0);
+        const auto known = mir::reshade(scheduler, stage.gbuffer(), stage.vpls(), matrix, shading);
+        CHECK(mirtest::pixels_that_differ(known, wanted) == 0);
+    }
 }
 
 TEMPLATE_TEST_CASE("sched::CpuBlocks counts contributions and stops when it is told to", "",

@@ -138,6 +138,16 @@ struct SurfaceSelectiveShading : Shading {
     [[nodiscard]] bool reflects(const Surface&) const { return true; }
 };
 
+/// Shading that may be told the distance.
+struct DistanceShading : Shading {
+    using Shading::Shading;
+
+    /// What it adds at any distance; 1/d, m^-1, is not looked at.
+    [[nodiscard]] Rgb at_distance(const Hit&, const Surface&, const Vpl& vpl, float) const {
+        return vpl.intensity;
+    }
+};
+
 /// Becomes a Vpl when asked, and is nothing else.
 struct VplReference {
     Rgb intensity;  ///< W sr^-1

@@ -21,13 +21,13 @@ concept Shading = DeviceCopyable<F> &&
 };
 
 /// Shading that can be told the distance beforehand, which takes a root and a quotient that most
-/// others wait for. `inverse` is inverse_distance(h, v), m^-1, and
-/// f.at_distance(h, s, v, inverse) is f(h, s, v) in every bit.
+/// others wait for: f.at_distance(h, s, v, inverse_distance(h, v)) is f(h, s, v) in every bit. F
+/// declares it itself: what derives from such a shading may shade otherwise, so that its base's
+/// does not count.
 template <class F>
 concept DistanceShading = Shading<F> &&
-    requires(const F f, const Hit& h, const typename F::Surface& s, const Vpl& v, float inverse) {
-    { f.at_distance(h, s, v, inverse) } -> std::same_as<Rgb>;
-};
+    std::same_as<decltype(&F::at_distance),
+                 Rgb (F::*)(const Hit&, const typename F::Surface&, const Vpl&, float) const>;
 
 /// Shading that is zero beyond a distance, so that whole blocks can be skipped without loss.
 template <class F>
@@ -36,7 +36,8 @@ concept ReachLimitedShading = Shading<F> && requires(const F f) {
 };
 
 /// Shading that can tell from the surface alone that it reflects nothing, so that no ray is traced
-/// for it. `reflects` may only be false where every contribution is zero.
+/// for it. `reflects` may only be false where every contribution is zero. It is also asked of empty
+/// luxels, whose surfaces mean nothing, and must not fail there.
 template <class F>
 concept SurfaceSelectiveShading = Shading<F> && requires(const F f, const typename F::Surface& s) {
     { f.reflects(s) } -> std::same_as<bool>;

@@ -17,11 +17,12 @@
 namespace mir::sched {
 
 /// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
-/// luxels are found and their rays traced; the lit ones of some VPLs are shaded together, sixteen
-/// luxels to a register. A BlockVisibility is asked page by page for clusters of 256 luxels, about
-/// some VPLs at a time; others for packets of sixteen rays that start at the VPL. Same image as
-/// sched::Cpu in every bit where those faces give the bits of the single one, provided that the
-/// caller compiles with -ffp-contract=off. Given a KnownVisibility it traces no ray.
+/// luxels are found and their rays traced; the lit ones of some VPLs are shaded together, a vector
+/// register of luxels at a time. A BlockVisibility is asked page by page for clusters of 256
+/// luxels, about some VPLs at a time; others for packets of sixteen rays that start at the VPL.
+/// Same image as sched::Cpu in every bit where those faces give the bits of the single one,
+/// provided that the caller compiles with -ffp-contract=off. Given a KnownVisibility it traces no
+/// ray.
 template <Executor E>
 struct CpuBlocks {
     E& executor;                                           ///< runs blocks or pages
@@ -197,6 +198,7 @@ template <class In>
 template <InstructionSet Set, class LitMask>
 void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
                                           const LitMask& lit_mask) const {
+    if (block.bounds.empty) return;
     detail::LitVpls batch;
     for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
         const Vpl vpl = in_.vpls[j];

@@ -35,19 +35,17 @@ constexpr std::uint32_t lanes_shaded_by(InstructionSet set) {
 
 /// 1/d, m^-1, of each luxel of a run and a VPL.
 template <std::uint32_t First, std::uint32_t Lanes>
-[[gnu::always_inline]] inline mir::detail::LaneFloats inverse_distances(LaneRun<First, Lanes>,
-                                                                        SoaView<const Hit> hits,
-                                                                        Vpl vpl) {
-    mir::detail::LaneFloats inverse;
+[[gnu::always_inline]] inline void find_inverse_distances(LaneRun<First, Lanes>,
+                                                          SoaView<const Hit> hits, Vpl vpl,
+                                                          mir::detail::LaneFloats& inverse) {
     for (std::uint32_t k = 0; k < Lanes; ++k) inverse.at[k] = inverse_distance(hits.load(k), vpl);
-    return inverse;
 }
 
 /// Adds the VPL to the luxels of a run whose bit is set in `lit`, which is the group's. Every lane
 /// is computed, so that the loop becomes one pass over vector registers. A root and a quotient wait
 /// for one another at the beginning of most shadings, and no processor looks far enough ahead to
-/// begin with the next VPL meanwhile: `inverse` holds the inverse distances of this VPL, and is
-/// given those of the `next`.
+/// begin with the next VPL meanwhile: a DistanceShading finds the inverse distances of this VPL in
+/// `inverse`, which is then given those of the `next`.
 template <std::uint32_t First, std::uint32_t Lanes, Shading F>
 [[gnu::always_inline]] inline void add_shaded(LaneRun<First, Lanes>, SoaView<const Hit> hits,
                                               SoaView<const typename F::Surface> surfaces, Vpl vpl,

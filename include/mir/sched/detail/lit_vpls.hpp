@@ -6,6 +6,7 @@
 #include "mir/sched/detail/luxel_block.hpp"
 
 #include <bit>
+#include <limits>
 
 namespace mir::sched::detail {
 
@@ -14,7 +15,8 @@ namespace mir::sched::detail {
 /// once.
 class LitVpls {
  public:
-    static constexpr std::uint32_t capacity = 64;
+    /// A bit each in a word.
+    static constexpr std::uint32_t capacity = std::numeric_limits<std::uint64_t>::digits;
 
     [[nodiscard]] bool is_full() const { return count_ == capacity; }
 
@@ -84,7 +86,8 @@ class LitVpls {
         const auto hits = starting_at(block.hits, group * group_size + Run::first);
         const auto surfaces = starting_at(block.surfaces, group * group_size + Run::first);
         auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-        mir::detail::LaneFloats ahead = inverse_distances(Run{}, hits, vpls_[i]);
+        mir::detail::LaneFloats ahead;
+        if constexpr (DistanceShading<F>) find_inverse_distances(Run{}, hits, vpls_[i], ahead);
         do {
             left &= left - 1;
             // After the last, once more the last.

@@ -12,7 +12,7 @@
 
 namespace mir::sched::detail {
 
-/// Sixteen neighbouring luxels: one vector register, one ray packet.
+/// Sixteen neighbouring luxels: one ray packet, one vector register of AVX-512.
 inline constexpr std::uint32_t group_size = PointPacket::width;
 inline constexpr std::uint32_t groups_per_block = BlockMask::packets;
 static_assert(groups_per_block * group_size == BlockedLayout::block_size);
