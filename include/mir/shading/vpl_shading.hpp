@@ -39,8 +39,8 @@ struct VplShading {
         return at_distance(hit, s, vpl, inverse_distance(hit, vpl));
     }
     /// The same, 1/d being known, m^-1.
-    [[gnu::always_inline]] MIR_HD Rgb at_distance(const Hit& hit, const Surface& s, const Vpl& vpl,
-                                                  float inverse) const {
+    [[nodiscard, gnu::always_inline]] MIR_HD Rgb at_distance(const Hit& hit, const Surface& s,
+                                                             const Vpl& vpl, float inverse) const {
         const Vec3 wi = (vpl.position - hit.position) * inverse;
         const float g = smaller(geometry_term(wi, inverse, s.normal, vpl.normal), bound);
         return B::eval(s.bsdf, s.normal, wi, s.wo) * (vpl.intensity * g);
