@@ -278,6 +278,7 @@
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/material_params.hpp"
 #include "mir/shading/mean_factors.hpp"
+#include "mir/shading/packet_of_light.hpp"
 #include "mir/shading/reflection_lobe.hpp"
 #include "mir/shading/sampled_light.hpp"
 #include "mir/shading/scene_light.hpp"

@@ -17,6 +17,12 @@ static_assert(mir::max_channel({1, 3, 2}) == 3 && mir::max_channel({3, 1, 2}) ==
 static_assert(mir::is_black({}) && mir::is_black({0.0f, -0.0f, 0.0f}));
 static_assert(!mir::is_black({0, 0, 1e-40f}));
 
+TEST_CASE("What is not kept is black, whatever it was") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(mir::kept_if(true, {1, 2, 3}) == Rgb{1, 2, 3});
+    CHECK(mir::kept_if(false, {1, nan, -3}) == Rgb{});
+}
+
 TEST_CASE("Luminance has the weights of Rec. 709, which add up to one") {
     CHECK(mir::luminance({1, 0, 0}) == 0.2126f);
     CHECK(mir::luminance({0, 1, 0}) == 0.7152f);

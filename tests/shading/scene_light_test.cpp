@@ -140,6 +140,14 @@ TEST_CASE("late points of a Kronecker sequence are as exact as early ones") {
     }
 }
 
+TEST_CASE("points of a Kronecker sequence wrap around as fractions do") {
+    const float last = 1.0f - 0x1p-24f;
+    for (const float x : {0.0f, 0x1p-24f, 0.5f, last, 1.0f, 1.0f + 0x1p-23f, 1.5f, last + last}) {
+        INFO(x);
+        CHECK(mir::wrapped(x) == glm::fract(x));
+    }
+}
+
 TEST_CASE("light from below the surface or without samples or lamps is black") {
     const Lit lit(square_lamp());
     mir::Random random(1, mir::Stream::test, 0);

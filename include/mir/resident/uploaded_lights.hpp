@@ -14,6 +14,7 @@ class UploadedLights {
     /// Starts the copies on `queue`; `lights` must live until they are done.
     UploadedLights(const B& backend, typename B::Queue& queue, const LightTable& lights)
         : triangles_(backend, queue, lights.emissive_triangles()),
+          lamp_triangles_(backend, queue, lights.lamp_triangles()),
           delta_sources_(backend, queue, lights.delta_sources()),
           lamps_(backend, queue, lights.lamps()),
           cumulative_(backend, queue, lights.by_power().cumulative()),
@@ -25,6 +26,7 @@ class UploadedLights {
     /// For kernels that follow on the queue; valid until this is moved or ends.
     [[nodiscard]] LightTableView<B::space> view() const {
         return {triangles_.data(),
+                lamp_triangles_.data(),
                 values_.triangle_count,
                 delta_sources_.data(),
                 values_.delta_count,
@@ -39,6 +41,7 @@ class UploadedLights {
 
  private:
     UploadedArray<B, std::uint32_t> triangles_;
+    UploadedArray<B, LampTriangle> lamp_triangles_;
     UploadedArray<B, DeltaSource> delta_sources_;
     UploadedArray<B, LampEntry> lamps_;
     UploadedArray<B, double> cumulative_;

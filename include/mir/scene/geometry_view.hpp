@@ -52,6 +52,14 @@ struct GeometryView {
         return glm::normalize(area_vector(triangle));
     }
 
+    /// Place of the point of a triangle at barycentrics of its second and third corner, metres.
+    [[nodiscard]] MIR_HD Vec3 position(std::uint32_t triangle, Vec2 barycentrics) const {
+        const TriangleIndices& t = triangles[triangle];
+        const float u = barycentrics.x;
+        const float v = barycentrics.y;
+        return (1.0f - u - v) * positions[t[0]] + u * positions[t[1]] + v * positions[t[2]];
+    }
+
     /// At barycentrics of the second and third corner.
     [[nodiscard]] MIR_HD VertexAttributes attributes(std::uint32_t triangle,
                                                      Vec2 barycentrics) const;
@@ -101,7 +109,7 @@ MIR_HD SurfacePoint GeometryView<S>::surface_point(std::uint32_t triangle, Vec2 
     const float v = barycentrics.y;
     const float w = 1.0f - u - v;
     SurfacePoint p;
-    p.position = w * positions[t[0]] + u * positions[t[1]] + v * positions[t[2]];
+    p.position = position(triangle, barycentrics);
     p.barycentrics = barycentrics;
     p.triangle = triangle;
     p.material = materials[triangle];

@@ -82,6 +82,7 @@ class LightTable {
     /// What kernels on the host read; valid until the table is changed or ends.
     [[nodiscard]] LightTableView<Space::host> view() const {
         return {triangles_.data(),
+                lamp_triangles_.data(),
                 static_cast<std::uint32_t>(triangles_.size()),
                 delta_sources_.data(),
                 static_cast<std::uint32_t>(delta_sources_.size()),
@@ -94,6 +95,8 @@ class LightTable {
                 environment_.view()};
     }
     /// The arrays of view().
+    [[nodiscard]] std::span<const LampTriangle> lamp_triangles() const { return lamp_triangles_; }
+    /// Those of the scene without extent.
     [[nodiscard]] std::span<const DeltaSource> delta_sources() const { return delta_sources_; }
     /// By material.
     [[nodiscard]] std::span<const LampEntry> lamps() const { return lamps_; }
@@ -108,6 +111,7 @@ class LightTable {
 
  private:
     void add_triangles(std::vector<float>& power);
+    void add_lamp_triangles();
     void add_delta_lights(std::vector<float>& power);
     void add_environment(std::vector<float>& power) const;
 
@@ -116,6 +120,7 @@ class LightTable {
     TextureTable textures_;
     EnvironmentTable environment_;
     std::vector<std::uint32_t> triangles_;
+    std::vector<LampTriangle> lamp_triangles_;
     std::vector<DeltaSource> delta_sources_;
     std::vector<LampEntry> lamps_;
     DiscreteDistribution emitters_;
@@ -170,6 +175,7 @@ inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     std::vector<float> power;
     add_triangles(power);
     emitters_ = DiscreteDistribution(power);
+    add_lamp_triangles();
     add_delta_lights(power);
     add_environment(power);
     by_power_ = DiscreteDistribution(power);
@@ -187,6 +193,13 @@ inline void LightTable::add_triangles(std::vector<float>& power) {
         power.push_back(luminance(radiance[geometry_->material_of(t)]) * pi * geometry_->area(t) *
                         sides);
     }
+}
+
+inline void LightTable::add_lamp_triangles() {
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i)
+        lamp_triangles_.push_back({geometry_->front_normal(triangles_[i]),
+                                   1.0f / geometry_->area(triangles_[i]),
+                                   emitters_.empty() ? 0.0f : emitters_.probability(i)});
 }
 
 inline void LightTable::add_delta_lights(std::vector<float>& power) {

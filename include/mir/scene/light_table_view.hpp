@@ -56,6 +56,13 @@ struct LampEntry {
     AlphaMask mask{};               ///< where it cuts away, nothing shines
 };
 
+/// What samples of an emissive triangle share.
+struct LampTriangle {
+    Vec3 normal{0};             ///< unit, of its front
+    float inverse_area = 0.0f;  ///< m^-2
+    float probability = 0.0f;   ///< with which it is picked among the emissive triangles
+};
+
 /// What kernels read of a LightTable. Lights are counted as there: first emissive triangles, then
 /// point, spot and directional lights, then the environment if it shines. A view; thread-safe.
 template <Space S>
@@ -65,17 +72,18 @@ struct LightTableView {
     /// Answer of light_of() for triangles that emit nothing.
     static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
-    const std::uint32_t* triangles = nullptr;    ///< emissive ones, ascending
-    std::uint32_t triangle_count = 0;            ///< emissive triangles
-    const DeltaSource* delta_sources = nullptr;  ///< point, spot, then directional lights
-    std::uint32_t delta_count = 0;               ///< lights without extent
-    const LampEntry* lamps = nullptr;            ///< by material
-    DiscreteDistributionView<S> by_power;        ///< of all lights
-    DiscreteDistributionView<S> emitters;        ///< of emissive triangles alone, by power
-    Vec3 centre{0};                              ///< of the scene's bounding sphere, metres
-    float radius = 0.0f;                         ///< of the scene's bounding sphere, metres
-    TextureView<S> textures{};                   ///< of the lamps
-    EnvironmentView<S> environment{};            ///< around the scene
+    const std::uint32_t* triangles = nullptr;      ///< emissive ones, ascending
+    const LampTriangle* lamp_triangles = nullptr;  ///< the same, in that order
+    std::uint32_t triangle_count = 0;              ///< emissive triangles
+    const DeltaSource* delta_sources = nullptr;    ///< point, spot, then directional lights
+    std::uint32_t delta_count = 0;                 ///< lights without extent
+    const LampEntry* lamps = nullptr;              ///< by material
+    DiscreteDistributionView<S> by_power;          ///< of all lights
+    DiscreteDistributionView<S> emitters;          ///< of emissive triangles alone, by power
+    Vec3 centre{0};                                ///< of the scene's bounding sphere, metres
+    float radius = 0.0f;                           ///< of the scene's bounding sphere, metres
+    TextureView<S> textures{};                     ///< of the lamps
+    EnvironmentView<S> environment{};              ///< around the scene
 
     /// True when nothing emits power: sample_light() has no answer.
     [[nodiscard]] MIR_HD bool empty() const { return by_power.empty(); }
@@ -110,7 +118,7 @@ struct LightTableView {
                                                       Vec2 uv) const {
         const std::uint32_t index = emitters.sample(u);
         EmitterSample s = point_on(geometry, index, uv);
-        s.pdf_area *= emitters.probability(index);
+        s.pdf_area *= lamp_triangles[index].probability;
         return s;
     }
 
@@ -129,10 +137,10 @@ struct LightTableView {
         const LampEntry& lamp = lamps[geometry.materials[t]];
         EmitterSample s;
         s.barycentrics = square_to_triangle(uv);
-        s.normal = geometry.front_normal(t);
-        s.position = geometry.surface_point(t, s.barycentrics, -s.normal).position;
+        s.normal = lamp_triangles[light].normal;
+        s.position = geometry.position(t, s.barycentrics);
         s.radiance = radiance_at(geometry, t, s.barycentrics);
-        s.pdf_area = 1.0f / geometry.area(t);
+        s.pdf_area = lamp_triangles[light].inverse_area;
         s.both_sides = lamp.both_sides;
         s.light_group = lamp.light_group;
         s.triangle = t;

@@ -35,16 +35,18 @@ class EnvironmentLight {
         const Vec2 shift(random.at(3), random.at(4));
         return mean_of_samples(
             hit.position, visibility_, samples_,
-            [&](std::uint32_t k, PacketOfLight& packet, std::uint32_t place) {
+            [&](std::uint32_t k) {
                 const std::uint32_t i = k * shared.shares + shared.share;
-                const EnvironmentSample from = environment_.sample(kronecker_point(shift, i));
-                packet.set(place, outside(hit.position, from.direction), unshadowed(hit, s, from));
+                return environment_.sample(kronecker_point(shift, i));
+            },
+            [hit, s, reach = reach_](const EnvironmentSample& from) {
+                return LitPoint{hit.position + reach * from.direction, unshadowed(hit, s, from)};
             });
     }
 
     /// What one sample brings if nothing is in its way, W m^-2 sr^-1.
-    [[nodiscard]] MIR_HD Rgb unshadowed(const Hit& hit, const Surface<typename B::Params>& s,
-                                        const EnvironmentSample& from) const {
+    [[nodiscard, gnu::always_inline]] MIR_HD static Rgb unshadowed(
+        const Hit& hit, const Surface<typename B::Params>& s, const EnvironmentSample& from) {
         return reflected<B>(hit, s, from.direction) * from.radiance * (1.0f / from.pdf);
     }
 

@@ -30,13 +30,12 @@ class EmitterLight {
                                         SharedSamples shared, Random random) const {
         if (!lights_.has_emitters() || samples_ == 0) return {};
         const Shift shift{random.next(), random.next_2d()};
-        return mean_of_samples(hit.position, visibility_, samples_,
-                               [&](std::uint32_t k, PacketOfLight& packet, std::uint32_t place) {
-                                   Vec3 target{0};
-                                   const Rgb light =
-                                       unshadowed(hit, s, sample(shift, shared, k), target);
-                                   packet.set(place, target, light);
-                               });
+        return mean_of_samples(
+            hit.position, visibility_, samples_,
+            [&](std::uint32_t k) { return sample(shift, shared, k); },
+            [hit, s, offset = geometry_.ray_offset](const LampPoint& from) {
+                return unshadowed(hit, s, from, offset);
+            });
     }
 
  private:
@@ -45,27 +44,39 @@ class EmitterLight {
         Vec2 uv;
     };
 
+    /// What shading reads of an EmitterSample, in whole words.
+    struct LampPoint {
+        Vec3 position;
+        Vec3 normal;
+        Rgb radiance;
+        float pdf_area;
+        std::uint32_t both_sides;  ///< 0 or 1
+    };
+
     /// Sample `k` of the luxel: its lamps interleave with those of the pixel's other luxels.
-    [[nodiscard]] MIR_HD EmitterSample sample(Shift shift, SharedSamples shared,
-                                              std::uint32_t k) const {
+    [[nodiscard]] MIR_HD LampPoint sample(Shift shift, SharedSamples shared,
+                                          std::uint32_t k) const {
         const std::uint32_t i = k * shared.shares + shared.share;
         const auto n = static_cast<float>(samples_ * shared.shares);
         const float lamp = (static_cast<float>(i) + shift.pick) / n;
-        return lights_.sample_emitter(geometry_, smaller(lamp, 0x1.fffffep-1f),
-                                      kronecker_point(shift.uv, i));
+        const EmitterSample e = lights_.sample_emitter(geometry_, smaller(lamp, 0x1.fffffep-1f),
+                                                       kronecker_point(shift.uv, i));
+        return {e.position, e.normal, e.radiance, e.pdf_area, e.both_sides ? 1u : 0u};
     }
 
-    [[nodiscard]] MIR_HD Rgb unshadowed(const Hit& hit, const Surface<typename B::Params>& s,
-                                        const EmitterSample& e, Vec3& target) const {
-        const bool from_back = e.both_sides && glm::dot(hit.position - e.position, e.normal) < 0;
-        const Vec3 normal = from_back ? -e.normal : e.normal;
-        target = lift(e.position, normal, geometry_.ray_offset);
-        const Vec3 d = target - hit.position;
+    // Inlined by force, as VplShading.
+    [[nodiscard, gnu::always_inline]] MIR_HD static LitPoint unshadowed(
+        const Hit& hit, const Surface<typename B::Params>& s, const LampPoint& e, float offset) {
+        const bool is_behind = glm::dot(hit.position - e.position, e.normal) < 0.0f;
+        const bool from_back = (e.both_sides & static_cast<std::uint32_t>(is_behind)) != 0;
+        const Vec3 normal = e.normal * (from_back ? -1.0f : 1.0f);
+        const Vec3 place = lift(e.position, normal, offset);
+        const Vec3 d = place - hit.position;
         const float d2 = length_squared(d);
         const Vec3 wi = d * (1.0f / std::sqrt(d2));
         const float cosine = -glm::dot(wi, normal);
-        if (!(cosine > 0.0f)) return {};
-        return reflected<B>(hit, s, wi) * e.radiance * (cosine / (d2 * e.pdf_area));
+        const Rgb light = reflected<B>(hit, s, wi) * e.radiance * (cosine / (d2 * e.pdf_area));
+        return {place, kept_if(cosine > 0.0f, light)};
     }
 
     LightTableView<space> lights_;
