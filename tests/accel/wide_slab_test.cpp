@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "accel/wide_nodes.hpp"
 #include "conformance/worlds.hpp"
+#include "mir/accel/detail/packet_hull.hpp"
 #include "mir/accel/wide_traverse.hpp"
 #include "support/catch.hpp"
+#include "support/instruction_sets.hpp"
 #include "support/segment_box.hpp"
 #include "support/segment_ends.hpp"
 
@@ -30,6 +32,22 @@ class HardBoxes {
                                 std::min(std::max(a[k], b[k]), scale_));
         }
         return node;
+    }
+
+    /// Points of a packet that surround `to`, the point of one lane: close by, or anywhere.
+    mir::PointPacket points_around(Vec3 to, std::uint32_t lane) {
+        const float size = random_.next() < 0.5f ? 1.5f * scale_ : 0.01f * scale_;
+        mir::PointPacket points;
+        for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k) {
+            Vec3 p = glm::clamp(to + size * mirtest::point_in_cube(random_), Vec3(-1.5f * scale_),
+                                Vec3(1.5f * scale_));
+            if (random_.next() < 0.2f) p[axis()] = to[axis()];
+            if (k == lane) p = to;
+            points.x[k] = p.x;
+            points.y[k] = p.y;
+            points.z[k] = p.z;
+        }
+        return points;
     }
 
     SegmentEnds segment(const Bounds& box) {
@@ -115,7 +133,74 @@ Verdicts judge(float scale, std::size_t nodes, std::uint64_t index) {
     return verdicts;
 }
 
+/// Of packets with such segments, each of whose hulls is asked about one box.
+struct HullVerdicts {
+    std::size_t kept = 0;
+    std::size_t culled = 0;
+    std::size_t culled_inside = 0;  ///< although a segment meets the box by more than is reserved
+};
+
+template <mir::InstructionSet Set>
+HullVerdicts judge_hulls(float scale, std::size_t nodes, std::uint64_t index) {
+    const long double reserved = 14.0L * 0x1p-24L * scale;
+    HardBoxes boxes(scale, index);
+    HullVerdicts verdicts;
+    for (std::uint32_t i = 0; i < nodes; ++i) {
+        const mir::WideNode node = boxes.node();
+        for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
+            const Bounds box = mirtest::child_of(node, slot).box;
+            const SegmentEnds s = boxes.segment(box);
+            const std::uint32_t lane = i % mir::PointPacket::width;
+            // A lane of the others is active, too, so that both sides of slabs are.
+            const std::uint32_t active = 1u << lane | 1u << (i / 16 + slot) % 16;
+            const mir::detail::PacketHull hull(s.from, boxes.points_around(s.to, lane), active,
+                                               mir::reach_of(scale));
+            const bool kept = (hull.met<Set>(node) >> slot & 1u) != 0;
+            verdicts.kept += kept ? 1 : 0;
+            verdicts.culled += kept ? 0 : 1;
+            if (!kept && mirtest::meets(box, -reserved, s.from, s.to)) ++verdicts.culled_inside;
+        }
+    }
+    return verdicts;
+}
+
 }  // namespace
+
+TEST_CASE("The hull of a packet keeps boxes that a segment meets by more than is reserved") {
+    const float scale = GENERATE(1e-3f, 1.0f, 24.0f, 1e3f, 1e12f, 1e36f);
+    for (const mir::InstructionSet set : mirtest::instruction_sets())
+        mir::run_with(set, [&](auto s) {
+            const HullVerdicts verdicts = judge_hulls<decltype(s)::value>(scale, 30000, 2);
+            INFO("scale " << scale << ", instruction set " << static_cast<int>(set));
+            CHECK(verdicts.culled_inside == 0);
+            CHECK(verdicts.kept > 50000);
+            CHECK(verdicts.culled > 50000);
+        });
+}
+
+TEST_CASE("The hull of a packet is no larger than its segments need") {
+    mir::PointPacket points{};
+    for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k) {
+        points.x[k] = 8.0f;
+        points.y[k] = static_cast<float>(k % 4);
+        points.z[k] = -static_cast<float>(k / 4);
+    }
+    mir::WideNode node{};
+    // Beside the segments on either side, behind the points, behind the origin; then inside, at
+    // the origin, at the last point, and where only lane 15 goes.
+    const float low[8][3] = {{4, 1.8f, -1}, {4, -1, -1}, {9, 0, 0},     {-2, 0, 0},
+                             {4, 0.5f, -1}, {0, 0, 0},   {7.9f, 2, -3}, {7.5f, 2.9f, -2.9f}};
+    for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot)
+        for (int axis = 0; axis < 3; ++axis)
+            node.set_bounds(axis, slot, low[slot][axis], low[slot][axis] + 0.5f);
+    const auto met = [&](std::uint32_t active) {
+        return mir::detail::PacketHull({0, 0, 0}, points, active, 24.0f)
+            .met<mir::InstructionSet::baseline>(node);
+    };
+    CHECK(met(0xFFFF) == 0b11110000);
+    CHECK(met(0x7FFF) == 0b11110000);  // others reach as far along each axis
+    CHECK(met(0x0001) == 0b00100000);
+}
 
 TEST_CASE("A box is kept when a segment meets it by more than is reserved, else it may be culled") {
     const float scale = GENERATE(1e-3f, 1.0f, 24.0f, 1e3f, 1e12f, 1e36f);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/detail/packet_hull.hpp"
 #include "mir/accel/packet_hits.hpp"
 #include "mir/accel/waiting_nodes.hpp"
 #include "mir/accel/wide_traverse.hpp"
@@ -83,14 +84,6 @@ class PacketSlabs {
 
 /// A bit for each child of a node.
 inline constexpr std::uint32_t all_slots = (1u << WideNode::width) - 1u;
-
-/// Every child may be met.
-struct AllSlots {
-    template <InstructionSet>
-    [[nodiscard]] static std::uint32_t met(const WideNode&) {
-        return all_slots;
-    }
-};
 
 /// Asks the cache for what will be read soon.
 inline void prefetch(const void* from, std::size_t bytes) {
@@ -279,9 +272,10 @@ template <InstructionSet Set = InstructionSet::baseline>
             seen |= 1u << k;
     }
     if (together == 0) return seen;
-    return seen | detail::WidePacketWalk<Set, detail::AllSlots>(bvh, detail::AllSlots{}, origin,
-                                                                &points, together, &mask)
-                      .run();
+    const detail::PacketHull hull(origin, points, together, bvh.reach);
+    detail::WidePacketWalk<Set, detail::PacketHull> walk(bvh, hull, origin, &points, together,
+                                                         &mask);
+    return seen | walk.run();
 }
 
 }  // namespace mir

@@ -30,12 +30,6 @@ struct ShaftSlabs {
 
 namespace detail {
 
-/// Step of a cluster's face as seen from the VPL, `size` metres away on the side of `sign`.
-MIR_HD inline AxisStep face_step(float apex, float size, float sign, float shortest) {
-    const float inverse = sign * loose::reciprocal(larger(size, shortest));
-    return {inverse, strict::mul(apex, inverse)};
-}
-
 MIR_HD inline void set_axis(ShaftSlabs& s, int axis, float apex, float low, float high,
                             float shortest) {
     const bool plus = low >= 0.0f;
