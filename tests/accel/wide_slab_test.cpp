@@ -104,6 +104,23 @@ class HardBoxes {
     std::uint32_t kind_ = 0;
 };
 
+/// Calls judge(boxes, node, slot, box, segment) for each child of `nodes` nodes, and a segment made
+/// for it.
+template <class Judge>
+void judge_boxes(float scale, std::size_t nodes, std::uint64_t index, const Judge& judge) {
+    HardBoxes boxes(scale, index);
+    for (std::size_t i = 0; i < nodes; ++i) {
+        const mir::WideNode node = boxes.node();
+        for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
+            const Bounds box = mirtest::child_of(node, slot).box;
+            judge(boxes, node, slot, box, boxes.segment(box));
+        }
+    }
+}
+
+/// By how much a segment has to meet a box that may not be culled, metres.
+long double reserved_at(float scale) { return 14.0L * 0x1p-24L * scale; }
+
 struct Verdicts {
     std::size_t met = 0;            ///< boxes met by the segment
     std::size_t culled_inside = 0;  ///< although met by more than is reserved
@@ -112,24 +129,22 @@ struct Verdicts {
 };
 
 Verdicts judge(float scale, std::size_t nodes, std::uint64_t index) {
-    const long double reserved = 14.0L * 0x1p-24L * scale;
-    HardBoxes boxes(scale, index);
+    const long double reserved = reserved_at(scale);
     Verdicts verdicts;
-    for (std::size_t i = 0; i < nodes; ++i) {
-        const mir::WideNode node = boxes.node();
-        for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
-            const Bounds box = mirtest::child_of(node, slot).box;
-            const SegmentEnds s = boxes.segment(box);
-            const mir::detail::SlabSegment segment(s.from, s.to, mir::reach_of(scale));
-            const auto found = mir::detail::met_children(node, segment, 1.0f);
-            const bool kept = (found.mask >> slot & 1u) != 0;
-            const bool met = mirtest::meets(box, 0, s.from, s.to);
-            verdicts.met += met ? 1 : 0;
-            verdicts.culled_met += met && !kept ? 1 : 0;
-            if (!kept && mirtest::meets(box, -reserved, s.from, s.to)) ++verdicts.culled_inside;
-            if (kept && !mirtest::meets(box, reserved, s.from, s.to)) ++verdicts.kept_outside;
-        }
-    }
+    judge_boxes(scale, nodes, index,
+                [&](HardBoxes&, const mir::WideNode& node, std::uint32_t slot, const Bounds& box,
+                    const SegmentEnds& s) {
+                    const mir::detail::SlabSegment segment(s.from, s.to, mir::reach_of(scale));
+                    const auto found = mir::detail::met_children(node, segment, 1.0f);
+                    const bool kept = (found.mask >> slot & 1u) != 0;
+                    const bool met = mirtest::meets(box, 0, s.from, s.to);
+                    verdicts.met += met ? 1 : 0;
+                    verdicts.culled_met += met && !kept ? 1 : 0;
+                    if (!kept && mirtest::meets(box, -reserved, s.from, s.to))
+                        ++verdicts.culled_inside;
+                    if (kept && !mirtest::meets(box, reserved, s.from, s.to))
+                        ++verdicts.kept_outside;
+                });
     return verdicts;
 }
 
@@ -142,25 +157,23 @@ struct HullVerdicts {
 
 template <mir::InstructionSet Set>
 HullVerdicts judge_hulls(float scale, std::size_t nodes, std::uint64_t index) {
-    const long double reserved = 14.0L * 0x1p-24L * scale;
-    HardBoxes boxes(scale, index);
     HullVerdicts verdicts;
-    for (std::uint32_t i = 0; i < nodes; ++i) {
-        const mir::WideNode node = boxes.node();
-        for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
-            const Bounds box = mirtest::child_of(node, slot).box;
-            const SegmentEnds s = boxes.segment(box);
-            const std::uint32_t lane = i % mir::PointPacket::width;
-            // A lane of the others is active, too, so that both sides of slabs are.
-            const std::uint32_t active = 1u << lane | 1u << (i / 16 + slot) % 16;
-            const mir::detail::PacketHull hull(s.from, boxes.points_around(s.to, lane), active,
-                                               mir::reach_of(scale));
-            const bool kept = (hull.met<Set>(node) >> slot & 1u) != 0;
-            verdicts.kept += kept ? 1 : 0;
-            verdicts.culled += kept ? 0 : 1;
-            if (!kept && mirtest::meets(box, -reserved, s.from, s.to)) ++verdicts.culled_inside;
-        }
-    }
+    std::uint32_t asked = 0;
+    judge_boxes(scale, nodes, index,
+                [&](HardBoxes& boxes, const mir::WideNode& node, std::uint32_t slot,
+                    const Bounds& box, const SegmentEnds& s) {
+                    // A lane of the others is active, too, so that points are on both sides.
+                    const std::uint32_t lane = ++asked % mir::PointPacket::width;
+                    const std::uint32_t other = asked / 7 % mir::PointPacket::width;
+                    const mir::detail::PacketHull hull(s.from, boxes.points_around(s.to, lane),
+                                                       1u << lane | 1u << other,
+                                                       mir::reach_of(scale));
+                    const bool kept = (hull.met<Set>(node) >> slot & 1u) != 0;
+                    verdicts.kept += kept ? 1 : 0;
+                    verdicts.culled += kept ? 0 : 1;
+                    if (!kept && mirtest::meets(box, -reserved_at(scale), s.from, s.to))
+                        ++verdicts.culled_inside;
+                });
     return verdicts;
 }
 
@@ -182,14 +195,14 @@ TEST_CASE("The hull of a packet is no larger than its segments need") {
     mir::PointPacket points{};
     for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k) {
         points.x[k] = 8.0f;
-        points.y[k] = static_cast<float>(k % 4);
+        points.y[k] = static_cast<float>(k % 4) - 1.0f;
         points.z[k] = -static_cast<float>(k / 4);
     }
     mir::WideNode node{};
     // Beside the segments on either side, behind the points, behind the origin; then inside, at
     // the origin, at the last point, and where only lane 15 goes.
-    const float low[8][3] = {{4, 1.8f, -1}, {4, -1, -1}, {9, 0, 0},     {-2, 0, 0},
-                             {4, 0.5f, -1}, {0, 0, 0},   {7.9f, 2, -3}, {7.5f, 2.9f, -2.9f}};
+    const float low[8][3] = {{4, 1.2f, -1}, {4, -1.2f, -1}, {9, 0, 0},        {-2, 0, 0},
+                             {4, 0.5f, -1}, {0, 0, 0},      {7.9f, 1.5f, -3}, {7.5f, 1.4f, -2.9f}};
     for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot)
         for (int axis = 0; axis < 3; ++axis)
             node.set_bounds(axis, slot, low[slot][axis], low[slot][axis] + 0.5f);

@@ -8,10 +8,12 @@
 #include "mir/shading/scene_light.hpp"
 #include "mir/validation/detail/shaded_places.hpp"
 #include "support/catch.hpp"
+#include "support/free_sight.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/same_records.hpp"
 #include "support/test_sky.hpp"
 
+#include <limits>
 #include <vector>
 
 // Light of packets against the same samples, shaded and asked about one after the other: the same
@@ -27,10 +29,10 @@ using mir::Vec3;
 using mirtest::bits_of;
 using Surface = mir::Surface<CookTorrance::Params>;
 
-/// Hides what lies to the left.
+/// Hides pairs whose middle lies to the left.
 struct RightSight {
     static constexpr mir::Space space = mir::Space::host;
-    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return b.x >= a.x; }
+    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return a.x + b.x >= 0.0f; }
 };
 
 /// The same, asked about packets.
@@ -45,6 +47,13 @@ struct RightPackets : RightSight {
     }
 };
 static_assert(mir::PacketVisibility<RightPackets> && !mir::PacketVisibility<RightSight>);
+
+/// Sees nothing when it is asked about a luxel first.
+struct LightFirst {
+    static constexpr mir::Space space = mir::Space::host;
+    Vec3 luxel;
+    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return a != luxel && b == luxel; }
+};
 
 struct Sample {
     Vec3 place;
@@ -148,4 +157,26 @@ TEST_CASE("Lamps and sky light a luxel by packets as by samples asked one by one
         }
     }
     CHECK(lit > 500);
+}
+
+TEST_CASE("Single shadow rays of lamps and sky start at the light") {
+    const Scene scene = lit_scene();
+    const mir::WorldGeometry geometry(scene);
+    const mir::LightTable lights(scene, geometry);
+    mir::Random random = mirtest::test_random(143);
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        const Luxel at = random_luxel(random);
+        const mir::Random numbers(7, mir::Stream::test, i);
+        const auto lamp = [&](auto sight) {
+            return mir::EmitterLight<CookTorrance, decltype(sight)>(lights, sight, 16)(
+                at.hit, at.surface, {}, numbers);
+        };
+        const auto sky = [&](auto sight) {
+            return mir::EnvironmentLight<CookTorrance, decltype(sight)>(lights, sight, 16)(
+                at.hit, at.surface, {}, numbers);
+        };
+        const LightFirst light_first{at.hit.position};
+        REQUIRE(bits_of(lamp(light_first)) == bits_of(lamp(mirtest::FreeSight{})));
+        REQUIRE(bits_of(sky(light_first)) == bits_of(sky(mirtest::FreeSight{})));
+    }
 }
