@@ -113,6 +113,11 @@ TEST_CASE("Uploaded textures and vertex colours give the numbers of the host") {
         CHECK(wanted.emission != mir::Rgb{1, 2, 3});
         const auto light = lamps.view().point_on(there.view(), t, at);
         CHECK(light.radiance == lights.point_on(t, at).radiance);
+        CHECK(light.normal == lights.point_on(t, at).normal);
+        CHECK(light.pdf_area == lights.point_on(t, at).pdf_area);
+        const float u = random.next();
+        CHECK(lamps.view().sample_emitter(there.view(), u, at).pdf_area ==
+              lights.sample_emitter(u, at).pdf_area);
         CHECK(light.radiance != mir::Rgb{1, 2, 3});
     }
     // The lamp of the box is black.

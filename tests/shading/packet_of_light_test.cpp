@@ -13,6 +13,7 @@
 #include "support/same_records.hpp"
 #include "support/test_sky.hpp"
 
+#include <cmath>
 #include <limits>
 #include <vector>
 

@@ -18,6 +18,10 @@ namespace mir {
 ///  3. albedo() lies in [0, 1]; is_black() only where eval() is zero for all directions;
 ///  4. sample() follows pdf(), and its weight is eval cos / pdf.
 ///
+/// eval() means something where both directions lie above `n`. It is called for others, too, and
+/// for what is no number, a luxel that lies on a lamp: it must not fail there, and its result is
+/// thrown away.
+///
 /// Micro-buffers with BufferWarp::importance look for a static ReflectionLobe lobe(p, n, wo)
 /// (shading/reflection_lobe.hpp); a model without it, or with another return type, gets no second
 /// buffer.

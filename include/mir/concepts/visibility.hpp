@@ -16,7 +16,7 @@ namespace mir {
 /// (core/ray.hpp), so the whole closed segment is tested and no further offset is applied.
 ///
 /// Axioms (validation/visibility.hpp):
-///  1. symmetric up to rounding at grazing edges; a pair is always asked VPL first;
+///  1. symmetric up to rounding at grazing edges; a luxel and a VPL are always asked VPL first;
 ///  2. points lifted off a surface are not hidden by it;
 ///  3. callable from many threads at once;
 ///  4. agrees with brute force on random triangles.

@@ -50,6 +50,7 @@ MIR_HD constexpr float max_channel(Rgb c) {
 MIR_HD constexpr Rgb kept_if(bool on, Rgb c) {
     return {on ? c.r : 0.0f, on ? c.g : 0.0f, on ? c.b : 0.0f};
 }
+
 /// True when every channel is exactly zero. No branches: loops over lanes ask it.
 MIR_HD constexpr bool is_black(Rgb c) {
     return (static_cast<int>(c.r == 0.0f) & static_cast<int>(c.g == 0.0f) &

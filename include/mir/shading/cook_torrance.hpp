@@ -27,7 +27,7 @@ struct CookTorrance {
         float alpha = 1.0f;  ///< GGX width, roughness squared
     };
 
-    /// f(wi, wo), sr^-1. The caller has made sure that both lie above `n`.
+    /// f(wi, wo), sr^-1, where both lie above `n`.
     [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
         const float cos_i = glm::dot(n, wi);
         const float cos_o = glm::dot(n, wo);

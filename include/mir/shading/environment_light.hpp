@@ -7,7 +7,7 @@
 namespace mir {
 
 /// Light of the environment at a luxel, estimated from `samples` directions drawn by luminance:
-/// f L_e cos / p averaged over the samples, with shadow rays to outside the scene. The samples of
+/// f L_e cos / p averaged over the samples, with shadow rays from outside the scene. The samples of
 /// luxels that share are one Kronecker sequence with a random shift, as those of EmitterLight.
 /// Directions that all luxels share are VPLs at infinity. Unbiased. Host and device.
 template <Bsdf B, Visibility V>
@@ -40,7 +40,8 @@ class EnvironmentLight {
                 return environment_.sample(kronecker_point(shift, i));
             },
             [hit, s, reach = reach_](const EnvironmentSample& from) {
-                return LitPoint{hit.position + reach * from.direction, unshadowed(hit, s, from)};
+                return LitPoint{outside(hit.position, from.direction, reach),
+                                unshadowed(hit, s, from)};
             });
     }
 
@@ -51,9 +52,13 @@ class EnvironmentLight {
     }
 
     /// A point outside the scene in the unit direction `w`.
-    [[nodiscard]] MIR_HD Vec3 outside(Vec3 from, Vec3 w) const { return from + reach_ * w; }
+    [[nodiscard]] MIR_HD Vec3 outside(Vec3 from, Vec3 w) const { return outside(from, w, reach_); }
 
  private:
+    [[nodiscard]] MIR_HD static Vec3 outside(Vec3 from, Vec3 w, float reach) {
+        return from + reach * w;
+    }
+
     EnvironmentView<space> environment_;
     float reach_;
     V visibility_;

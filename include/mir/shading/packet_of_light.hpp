@@ -4,6 +4,7 @@
 #include "mir/concepts/visibility.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/core/lanes.hpp"
+#include "mir/core/math.hpp"
 #include "mir/core/rgb.hpp"
 #include "mir/data/soa.hpp"
 
@@ -14,7 +15,7 @@ namespace mir {
 
 /// A point that light comes from, and what it brings to a luxel.
 struct LitPoint {
-    Vec3 place{0};  ///< metres; shadow rays end there
+    Vec3 place{0};  ///< metres; the other end of its shadow ray
     Rgb light;      ///< if nothing is in its way, W m^-2 sr^-1
 };
 
@@ -30,9 +31,9 @@ class PacketOfLight {
         SoaView<Sample>{words_, width}.store(k, sample);
     }
 
-    /// Sum of what the first `count` samples bring that `origin` sees, in their order, W m^-2
-    /// sr^-1. `shade(sample)` is a LitPoint, by arithmetic without branches, which `instructions`
-    /// do for all samples at once; the sum does not depend on them.
+    /// Sum of what the first `count` <= width samples bring that `origin` sees, in their order, W
+    /// m^-2 sr^-1. `shade(sample)` is a LitPoint, by arithmetic without branches, which
+    /// `instructions` do for all samples at once; the sum does not depend on them.
     template <PacketVisibility V, class Shade>
     [[nodiscard]] Rgb seen_from(Vec3 origin, const V& visibility, std::uint32_t count,
                                 const Shade& shade, InstructionSet instructions) {

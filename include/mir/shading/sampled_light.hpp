@@ -3,6 +3,8 @@
 
 #include "mir/concepts/bsdf.hpp"
 #include "mir/concepts/visibility.hpp"
+#include "mir/core/instruction_set.hpp"
+#include "mir/core/rgb.hpp"
 #include "mir/data/luxel.hpp"
 #include "mir/scene/light_table.hpp"
 #include "mir/shading/packet_of_light.hpp"
@@ -18,7 +20,7 @@ template <Bsdf B>
                                                    const Surface<typename B::Params>& s, Vec3 wi) {
     const float cosine = glm::dot(wi, s.normal);
     const bool is_front =
-        static_cast<int>(cosine > 0.0f) & static_cast<int>(glm::dot(wi, hit.normal) > 0.0f);
+        (static_cast<int>(cosine > 0.0f) & static_cast<int>(glm::dot(wi, hit.normal) > 0.0f)) != 0;
     return kept_if(is_front, B::eval(s.bsdf, s.normal, wi, s.wo) * cosine);
 }
 
@@ -32,7 +34,7 @@ struct SharedSamples {
     std::uint32_t share = 0;   ///< which of them asks
 };
 
-/// Mean light of `samples` samples at a luxel: `draw(k)` is the k-th one, WordCopyable, and
+/// Mean light of `samples` > 0 samples at a luxel: `draw(k)` is the k-th one, WordCopyable, and
 /// `shade(sample)` its LitPoint, by arithmetic without branches. Samples are added up in packets of
 /// sixteen, whether the visibility is asked about packets or about one after the other; then light
 /// first, because rays that begin at a lamp meet little beside it and share their way.
@@ -64,9 +66,9 @@ MIR_HD Rgb mean_of_samples(Vec3 origin, const V& visibility, std::uint32_t sampl
 MIR_HD inline float wrapped(float x) { return x >= 1.0f ? x - 1.0f : x; }
 
 /// Place in the unit square of the i-th point of the Kronecker sequence of the plastic number,
-/// shifted by `shift`. The products wrap around as integers, so that no point loses digits, however
-/// late it comes. Source: Roberts, "The unreasonable effectiveness of quasirandom sequences",
-/// 2018.
+/// shifted by `shift`, which lies there. The products wrap around as integers, so that no point
+/// loses digits, however late it comes. Source: Roberts, "The unreasonable effectiveness of
+/// quasirandom sequences", 2018.
 MIR_HD inline Vec2 kronecker_point(Vec2 shift, std::uint32_t i) {
     const std::uint32_t x = i * 3242174889u;  // 2^32 / 1.3247.., the plastic number
     const std::uint32_t y = i * 2447445414u;  // and / its square

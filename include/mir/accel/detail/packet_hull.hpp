@@ -5,7 +5,9 @@
 #include "mir/accel/wide_node.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "mir/core/lanes.hpp"
+#include "mir/core/strict_float.hpp"
 
+#include <cstdint>
 #include <limits>
 
 namespace mir::detail {
