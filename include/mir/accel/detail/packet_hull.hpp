@@ -60,10 +60,9 @@ class PacketHull {
 
  private:
     struct Axis {
-        AxisStep rises;  ///< to the highest point: for lower planes; 0 where all lie below
-        AxisStep falls;  ///< to the lowest point: for upper planes; 0 where none lies below
-        AxisStep
-            leaves;  ///< of the point that comes least far; always 1 where they are on both sides
+        AxisStep rises;   ///< to the highest point: for lower planes; 0 where all lie below
+        AxisStep falls;   ///< to the lowest point: for upper planes; 0 where none lies below
+        AxisStep leaves;  ///< of the nearest point; always 1 where they are on both sides
     };
     struct Ends {
         float low;
