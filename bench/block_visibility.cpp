@@ -3,7 +3,8 @@
 // What the block face of visibility is worth: seconds for the visibility of all pairs, block by
 // block as sched::CpuBlocks asks, by Embree's packets of sixteen rays from the VPL, by our packets
 // and by single segments, over those of blocks by shafts. Blocks are squares of the image; or the
-// clusters that renders make, page by page, which is in the time; or clusters of the whole image.
+// clusters that renders make, page by page, which is in the time and shared by all VPLs; or
+// clusters of the whole image.
 #include "mir/cpu/embree_visibility.hpp"
 #include "mir/fill_visibility.hpp"
 #include "mir/host/shaft_scene.hpp"
@@ -25,14 +26,14 @@ using mir::BlockMask;
 using mir::InstructionSet;
 
 constexpr mir::Extent image = paper_image;
-constexpr std::uint32_t vpl_count = 64;
 
 enum class Blocks { squares, pages, clusters };
 
 /// Words of all pairs, 16 per block and VPL, and who asks for them.
 class Bench {
  public:
-    Bench(const BenchScene& s, Blocks blocks, InstructionSet set, mir::cpu::TbbExecutor& executor)
+    Bench(const BenchScene& s, Blocks blocks, InstructionSet set, std::uint32_t vpl_count,
+          mir::cpu::TbbExecutor& executor)
         : blocks_are_(blocks),
           executor_(executor),
           set_(set),
@@ -166,8 +167,9 @@ class Bench {
 
 void visibility(benchmark::State& state, const std::string& name, Blocks order,
                 InstructionSet set) {
-    mir::cpu::TbbExecutor executor(static_cast<int>(state.range(0)));
-    Bench bench(bench_scene(name), order, set, executor);
+    mir::cpu::TbbExecutor executor(static_cast<int>(state.range(1)));
+    Bench bench(bench_scene(name), order, set, static_cast<std::uint32_t>(state.range(0)),
+                executor);
     double segments = 0.0;
     double packets = 0.0;
     double embree = 0.0;
@@ -210,9 +212,8 @@ void add(const std::string& scene, Blocks order, const std::string& set_name, In
     name.append(scene).append("/").append(name_of(order)).append("/").append(set_name);
     benchmark::RegisterBenchmark(
         name.c_str(), [=](benchmark::State& state) { visibility(state, scene, order, set); })
-        ->ArgName("threads")
-        ->Arg(1)
-        ->Arg(0)
+        ->ArgNames({"vpls", "threads"})
+        ->ArgsProduct({{64, 256}, {1, 0}})
         ->UseManualTime()
         ->Iterations(3)
         ->Unit(benchmark::kMillisecond);

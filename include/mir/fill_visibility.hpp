@@ -43,10 +43,10 @@ void fill_block_by_segments(VisibilityMatrix& matrix, const G& gbuffer, const P&
 /// The same by packets, after VPLs that the block cannot face were thrown away.
 template <TiledGBuffer G, VplSet P, PacketVisibility V>
 void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const V& visibility,
-                InstructionSet instructions, sched::detail::Block b) {
+                sched::detail::Block b) {
     using namespace sched::detail;
     const HitBlock block(gbuffer.view(b.tile).hits, b, [](std::uint32_t) { return true; });
-    const BlockSight<V> sight(block, visibility, instructions);
+    const BlockSight<V> sight(block, visibility);
     for (VplIndex j = 0; j < vpls.size(); ++j) {
         const Vpl vpl = vpls[j];
         if (block.cannot_face(vpl)) continue;
@@ -56,7 +56,7 @@ void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const
     }
 }
 
-/// The same of the blocks of a page, by clusters of its luxels.
+/// The same of the blocks of a page, 256 of its luxels at a time.
 template <TiledGBuffer G, VplSet P, BlockVisibility V>
 void fill_page(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const V& visibility,
                InstructionSet instructions, const sched::detail::PlacedPage& place) {
@@ -108,8 +108,7 @@ void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visib
                  [&](sched::detail::Block block) {
                      if constexpr (PacketVisibility<V> && has_planes)
                          run_with(instructions, [&] {
-                             detail::fill_block(matrix, gbuffer, vpls, visibility, instructions,
-                                                block);
+                             detail::fill_block(matrix, gbuffer, vpls, visibility, block);
                          });
                      else
                          detail::fill_block_by_segments(matrix, gbuffer, vpls, visibility, block);

@@ -20,14 +20,14 @@ using BruteStage = mirtest::Stage<B, mirtest::BruteForceScene>;
 template <mir::Bsdf B>
 using ShaftStage = mirtest::Stage<B, mir::ShaftScene>;
 
-/// Pages in which luxels change places before visibility is asked.
+/// Pages whose luxels are sorted before visibility is asked.
 template <class Stage>
-std::uint32_t ordered_pages(const Stage& stage) {
+std::uint32_t sorted_pages(const Stage& stage) {
     std::uint32_t count = 0;
     for (mir::TileIndex t = 0; t < stage.gbuffer().tiles().size(); ++t) {
         const mir::LuxelPages pages{mir::BlockedLayout::of(stage.gbuffer().tiles()[t])};
         for (std::uint32_t i = 0; i < pages.count(); ++i)
-            count += mir::PageClusters(stage.gbuffer().view(t).hits, pages[i]).is_ordered() ? 1 : 0;
+            count += mir::PageClusters(stage.gbuffer().view(t).hits, pages[i]).is_compact() ? 0 : 1;
     }
     return count;
 }
@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms of Scheduler with every in
 TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms by whole blocks with every instruction set",
                    "", mir::Lambert, mir::CookTorrance) {
     const ShaftStage<TestType> stage({100, 70}, {48, 32}, 37);
-    CHECK(ordered_pages(stage) > 0);
+    CHECK(sorted_pages(stage) > 0);
     mir::InlineExecutor executor;
     for (mir::InstructionSet set : mirtest::instruction_sets()) {
         INFO("instruction set " << static_cast<int>(set));
@@ -71,7 +71,7 @@ TEMPLATE_TEST_CASE("sched::CpuBlocks keeps the axioms by whole blocks with every
 
 TEST_CASE("A matrix filled by whole blocks has the bits of single segments") {
     const ShaftStage<mir::Lambert> stage({100, 70}, {48, 32}, 37);
-    CHECK(ordered_pages(stage) > 0);
+    CHECK(sorted_pages(stage) > 0);
     mir::InlineExecutor executor;
     for (mir::InstructionSet set : mirtest::instruction_sets()) {
         mir::VisibilityMatrix matrix(stage.gbuffer().tiles(), stage.vpls().size());

@@ -145,19 +145,3 @@ TEST_CASE("Boxes lean only where that makes them thinner, and none as large as t
     CHECK_FALSE(leans({{{0, 0, 0}, {0, 0, 1}}, {{0.01f, 0.01f, 0}, {0, 0, 1}}}));
     CHECK_FALSE(leans({{{0, 0, 0}, sloping}, {{0.01f, 0, -0.01f}, -sloping}}));
 }
-
-TEST_CASE("An upright record is the other one, but for the box that leans") {
-    const Vec3 sloping = glm::normalize(Vec3(1, 0, 1));
-    const std::vector<Hit> hits{{{0, 0, 0}, sloping}, {{0.01f, 0.01f, -0.01f}, sloping}};
-    const mirtest::HitRun run(hits);
-    const ClusterRecord leaning = mir::cluster_record(run.view(), 0, run.size(), sigma);
-    const ClusterRecord upright = mir::upright_record(run.view(), 0, run.size(), sigma);
-    CHECK(leaning.tilt.axis != mir::TiltedAxis::none);
-    CHECK(upright.tilt.axis == mir::TiltedAxis::none);
-    CHECK(upright.low == leaning.low);
-    CHECK(upright.high == leaning.high);
-    CHECK(upright.luxels == leaning.luxels);
-    CHECK(Vec3(upright.front.x, upright.front.y, upright.front.z) ==
-          Vec3(leaning.front.x, leaning.front.y, leaning.front.z));
-    CHECK(upright.front.w == leaning.front.w);
-}

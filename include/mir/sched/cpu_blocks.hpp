@@ -18,7 +18,7 @@ namespace mir::sched {
 
 /// The tuned host path: blocks of 256 luxels outside, VPLs inside. Per block and VPL the facing
 /// luxels are found and their rays traced; the lit ones of some VPLs are shaded together, a vector
-/// register of luxels at a time. A BlockVisibility is asked page by page for clusters of 256
+/// register of luxels at a time. A BlockVisibility is asked page by page for 256
 /// luxels, about some VPLs at a time; others for packets of sixteen rays that start at the VPL.
 /// Same image as sched::Cpu in every bit where those faces give the bits of the single one,
 /// provided that the caller compiles with -ffp-contract=off. Given a KnownVisibility it traces no
@@ -138,7 +138,7 @@ void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
                 return detail::known_mask(block, j, in_.visibility);
             });
         } else {
-            const detail::BlockSight<V> sight(block, in_.visibility, scheduler_.instructions);
+            const detail::BlockSight<V> sight(block, in_.visibility);
             add_vpls<set()>(block, sums, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
         }
         store(b, sums);

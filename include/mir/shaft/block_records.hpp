@@ -3,6 +3,10 @@
 
 #include "mir/concepts/visibility.hpp"
 #include "mir/shaft/candidate_lanes.hpp"
+#include "mir/shaft/detail/packet_columns.hpp"
+
+#include <algorithm>
+#include <array>
 
 namespace mir {
 
@@ -27,29 +31,47 @@ struct BlockRecords {
     /// Of the first 256 luxels of `hits`, finite or not. `reach` as for the hierarchy and `sigma`
     /// as for records of clusters, metres.
     BlockRecords(const SoaView<const Hit>& hits, float reach, float scene_sigma)
-        : all(cluster(hits, 0, BlockMask::luxels, reach, scene_sigma)), sigma(scene_sigma) {
+        : sigma(scene_sigma) {
         constexpr std::uint32_t width = PointPacket::width;
-        for (std::uint32_t g = 0; g < packets / 2; ++g)
-            pair[g] = cluster(hits, g * 2 * width, 2 * width, reach, sigma);
-        for (std::uint32_t g = 0; g < packets; ++g) {
-            packet[g] = cluster(hits, g * width, width, reach, sigma);
+        for (std::uint32_t g = 0; g < packets; ++g)
             for (std::uint32_t k = 0; k < width; ++k) {
                 const Vec3 p = hits.load(g * width + k).position;
                 points[g].x[k] = p.x;
                 points[g].y[k] = p.y;
                 points[g].z[k] = p.z;
             }
-        }
+        const detail::PacketColumns columns(hits);
+        const auto sums = columns.sums();
+        set_clusters<1>(columns, sums, reach, packet);
+        set_clusters<2>(columns, sums, reach, pair);
+        set_clusters<packets>(columns, sums, reach, &all);
     }
 
  private:
-    static Cluster cluster(const SoaView<const Hit>& hits, std::uint32_t first, std::uint32_t count,
-                           float reach, float sigma) {
-        Cluster c;
-        c.record = upright_record(hits, first, count, sigma);
-        c.box = detail::cluster_box(c.record);
-        c.within = c.record.luxels != 0 && within_reach(c.record, reach);
-        return c;
+    /// Clusters of `Size` packets each.
+    template <std::uint32_t Size>
+    void set_clusters(const detail::PacketColumns& columns,
+                      const std::array<detail::ClusterSum, packets>& sums, float reach,
+                      Cluster* clusters) {
+        detail::ClusterSum joined[packets / Size];
+        detail::LaneRows fronts;
+        for (std::uint32_t c = 0; c < packets / Size; ++c) {
+            joined[c] = sums[c * Size];
+            for (std::uint32_t g = 1; g < Size; ++g) joined[c].add(sums[c * Size + g]);
+            const AffineRow front = detail::direction_row(joined[c].normals);
+            for (std::uint32_t g = 0; g < Size; ++g) fronts.set(c * Size + g, front);
+        }
+        const detail::LaneFloats least = columns.least_at(fronts);
+        for (std::uint32_t c = 0; c < packets / Size; ++c) {
+            const float* const first = least.at + c * Size;
+            if (joined[c].luxels != 0)
+                clusters[c] = cluster(upright_record(joined[c], fronts.row(c * Size),
+                                                     *std::min_element(first, first + Size), sigma),
+                                      reach);
+        }
+    }
+    static Cluster cluster(const ClusterRecord& record, float reach) {
+        return {record, detail::cluster_box(record), within_reach(record, reach)};
     }
 };
 

@@ -68,6 +68,14 @@ struct ClusterSum {
         normals += hit.normal;
         ++luxels;
     }
+    /// Adds what others come to, if there are any.
+    MIR_HD void add(const ClusterSum& others) {
+        if (others.luxels == 0) return;
+        low = luxels == 0 ? others.low : glm::min(low, others.low);
+        high = luxels == 0 ? others.high : glm::max(high, others.high);
+        normals += others.normals;
+        luxels += others.luxels;
+    }
 };
 
 MIR_HD inline ClusterSum sum_of_cluster(const SoaView<const Hit>& hits, std::uint32_t first,
@@ -102,6 +110,19 @@ MIR_HD inline float least_at(AffineRow row, const SoaView<const Hit>& hits, std:
         found = true;
     }
     return least;
+}
+
+/// Record of luxels, of which there are some, whose box does not lean. `front` is a row through the
+/// origin, `least` or more at all of them; it is moved to where records want it.
+MIR_HD inline ClusterRecord upright_record(const ClusterSum& sum, AffineRow front, float least,
+                                           float sigma) {
+    ClusterRecord cluster;
+    cluster.low = sum.low - sigma;
+    cluster.high = sum.high + sigma;
+    cluster.luxels = sum.luxels;
+    cluster.front = front;
+    cluster.front.w = strict::sub(2.0f * sigma, least);
+    return cluster;
 }
 
 /// The axis that is nearest to the direction `n` leans, so that a plane of that normal is level.
@@ -154,29 +175,16 @@ MIR_HD inline Range range_along(const TiltedAxis& tilt, const SoaView<const Hit>
 
 }  // namespace detail
 
-/// Record of the luxels first .. first + count - 1 whose box does not lean: for shafts that do not
-/// ask how it does. `sigma` is sigma_of() the scene's magnitude, metres.
-[[nodiscard]] MIR_HD inline ClusterRecord upright_record(const SoaView<const Hit>& hits,
+/// Record of the luxels first .. first + count - 1. Its box leans where that makes it thinner.
+/// `sigma` is sigma_of() the scene's magnitude, metres.
+[[nodiscard]] MIR_HD inline ClusterRecord cluster_record(const SoaView<const Hit>& hits,
                                                          std::uint32_t first, std::uint32_t count,
                                                          float sigma) {
     const detail::ClusterSum sum = detail::sum_of_cluster(hits, first, count);
     if (sum.luxels == 0) return {};
-    ClusterRecord cluster;
-    cluster.low = sum.low - sigma;
-    cluster.high = sum.high + sigma;
-    cluster.luxels = sum.luxels;
-    cluster.front = detail::direction_row(sum.normals);
-    cluster.front.w =
-        strict::sub(2.0f * sigma, detail::least_at(cluster.front, hits, first, count));
-    return cluster;
-}
-
-/// The same, and the box leans where that makes it thinner.
-[[nodiscard]] MIR_HD inline ClusterRecord cluster_record(const SoaView<const Hit>& hits,
-                                                         std::uint32_t first, std::uint32_t count,
-                                                         float sigma) {
-    ClusterRecord cluster = upright_record(hits, first, count, sigma);
-    if (cluster.luxels == 0) return cluster;
+    const AffineRow front = detail::direction_row(sum.normals);
+    ClusterRecord cluster =
+        detail::upright_record(sum, front, detail::least_at(front, hits, first, count), sigma);
     const TiltedAxis tilt = detail::tilted_axis(cluster.front);
     const detail::Range range = detail::range_along(tilt, hits, first, count);
     detail::set_tilt(cluster, tilt, range.low, range.high, sigma);

@@ -109,7 +109,7 @@ inline void load_points(SoaView<const Hit> group, PointPacket& points) {
 template <PacketVisibility V>
 class BlockSight {
  public:
-    BlockSight(const HitBlock& block, const V& visibility, InstructionSet)
+    BlockSight(const HitBlock& block, const V& visibility)
         : block_(block), visibility_(visibility) {}
 
     [[nodiscard]] BlockMask operator()(const Vpl& vpl) const {
@@ -127,25 +127,6 @@ class BlockSight {
  private:
     const HitBlock& block_;
     const V& visibility_;
-};
-
-/// The same by the block face; `set` is for its loops.
-template <BlockVisibility V>
-class BlockSight<V> {
- public:
-    BlockSight(const HitBlock& block, const V& visibility, InstructionSet set)
-        : block_(block), visibility_(visibility), known_(visibility.block(block.hits, set)) {}
-
-    [[nodiscard]] BlockMask operator()(const Vpl& vpl) const {
-        BlockMask mask = facing_mask(block_, vpl);
-        if (mask.any()) visibility_.visible_block(known_, vpl.position, mask);
-        return mask;
-    }
-
- private:
-    const HitBlock& block_;
-    const V& visibility_;
-    typename V::Block known_;
 };
 
 /// Luxels of the block that count and see a VPL, from what is known.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/shaft/detail/cluster_run.hpp"
 #include "mir/shaft/detail/principal_axis.hpp"
 
 #include <cstdint>
@@ -8,23 +9,6 @@
 #include <vector>
 
 namespace mir::detail {
-
-/// Part of an order.
-struct ClusterRun {
-    std::size_t first = 0;
-    std::size_t count = 0;
-};
-
-/// Runs of this size are split no more: the smallest that anything decides at once.
-inline constexpr std::size_t smallest_cluster = 16;
-
-/// Elements of the first part of a run: the largest 16 2^k below its size, so that every aligned
-/// run of that many luxels is one part of the recursion.
-inline std::size_t first_part(std::size_t count) {
-    std::size_t part = smallest_cluster;
-    while (2 * part < count) part *= 2;
-    return part;
-}
 
 /// A luxel's place along a direction. Equal ones go by index: what parts hold is then a function of
 /// the luxels alone.
