@@ -81,8 +81,10 @@ class PageClusters {
         for (std::uint32_t g = 0; g < count_ / width; ++g) {
             PacketMasks masks{};
             // Unrolled, so that the masks stay in a register; without shifts, which C++ would
-            // widen.
+            // widen. nvcc does not know the pragma.
+#if !defined(__CUDACC__)
 #pragma GCC unroll 16
+#endif
             for (std::uint32_t bit = 0; bit < width; ++bit) {
                 const std::uint32_t place = places_[g * width + bit];
                 const PacketMasks& from = found[place / width];
