@@ -56,18 +56,17 @@ struct BlockRecords {
         detail::ClusterSum joined[packets / Size];
         detail::LaneRows fronts;
         for (std::uint32_t c = 0; c < packets / Size; ++c) {
-            joined[c] = sums[c * Size];
-            for (std::uint32_t g = 1; g < Size; ++g) joined[c].add(sums[c * Size + g]);
+            for (std::uint32_t g = c * Size; g < (c + 1) * Size; ++g) joined[c].add(sums[g]);
             const AffineRow front = detail::direction_row(joined[c].normals);
-            for (std::uint32_t g = 0; g < Size; ++g) fronts.set(c * Size + g, front);
+            for (std::uint32_t g = c * Size; g < (c + 1) * Size; ++g) fronts.set(g, front);
         }
         const detail::LaneFloats least = columns.least_at(fronts);
         for (std::uint32_t c = 0; c < packets / Size; ++c) {
-            const float* const first = least.at + c * Size;
+            const std::uint32_t first = c * Size;
+            const float its_least = *std::min_element(least.at + first, least.at + first + Size);
             if (joined[c].luxels != 0)
-                clusters[c] = cluster(upright_record(joined[c], fronts.row(c * Size),
-                                                     *std::min_element(first, first + Size), sigma),
-                                      reach);
+                clusters[c] =
+                    cluster(upright_record(joined[c], fronts.row(first), its_least, sigma), reach);
         }
     }
     static Cluster cluster(const ClusterRecord& record, float reach) {
