@@ -3,12 +3,15 @@
 """lint_units.py COMPILE_COMMANDS OUT
 
 Prepares linting in few large units: nearly all that a linter reads of a source is headers, the same
-for its neighbours. Writes one unit per folder that includes its sources, the compile commands of
-the units and of what stays alone, and prints the names of both. Sources that nothing else links to
-(tests, benchmarks, snippets) come into a namespace of their own, so that their names do not meet;
-the headers stand before them.
+for its neighbours. Writes units that include the sources, the compile commands of the units and of
+what stays alone, and prints the names of both. Sources that nothing else links to (tests,
+benchmarks, snippets) come into a namespace of their own, so that their names do not meet, and the
+headers stand before them; those that are compiled alike make a unit together, whatever their
+folders. Of others each folder makes one.
 """
 
+import collections
+import itertools
 import json
 import pathlib
 import re
@@ -16,6 +19,7 @@ import shutil
 import sys
 
 root = pathlib.Path(__file__).resolve().parent.parent
+largest_unit = 60  # sources; a unit of these keeps a core busy for about a minute
 
 
 def is_linted(path: pathlib.Path) -> bool:
@@ -74,20 +78,44 @@ def copy_rules(folder: pathlib.Path, out: pathlib.Path) -> None:
         folder = folder.parent
 
 
+def rules_of(folder: pathlib.Path) -> pathlib.Path:
+    """The folder whose rules hold for this one."""
+    return folder if (folder / ".clang-tidy").exists() else rules_of(folder.parent)
+
+
+def how_compiled(entry: dict) -> str:
+    """The command without the names of its input and output."""
+    return re.sub(r"\S*" + re.escape(pathlib.Path(entry["file"]).name) + r"\S*", "", entry["command"])
+
+
+def family_of(path: pathlib.Path, entry: dict) -> tuple:
+    """Sources of one family may share a unit."""
+    if is_independent(path):
+        return str(rules_of(path.parent)), how_compiled(entry)
+    return str(path.parent), ""
+
+
+def parts_of(sources: list[pathlib.Path]) -> list[list[pathlib.Path]]:
+    """Neighbours together, in parts of about the same size."""
+    count = -(-len(sources) // largest_unit)
+    return [sources[len(sources) * i // count:len(sources) * (i + 1) // count] for i in range(count)]
+
+
 def main() -> None:
     commands, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     entries = {pathlib.Path(e["file"]): e for e in json.loads(commands.read_text())}
     entries = {path: e for path, e in entries.items() if is_linted(path)}
     listed = [e for path, e in entries.items() if stays_alone(path)]
-    folders = sorted({path.parent for path in entries if not stays_alone(path)})
-    for folder in folders:
-        sources = sorted((p for p in entries if p.parent == folder and not stays_alone(p)),
-                         key=place_in_unit)
-        unit = out / folder.relative_to(root) / "unit.cpp"
-        unit.parent.mkdir(parents=True, exist_ok=True)
-        unit.write_text(unit_of(sources))
-        copy_rules(folder, out)
-        first = entries[sources[0]]
+    families = collections.defaultdict(list)
+    for path in sorted(path for path in entries if not stays_alone(path)):
+        families[family_of(path, entries[path])].append(path)
+    shutil.rmtree(out, ignore_errors=True)
+    for part in itertools.chain.from_iterable(map(parts_of, families.values())):
+        unit = out / part[0].relative_to(root).with_suffix("") / "unit.cpp"
+        unit.parent.mkdir(parents=True)
+        unit.write_text(unit_of(sorted(part, key=place_in_unit)))
+        copy_rules(part[0].parent, out)
+        first = entries[part[0]]
         command = first["command"].replace(first["file"], str(unit))
         listed.append({**first, "file": str(unit), "command": command})
     (out / "compile_commands.json").write_text(json.dumps(listed, indent=1))

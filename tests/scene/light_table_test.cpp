@@ -83,7 +83,7 @@ TEST_CASE("emissive triangles are listed in order, with their power as luminance
     CHECK(table.emissive_triangles().back() == 8);
     CHECK(table.has_emitters());
     const double disc = 0.25 * mirtest::pi;
-    const double bright = static_cast<double>(mir::luminance({8, 2, 1}));
+    const double bright = static_cast<double>(mir::luminance(mir::Rgb{8, 2, 1}));
     CHECK(table.power() == Approx(mirtest::pi * (2.0 + 2 * disc * bright)).epsilon(1e-5));
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("every kind of light counts with the power it sends into the scene") {
     const LightTable table(s, g);
     const Scene without_delta_lights = lamps();
     const LightTable area(without_delta_lights, g);
-    const auto point = static_cast<double>(mir::luminance({1, 2, 3})) * 4 * mirtest::pi;
+    const auto point = static_cast<double>(mir::luminance(mir::Rgb{1, 2, 3})) * 4 * mirtest::pi;
     // The falloff over the ring, integrated numerically.
     const double spot = 4 * mirtest::integrate(0.6, 1.0, 4000, [&](double c) {
                             return 2 * mirtest::pi *
@@ -123,7 +123,7 @@ TEST_CASE("densities of emitter points are one over area times the share of powe
     CHECK(table.emitter_pdf(1000) == 0.0f);
     // Power over area is radiance and sides: the same on all triangles of one lamp.
     CHECK(table.emitter_pdf(8) / table.emitter_pdf(2) ==
-          Approx(2 * mir::luminance({8, 2, 1})).epsilon(1e-5));
+          Approx(2 * mir::luminance(mir::Rgb{8, 2, 1})).epsilon(1e-5));
 }
 
 TEST_CASE("an emitter sample describes a point on its triangle") {
