@@ -35,7 +35,7 @@ endif()
 #
 # One test program. Each TEST_CASE becomes a test "NAME: <its sentence>"; those tagged [statistical],
 # [extended] for tests that ./test.sh leaves to .ci/run, or [slow] for those that take half a minute
-# under the address sanitizer, which leaves them out, get that label besides LABELS. Two labels say
+# under a sanitizer, which leaves them out, get that label besides LABELS. Two labels say
 # which sanitizers are not worth their time: all programs but those labelled `slow` are built by the
 # target memory_tests, those labelled `threads` by threaded_tests.
 function(mir_add_test name)
