@@ -104,6 +104,8 @@ template <>
 inline constexpr Work work_of<mir::PageOrder> = Work::order;
 template <>
 inline constexpr Work work_of<mir::PageWords> = Work::order;
+template <>
+inline constexpr Work work_of<mir::FacingRecords> = Work::records;
 template <class P>
 inline constexpr Work work_of<mir::FacingPass<P>> = Work::facing;
 template <mir::Space S, class P>

@@ -30,8 +30,8 @@ struct BackendShaftOptions {
 };
 
 /// Fills words of visibility on a backend by shafts: the better neighbours lie together, the
-/// faster. Holds the memory between the stages: 33 bytes for each 32 luxels and each VPL of a batch
-/// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 31
+/// faster. Holds the memory between the stages: 34 bytes for each 32 luxels and each VPL of a batch
+/// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 32
 /// bytes for each luxel. One queue at a time.
 template <Backend B>
 class BackendShafts {
@@ -46,6 +46,8 @@ class BackendShafts {
           vpls_(vpls),
           blocks_(backend.template buffer<ClusterRecord>(luxels / block_luxels)),
           clusters_(backend.template buffer<ClusterRecord>(luxels / cluster_luxels)),
+          facing_(backend.template buffer<FacingRecord>(luxels / block_luxels)),
+          faced_(backend.template buffer<std::uint8_t>(pairs(luxels / block_luxels, vpls))),
           open_blocks_(backend.template buffer<OpenPair>(pairs(luxels / block_luxels, vpls))),
           open_clusters_(backend.template buffer<OpenPair>(pairs(luxels / cluster_luxels, vpls))),
           leaves_(backend.template buffer<MetLeaves>(
@@ -76,7 +78,8 @@ class BackendShafts {
         queue.for_each_group(
             GroupRecords::groups(hits.stride),
             GroupRecords{hits, visibility.sigma, blocks_.data(), clusters_.data()});
-        queue.for_each_group(FacingPass<P>::groups(hits.stride), FacingPass{hits, vpls, words});
+        queue.for_each_group(FacingRecords::groups(hits.stride),
+                             FacingRecords{hits, facing_.data()});
         for (std::uint32_t first = 0; first < vpls.size(); first += options_.vpls)
             fill_batch(queue, hits, vpls, visibility,
                        {first, std::min(options_.vpls, vpls.size() - first)}, words);
@@ -104,7 +107,7 @@ class BackendShafts {
                     // Kernels write to it. NOLINTNEXTLINE(readability-non-const-parameter)
                     VplBatch batch, std::uint32_t* words) {
         constexpr Space space = B::space;
-        const std::uint32_t block_count = hits.stride / block_luxels;
+        const FacedBlocks faced{faced_.data(), hits.stride / block_luxels};
         queue.clear(counters_);
         std::uint32_t* counter = counters_.data();
         const WorkQueue<OpenPair> blocks{open_blocks_.data(), size_of(open_blocks_), counter,
@@ -114,10 +117,12 @@ class BackendShafts {
         const WorkQueue<OpenPair> open{open_clusters_.data(), size_of(open_clusters_), counter + 4,
                                        counter + 5};
         const LeafPool pool{leaves_.data(), size_of(leaves_), counter + 6};
+        queue.for_each_group(FacingPass<P>::groups(hits.stride, batch),
+                             FacingPass{hits, facing_.data(), vpls, batch, words, faced});
         queue.for_each_group(
-            BlockShafts<space, P>::groups(block_count, batch),
-            BlockShafts<space, P>{blocks_.data(), block_count, vpls, batch, visibility.bvh,
-                                  visibility.sigma, options_.block_nodes, words, blocks});
+            BlockShafts<space, P>::groups(faced.blocks, batch),
+            BlockShafts<space, P>{blocks_.data(), vpls, batch, visibility.bvh, visibility.sigma,
+                                  options_.block_nodes, faced, words, blocks});
         queue.for_each_group(
             options_.groups,
             ClusterShafts<space, P>{clusters_.data(), vpls, visibility.bvh, visibility.sigma,
@@ -154,6 +159,8 @@ class BackendShafts {
     std::uint32_t vpls_;
     typename B::template Buffer<ClusterRecord> blocks_;
     typename B::template Buffer<ClusterRecord> clusters_;
+    typename B::template Buffer<FacingRecord> facing_;
+    typename B::template Buffer<std::uint8_t> faced_;  ///< FacedBlocks of a batch
     typename B::template Buffer<OpenPair> open_blocks_;
     typename B::template Buffer<OpenPair> open_clusters_;
     typename B::template Buffer<MetLeaves> leaves_;

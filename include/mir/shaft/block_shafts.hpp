@@ -2,17 +2,12 @@
 #pragma once
 
 #include "mir/concepts/vpl_set.hpp"
+#include "mir/shaft/faced_blocks.hpp"
 #include "mir/shaft/leaf_search.hpp"
+#include "mir/shaft/vpl_batch.hpp"
 #include "mir/shaft/work_queue.hpp"
 
 namespace mir {
-
-/// VPLs first .. first + count - 1 of a set: what the kernels of shafts take at a time, so that
-/// their queues have room for all pairs.
-struct VplBatch {
-    std::uint32_t first = 0;  ///< its place in the set
-    std::uint32_t count = 0;  ///< at least 1
-};
 
 /// Decides pairs of 256 luxels and a VPL: kernel for groups, a block per lane, neighbouring blocks
 /// and one VPL a group. Zeroes the words of pairs that a triangle covers, leaves those of clear
@@ -31,12 +26,12 @@ struct BlockShafts {
     };
 
     const ClusterRecord* blocks = nullptr;  ///< of 256 luxels
-    std::uint32_t block_count = 0;          ///< records
     P vpls;                                 ///< all, not those of the batch alone
     VplBatch batch;                         ///< whose pairs are decided
     QuantisedBvhView<S> bvh;                ///< of the scene
     float sigma = 0.0f;                     ///< of the scene, metres, as for the records
     std::uint32_t most_nodes = 0;           ///< visited by a shaft
+    FacedBlocks faced;                      ///< by the batch, of all blocks
     std::uint32_t* words = nullptr;         ///< as VisibilityWords
     WorkQueue<OpenPair> open;               ///< blocks; has room for all
 
@@ -48,7 +43,8 @@ struct BlockShafts {
     /// Group `i` < groups(): VPL batch.first + i % batch.count and the 32 blocks from
     /// 32 (i / batch.count) on.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
-        const VplIndex j = batch.first + i % batch.count;
+        const std::uint32_t k = i % batch.count;
+        const VplIndex j = batch.first + k;
         const std::uint32_t first = i / batch.count * LaneGroup::width;
         const Vec3 apex = vpls[j].position;
         const float reach = bvh.exact.reach;
@@ -60,7 +56,7 @@ struct BlockShafts {
         LaneGroup::PerLane<LeafStack> stacks;
         group.each([&](std::uint32_t lane) {
             const std::uint32_t block = first + lane;
-            const bool is_alive = block < block_count && any_bit(block, j);
+            const bool is_alive = block < faced.blocks && faced.at(block, k) != 0;
             const bool on = is_alive && is_proved && within_reach(blocks[block], reach);
             states[lane] = is_alive ? PairState::unknown : PairState::clear;
             if (on) slabs[lane] = make_shaft_slabs(blocks[block], apex, sigma, reach);
@@ -81,17 +77,8 @@ struct BlockShafts {
     }
 
  private:
-    [[nodiscard]] MIR_HD std::size_t first_word(std::uint32_t block, VplIndex j) const {
-        return std::size_t{block} * block_words * vpls.size() + j;
-    }
-    [[nodiscard]] MIR_HD bool any_bit(std::uint32_t block, VplIndex j) const {
-        const std::uint32_t* word = words + first_word(block, j);
-        std::uint32_t bits = 0;
-        for (std::uint32_t k = 0; k < block_words; ++k) bits |= word[std::size_t{k} * vpls.size()];
-        return bits != 0;
-    }
     MIR_HD void clear_words(std::uint32_t block, VplIndex j) const {
-        std::uint32_t* word = words + first_word(block, j);
+        std::uint32_t* word = words + std::size_t{block} * block_words * vpls.size() + j;
         for (std::uint32_t k = 0; k < block_words; ++k) word[std::size_t{k} * vpls.size()] = 0;
     }
 

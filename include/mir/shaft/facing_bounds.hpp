@@ -3,6 +3,7 @@
 
 #include "mir/core/lane_group.hpp"
 #include "mir/data/luxel.hpp"
+#include "mir/data/soa.hpp"
 #include "mir/data/vpl.hpp"
 #include "mir/shaft/segment_forms.hpp"
 
@@ -17,14 +18,14 @@ inline constexpr float infinite = std::numeric_limits<float>::infinity();
 
 }  // namespace detail
 
-/// What faces() says of a VPL and all luxels of a cluster that are not empty.
+/// What faces() says of a VPL and all luxels of a run that are not empty.
 enum class Facing : std::uint8_t {
     none,  ///< true of no luxel
     some,  ///< neither is shown
     all    ///< true of every luxel
 };
 
-/// Ranges of the luxels of a cluster, for facing_of(). Those that are empty do not count.
+/// Ranges of a run of luxels, for facing_of(). Those that are empty do not count.
 struct FacingBounds {
     Vec3 centre{0};               ///< any point, best one amid the luxels, metres
     Vec3 half{0};                 ///< no coordinate is farther from the centre's, metres
@@ -34,7 +35,8 @@ struct FacingBounds {
     float offset_spread = 0.0f;   ///< none is farther from that, metres
     float half_sum = 0.0f;        ///< sum of the half edges, metres
     float largest_normal = 0.0f;  ///< no component of a normal is larger; infinite: nothing is sure
-    std::uint32_t luxels = 0;     ///< bit k: luxel k is not empty
+    bool is_empty = true;         ///< no luxel counts
+    bool has_one_normal = false;  ///< `normal` is that of every luxel, in every bit
 };
 
 /// Numbers by which facing_of() keeps away from zero. docs/shafts.md derives 29 e of `relative`.
@@ -57,20 +59,30 @@ MIR_HD inline bool is_within_facing_margins(const Hit& hit) {
            sum_abs(hit.normal) <= FacingMargins::normal;
 }
 
-/// A number of each lane as the middle of their range and the largest distance from it.
-struct MiddleOfLanes {
+/// Least and largest of some numbers; in the wrong order of none.
+struct FacingRange {
+    float low = infinite;
+    float high = -infinite;
+
+    MIR_HD void add(float value) {
+        low = smaller(value, low);
+        high = larger(value, high);
+    }
+};
+
+/// The middle of a range and the largest distance from it.
+struct MiddleOfRange {
     float middle = 0.0f;
     float distance = 0.0f;
 };
 
-/// Of the lanes whose bit is set; any is.
-MIR_HD inline MiddleOfLanes middle_of(const LaneGroup& group, std::uint32_t lanes,
-                                      const LaneGroup::PerLane<float>& values) {
+/// Of what all lanes have added to theirs.
+MIR_HD inline MiddleOfRange middle_of(const LaneGroup& group,
+                                      const LaneGroup::PerLane<FacingRange>& ranges) {
     LaneGroup::PerLane<float> low, high;
     group.each([&](std::uint32_t lane) {
-        const bool counts = (lanes >> lane & 1u) != 0;
-        low[lane] = counts ? values[lane] : infinite;
-        high[lane] = counts ? values[lane] : -infinite;
+        low[lane] = ranges[lane].low;
+        high[lane] = ranges[lane].high;
     });
     const float least = group.combined(low, [](float a, float b) { return smaller(a, b); });
     const float most = group.combined(high, [](float a, float b) { return larger(a, b); });
@@ -78,51 +90,79 @@ MIR_HD inline MiddleOfLanes middle_of(const LaneGroup& group, std::uint32_t lane
     return {middle, larger(most - middle, middle - least)};
 }
 
+/// Calls f(lane, hit) for the luxels of a run that are not empty, every 32nd of them a lane's.
+template <class F>
+MIR_HD void each_luxel(const LaneGroup& group, SoaView<const Hit> hits, std::uint32_t first,
+                       std::uint32_t count, const F& f) {
+    group.each([&](std::uint32_t lane) {
+        for (std::uint32_t k = lane; k < count; k += LaneGroup::width) {
+            const Hit hit = hits.load(first + k);
+            if (!mir::is_empty(hit)) f(lane, hit);
+        }
+    });
+}
+
 }  // namespace detail
 
-/// Bounds of 32 luxels, one of each lane.
+/// Bounds of luxels first .. first + count - 1; `count` is a multiple of 32.
 [[nodiscard]] MIR_HD inline FacingBounds facing_bounds(const LaneGroup& group,
-                                                       const LaneGroup::PerLane<Hit>& luxels) {
+                                                       SoaView<const Hit> hits, std::uint32_t first,
+                                                       std::uint32_t count) {
+    using Ranges = LaneGroup::PerLane<detail::FacingRange>;
+    Ranges positions[3], normals[3], offsets;
+    LaneGroup::PerLane<std::uint32_t> luxels, irregular;
+    group.each([&](std::uint32_t lane) {
+        for (int axis = 0; axis < 3; ++axis) positions[axis][lane] = normals[axis][lane] = {};
+        offsets[lane] = {};
+        luxels[lane] = irregular[lane] = 0;
+    });
+    detail::each_luxel(group, hits, first, count, [&](std::uint32_t lane, const Hit& hit) {
+        for (int axis = 0; axis < 3; ++axis) {
+            positions[axis][lane].add(hit.position[axis]);
+            normals[axis][lane].add(hit.normal[axis]);
+        }
+        ++luxels[lane];
+        if (!detail::is_within_facing_margins(hit)) ++irregular[lane];
+    });
     FacingBounds bounds;
-    bounds.luxels = group.ballot([&](std::uint32_t lane) { return !is_empty(luxels[lane]); });
-    if (bounds.luxels == 0) return bounds;
-    LaneGroup::PerLane<float> values;
+    bounds.is_empty = group.ballot([&](std::uint32_t lane) { return luxels[lane] != 0; }) == 0;
+    if (bounds.is_empty) return bounds;
     for (int axis = 0; axis < 3; ++axis) {
-        group.each([&](std::uint32_t lane) { values[lane] = luxels[lane].position[axis]; });
-        const detail::MiddleOfLanes place = detail::middle_of(group, bounds.luxels, values);
+        const detail::MiddleOfRange place = detail::middle_of(group, positions[axis]);
+        const detail::MiddleOfRange normal = detail::middle_of(group, normals[axis]);
         bounds.centre[axis] = place.middle;
         bounds.half[axis] = place.distance;
-        group.each([&](std::uint32_t lane) { values[lane] = luxels[lane].normal[axis]; });
-        const detail::MiddleOfLanes normal = detail::middle_of(group, bounds.luxels, values);
         bounds.normal[axis] = normal.middle;
         bounds.spread[axis] = normal.distance;
     }
-    group.each([&](std::uint32_t lane) {
-        values[lane] =
-            detail::loose_dot(luxels[lane].position - bounds.centre, luxels[lane].normal);
+    detail::each_luxel(group, hits, first, count, [&](std::uint32_t lane, const Hit& hit) {
+        offsets[lane].add(detail::loose_dot(hit.position - bounds.centre, hit.normal));
     });
-    const detail::MiddleOfLanes offset = detail::middle_of(group, bounds.luxels, values);
+    const detail::MiddleOfRange offset = detail::middle_of(group, offsets);
     bounds.offset = offset.middle;
     bounds.offset_spread = offset.distance;
     bounds.half_sum = detail::sum_abs(bounds.half);
-    const std::uint32_t regular = group.ballot(
-        [&](std::uint32_t lane) { return detail::is_within_facing_margins(luxels[lane]); });
-    bounds.largest_normal = (bounds.luxels & ~regular) == 0
-                                ? max_abs(detail::absolute(bounds.normal) + bounds.spread)
-                                : detail::infinite;
+    bounds.has_one_normal = bounds.spread == Vec3(0.0f);
+    const bool is_regular =
+        group.ballot([&](std::uint32_t lane) { return irregular[lane] != 0; }) == 0;
+    bounds.largest_normal =
+        is_regular ? max_abs(detail::absolute(bounds.normal) + bounds.spread) : detail::infinite;
     return bounds;
 }
 
 /// What can be said of all luxels and a VPL at once; host and device may differ in how often that
 /// is nothing. With m = q - centre the two numbers that faces() compares with zero are
 ///   (q - p) . n = m . n - (p - centre) . n  and  (q - p) . n_q = m . n_q - (p - centre) . n_q,
-/// of which the bounds know the ranges.
+/// of which the bounds know the ranges. Where luxels and VPL lie on the same side of one plane, as
+/// on a wall, rounding leaves both near zero; but with one normal for all they are the same number,
+/// which is not positive and negative at once.
 [[nodiscard]] MIR_HD inline Facing facing_of(const FacingBounds& luxels, const Vpl& vpl) {
-    if (luxels.luxels == 0) return Facing::none;
+    if (luxels.is_empty) return Facing::none;
     const Vec3 m = vpl.position - luxels.centre;
     const float sum = detail::sum_abs(m) + luxels.half_sum;
     if (!(sum <= FacingMargins::reach)) return Facing::some;
     if (!(detail::sum_abs(vpl.normal) <= FacingMargins::normal)) return Facing::some;
+    if (luxels.has_one_normal && vpl.normal == luxels.normal) return Facing::none;
     const auto margin = [sum](float largest) {
         return FacingMargins::relative * sum * largest + FacingMargins::absolute;
     };
