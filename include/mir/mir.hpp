@@ -304,6 +304,7 @@
 #include "mir/shaft/group_records.hpp"
 #include "mir/shaft/kept_forms.hpp"
 #include "mir/shaft/lane_search.hpp"
+#include "mir/shaft/leaf_pool.hpp"
 #include "mir/shaft/leaf_search.hpp"
 #include "mir/shaft/list_batch.hpp"
 #include "mir/shaft/luxel_pages.hpp"

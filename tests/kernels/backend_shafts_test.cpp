@@ -54,6 +54,22 @@ TEST_CASE("Most pairs of a closed room are decided without a single segment") {
     CHECK(untraced({}) < facing / 10);
 }
 
+TEST_CASE("Triangles that a block's shaft found decide its clusters without a search") {
+    const mirtest::World world = mirtest::sphere_in_box();
+    const ShaftStage stage = stage_of(world, 30000, 30);
+    const auto truth = stage.by_segments();
+    // No cluster may search, so that what is decided beyond the first is decided by blocks.
+    const auto open = [&](const mir::BackendShaftOptions& options) {
+        return different_bits(words(stage, options, false), truth);
+    };
+    const std::size_t listed_by_nobody = open({0, 0});
+    CHECK(open({1000, 0}) < listed_by_nobody / 20);
+    mir::BackendShaftOptions no_room{1000, 0};
+    no_room.leaves = 0;
+    CHECK(open(no_room) > listed_by_nobody / 10);
+    CHECK(different_bits(words(stage, no_room), truth) == 0);
+}
+
 TEST_CASE("Nothing of a deep hierarchy is lost, and lanes take new pairs while others search") {
     const mirtest::World world = mirtest::sphere_in_box(120);
     const ShaftStage stage = stage_of(world, 10000, 40, 24);

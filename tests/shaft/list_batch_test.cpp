@@ -40,6 +40,11 @@ class Lists {
         }
     }
 
+    /// Puts a single triangle in the place of a node of the pool.
+    void put_triangle(std::uint32_t at, std::uint32_t triangle) {
+        pool_[at] = mir::MetLeaves::of_triangle(triangle);
+    }
+
     /// Unpacks from list `from` on.
     ListBatch unpacked(std::uint32_t from = 0) {
         mir::QuantisedBvhView<Space::host> bvh;
@@ -85,6 +90,18 @@ TEST_CASE("A batch has the triangles of its lists one behind the other") {
     CHECK(list[11] == 2);
     CHECK(list[16] == 3);
     CHECK(list[31] == 3);
+}
+
+TEST_CASE("Lists have leaves and single triangles") {
+    Lists lists({3, 0, 0, 2}, {2, 2});
+    lists.put_triangle(1, 0);
+    lists.put_triangle(2, mir::MetLeaves::most_nodes - 1);
+    const ListBatch batch = lists.unpacked();
+    REQUIRE(batch.lists == 2);
+    REQUIRE(batch.triangles == 7);
+    CHECK(batch.ends[0] == 4);
+    lists.triangles.resize(7);
+    CHECK(lists.triangles == std::vector<std::uint32_t>{0, 1, 2, 0, 0xFFFFFFu, 300, 301});
 }
 
 TEST_CASE("Lists without a triangle end where they begin") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/backend.hpp"
+#include "mir/shaft/block_shafts.hpp"
 #include "mir/shaft/cluster_lists.hpp"
 #include "mir/shaft/cluster_shafts.hpp"
 #include "mir/shaft/cluster_visibility.hpp"
@@ -19,7 +20,7 @@ namespace mir {
 /// What the searches of shafts may cost on a backend, and how many pairs are worked on at a time.
 /// Any numbers give the same bits.
 struct BackendShaftOptions {
-    std::uint32_t block_nodes = 12;     ///< that the shaft of 256 luxels and a VPL visits
+    std::uint32_t block_nodes = 16;     ///< that the shaft of 256 luxels and a VPL visits
     std::uint32_t cluster_nodes = 128;  ///< that the shaft of 32 luxels and a VPL visits
     std::uint32_t vpls = 256;  ///< at a time, at least 1: queues have room for all their pairs
     std::uint32_t groups = 1u << 14;  ///< that empty a queue together, at least 1
@@ -30,7 +31,7 @@ struct BackendShaftOptions {
 };
 
 /// Fills words of visibility on a backend by shafts: the better neighbours lie together, the
-/// faster. Holds the memory between the stages: 34 bytes for each 32 luxels and each VPL of a batch
+/// faster. Holds the memory between the stages: 35 bytes for each 32 luxels and each VPL of a batch
 /// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 32
 /// bytes for each luxel. One queue at a time.
 template <Backend B>
@@ -52,10 +53,11 @@ class BackendShafts {
           open_clusters_(backend.template buffer<OpenPair>(pairs(luxels / cluster_luxels, vpls))),
           leaves_(backend.template buffer<MetLeaves>(
               std::min<std::size_t>(options_.leaves, 4 * open_clusters_.size()))),
+          listed_blocks_(backend.template buffer<ListedPair>(open_blocks_.size() / 2)),
           listed_(backend.template buffer<ListedPair>(leaves_.size() / 8)),
           ordered_(backend.template buffer<std::uint32_t>(hit_words * luxels)),
           places_(backend.template buffer<std::uint32_t>(luxels)),
-          counters_(backend.template buffer<std::uint32_t>(7)) {}
+          counters_(backend.template buffer<std::uint32_t>(9)) {}
 
     /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`: bit for bit
     /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are padded with
@@ -117,12 +119,14 @@ class BackendShafts {
         const WorkQueue<OpenPair> open{open_clusters_.data(), size_of(open_clusters_), counter + 4,
                                        counter + 5};
         const LeafPool pool{leaves_.data(), size_of(leaves_), counter + 6};
+        const WorkQueue<ListedPair> listed_blocks{listed_blocks_.data(), size_of(listed_blocks_),
+                                                  counter + 7, counter + 8};
         queue.for_each_group(FacingPass<P>::groups(hits.stride, batch),
                              FacingPass{hits, facing_.data(), vpls, batch, words, faced});
         queue.for_each_group(
             BlockShafts<space, P>::groups(faced.blocks, batch),
             BlockShafts<space, P>{blocks_.data(), vpls, batch, visibility.bvh, visibility.sigma,
-                                  options_.block_nodes, faced, words, blocks});
+                                  options_.block_nodes, faced, words, listed_blocks, pool, blocks});
         queue.for_each_group(
             options_.groups,
             ClusterShafts<space, P>{clusters_.data(), vpls, visibility.bvh, visibility.sigma,
@@ -130,7 +134,7 @@ class BackendShafts {
         queue.for_each_group(
             options_.groups,
             ClusterLists<space, P>{hits, clusters_.data(), vpls, visibility.bvh, visibility.sigma,
-                                   words, listed, pool.leaves, open});
+                                   words, listed_blocks, listed, pool.leaves, open});
         queue.for_each_group(options_.groups,
                              OpenSegments{hits, vpls, visibility.segments, words, open});
     }
@@ -164,6 +168,7 @@ class BackendShafts {
     typename B::template Buffer<OpenPair> open_blocks_;
     typename B::template Buffer<OpenPair> open_clusters_;
     typename B::template Buffer<MetLeaves> leaves_;
+    typename B::template Buffer<ListedPair> listed_blocks_;
     typename B::template Buffer<ListedPair> listed_;
     typename B::template Buffer<std::uint32_t> ordered_;  ///< hits, in planes
     typename B::template Buffer<std::uint32_t> places_;

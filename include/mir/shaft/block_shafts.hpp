@@ -3,7 +3,7 @@
 
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/shaft/faced_blocks.hpp"
-#include "mir/shaft/leaf_search.hpp"
+#include "mir/shaft/leaf_pool.hpp"
 #include "mir/shaft/vpl_batch.hpp"
 #include "mir/shaft/work_queue.hpp"
 
@@ -11,7 +11,8 @@ namespace mir {
 
 /// Decides pairs of 256 luxels and a VPL: kernel for groups, a block per lane, neighbouring blocks
 /// and one VPL a group. Zeroes the words of pairs that a triangle covers, leaves those of clear
-/// ones as they are, facing masks (FacingPass), and queues the rest.
+/// ones as they are, facing masks (FacingPass), and queues the rest: with all triangles
+/// that are partial, if it has found them, since those of each cluster are among them.
 template <Space S, VplSet P>
 struct BlockShafts {
     /// Thread blocks that a multiprocessor of a GPU is to hold at least.
@@ -33,7 +34,9 @@ struct BlockShafts {
     std::uint32_t most_nodes = 0;           ///< visited by a shaft
     FacedBlocks faced;                      ///< by the batch, of all blocks
     std::uint32_t* words = nullptr;         ///< as VisibilityWords
-    WorkQueue<OpenPair> open;               ///< blocks; has room for all
+    WorkQueue<ListedPair> listed;           ///< blocks with their leaves; may run full
+    LeafPool pool;                          ///< for the leaves of `listed`; may run full
+    WorkQueue<OpenPair> open;               ///< other blocks; has room for all
 
     /// Groups that cover all pairs.
     [[nodiscard]] static std::uint32_t groups(std::uint32_t blocks, VplBatch batch) {
@@ -64,14 +67,16 @@ struct BlockShafts {
         });
         while (running_lanes(group, searches) != 0)
             visit_nodes(group, bvh, slabs, most_nodes, searches, stacks, space.leaves);
-        classify(group, first, apex, searches, space, states);
+        LaneGroup::PerLane<std::uint32_t> partial;
+        classify(group, first, apex, searches, space, states, partial);
         group.each([&](std::uint32_t lane) {
             if (states[lane] == PairState::covered) clear_words(first + lane, j);
         });
         const std::uint32_t undecided = group.ballot([&](std::uint32_t lane) {
             return states[lane] == PairState::unknown || states[lane] == PairState::listed;
         });
-        static_cast<void>(open.append(group, undecided, [&](std::uint32_t lane) {
+        const std::uint32_t stored = store(group, {first, j}, searches, space, partial);
+        static_cast<void>(open.append(group, undecided & ~stored, [&](std::uint32_t lane) {
             return OpenPair{first + lane, j};
         }));
     }
@@ -82,14 +87,17 @@ struct BlockShafts {
         for (std::uint32_t k = 0; k < block_words; ++k) word[std::size_t{k} * vpls.size()] = 0;
     }
 
-    /// Tests the triangles of a lane's leaves against its pyramid, one per turn.
+    /// Tests the triangles of a lane's leaves against its pyramid, one per turn. Bits of
+    /// partial[lane] tell which of them are partial, where these are all that there are.
     MIR_HD void classify(const LaneGroup& group, std::uint32_t first, Vec3 apex,
                          const LaneGroup::PerLane<LeafSearch>& searches, const Workspace& space,
-                         LaneGroup::PerLane<PairState>& states) const {
+                         LaneGroup::PerLane<PairState>& states,
+                         LaneGroup::PerLane<std::uint32_t>& partial) const {
         LaneGroup::PerLane<Pyramid> pyramids;
         LaneGroup::PerLane<LeafCursor> cursors;
         group.each([&](std::uint32_t lane) {
             const LeafSearch& search = searches[lane];
+            partial[lane] = 0;
             cursors[lane].begin(search.listed);
             if (search.listed > 0) pyramids[lane] = make_pyramid(blocks[first + lane], apex, sigma);
             if (search.state == LeafSearchState::complete) states[lane] = PairState::clear;
@@ -105,6 +113,7 @@ struct BlockShafts {
                 const Occlusion found =
                     occlusion(bvh.exact.triangles[cursor.triangles.pop()], pyramids[lane]);
                 if (found == Occlusion::none) return;
+                partial[lane] |= 1u << turn;
                 if (found == Occlusion::full) cursor.stop();
                 if (found == Occlusion::full)
                     states[lane] = PairState::covered;
@@ -113,7 +122,45 @@ struct BlockShafts {
             });
         group.each([&](std::uint32_t lane) {
             if (cursors[lane].has_more()) states[lane] = PairState::unknown;
+            if (states[lane] != PairState::listed) partial[lane] = 0;
         });
+    }
+
+    /// Queues the pairs of lanes that have partial triangles, with these. `pair` is that of lane 0.
+    /// Returns the lanes for which there was room.
+    MIR_HD std::uint32_t store(const LaneGroup& group, OpenPair pair,
+                               const LaneGroup::PerLane<LeafSearch>& searches,
+                               const Workspace& space,
+                               const LaneGroup::PerLane<std::uint32_t>& partial) const {
+        LaneGroup::PerLane<std::uint32_t> counts;
+        LaneGroup::PerLane<std::uint32_t> places;
+        group.each([&](std::uint32_t lane) { counts[lane] = LaneGroup::count(partial[lane]); });
+        std::uint32_t stored = pool.reserve(group, counts, places);
+        const std::uint32_t too_many = group.ballot([&](std::uint32_t lane) {
+            return (stored >> lane & 1u) != 0 &&
+                   !copy(places[lane], lane, searches[lane].listed, partial[lane], space);
+        });
+        stored &= ~too_many;
+        const std::uint32_t left = listed.append(group, stored, [&](std::uint32_t lane) {
+            return ListedPair{{pair.cluster + lane, pair.vpl}, places[lane], counts[lane]};
+        });
+        return stored & ~left;
+    }
+
+    /// Copies the triangles of a lane's leaves whose bits are set in `partial`, which are those of
+    /// the turns in which classify() has tested them. False if one does not fit.
+    MIR_HD bool copy(std::uint32_t to, std::uint32_t lane, std::uint32_t nodes,
+                     std::uint32_t partial, const Workspace& space) const {
+        LeafCursor cursor;
+        cursor.begin(nodes);
+        for (; partial != 0; partial >>= 1) {
+            if (!cursor.find(bvh.links, space.leaves, lane)) continue;
+            const std::uint32_t triangle = cursor.triangles.pop();
+            if ((partial & 1u) == 0) continue;
+            if (triangle >= MetLeaves::most_nodes) return false;
+            pool.leaves[to++] = MetLeaves::of_triangle(triangle);
+        }
+        return true;
     }
 
     /// The triangles of a lane's leaves, one node after the other.
@@ -135,8 +182,7 @@ struct BlockShafts {
         MIR_HD bool find(const NodeLinks* links, const LeafColumns<Capacity>& columns,
                          std::uint32_t lane) {
             if (!triangles.empty()) return true;
-            const MetLeaves met = columns.met[at++][lane];
-            triangles = links[met.node()].leaves(met.slots());
+            triangles = columns.met[at++][lane].triangles(links);
             return !triangles.empty();
         }
     };

@@ -7,10 +7,10 @@
 
 namespace mir {
 
-/// Decides pairs of 32 luxels and a VPL by the leaves that their shafts meet: kernel for groups, a
-/// few pairs at a time. First a triangle per lane against the pyramid of its pair, then, pair by
-/// pair, a luxel per lane against the triangles that are partial. Pairs with too many triangles are
-/// queued.
+/// Decides pairs of 32 luxels and a VPL by the leaves that their shafts, or those of their blocks,
+/// meet: kernel for groups, a few pairs at a time. First a triangle per lane against the pyramid of
+/// its pair, then, pair by pair, a luxel per lane against the triangles that are partial. Pairs
+/// with too many triangles are queued.
 template <Space S, VplSet P>
 struct ClusterLists {
     /// As BlockShafts::resident_blocks.
@@ -29,25 +29,38 @@ struct ClusterLists {
     QuantisedBvhView<S> bvh;                  ///< of the scene
     float sigma = 0.0f;                       ///< of the scene, metres, as for the records
     std::uint32_t* words = nullptr;           ///< as VisibilityWords
-    WorkQueue<ListedPair> listed;             ///< to decide
-    const MetLeaves* pool = nullptr;          ///< leaves that `listed` refers to: LeafPool::leaves
+    WorkQueue<ListedPair> blocks;             ///< to decide, with up to 32 single triangles
+    WorkQueue<ListedPair> listed;             ///< clusters to decide
+    const MetLeaves* pool = nullptr;          ///< leaves that both refer to: LeafPool::leaves
     WorkQueue<OpenPair> open;                 ///< left to single segments; has room for all
 
-    /// Takes pairs from `listed` until none is left: any number of groups does all the work.
+    /// Takes pairs until none is left: any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace& space) const {
-        constexpr std::uint32_t at_once = ListBatch::most_lists;
-        const std::uint32_t count = listed.size();
-        std::uint32_t next = listed.take(group, at_once);
-        while (next < count) {
-            std::uint32_t at = next;
+        bool has_blocks = true;
+        std::uint32_t next = blocks.take(group, 1);
+        for (;;) {
+            if (has_blocks && next >= blocks.size()) {
+                has_blocks = false;
+                next = listed.take(group, at_once);
+            }
+            if (!has_blocks && next >= listed.size()) return;
+            const Taken taken{has_blocks, next};
             // Asked for before it is needed, because the answer takes its time.
-            next = listed.take(group, at_once);
-            const std::uint32_t end = at + at_once < count ? at + at_once : count;
-            while (at < end) at += decide(group, listed.items + at, end - at, space);
+            next = has_blocks ? blocks.take(group, 1) : listed.take(group, at_once);
+            decide(group, taken, space);
         }
     }
 
  private:
+    /// Lists of clusters that are taken together.
+    static constexpr std::uint32_t at_once = 4;
+
+    /// A block, or some clusters, by their place in the queue.
+    struct Taken {
+        bool is_block;
+        std::uint32_t at;
+    };
+
     /// What is known of a batch.
     struct Progress {
         LaneGroup::PerLane<std::uint32_t> lit;  ///< lane k: luxels of pair k that no triangle hides
@@ -56,18 +69,31 @@ struct ClusterLists {
         FormRange forms;                        ///< of its triangles that are partial
     };
 
-    /// Decides the first of `count` pairs and as many of the others as a batch holds; returns how
-    /// many.
-    MIR_HD std::uint32_t decide(const LaneGroup& group, const ListedPair* lists,
-                                std::uint32_t count, Workspace& space) const {
-        ListBatch batch;
-        unpack_lists(group, bvh, pool, lists, count, batch, space.triangles);
-        if (batch.lists == 0) {
-            static_cast<void>(open.append(group, 1u, [&](std::uint32_t lane) {
-                return OpenPair{batch.clusters[lane], batch.vpls[lane]};
-            }));
-            return 1;
+    /// Decides what was taken, as many clusters at a time as a batch holds. Clusters of a block may
+    /// have no luxel: none is lit, whatever triangles do to their pyramids.
+    MIR_HD void decide(const LaneGroup& group, Taken taken, Workspace& space) const {
+        const std::uint32_t left = listed.size() - taken.at;
+        const std::uint32_t lists = left < at_once ? left : at_once;
+        const std::uint32_t count = taken.is_block ? block_luxels / cluster_luxels : lists;
+        for (std::uint32_t k = 0; k < count;) {
+            ListBatch batch;
+            if (taken.is_block)
+                share_list(group, pool, blocks.items[taken.at], k, batch, space.triangles);
+            else
+                unpack_lists(group, bvh, pool, listed.items + taken.at + k, count - k, batch,
+                             space.triangles);
+            k += batch.lists > 0 ? batch.lists : 1;
+            if (batch.lists > 0)
+                decide(group, batch, space);
+            else
+                static_cast<void>(open.append(group, 1u, [&](std::uint32_t lane) {
+                    return OpenPair{batch.clusters[lane], batch.vpls[lane]};
+                }));
         }
+    }
+
+    /// Decides the pairs of a batch.
+    MIR_HD void decide(const LaneGroup& group, const ListBatch& batch, Workspace& space) const {
         Progress progress;
         LaneGroup::PerLane<std::uint32_t> before;
         group.each([&](std::uint32_t lane) {
@@ -85,7 +111,6 @@ struct ClusterLists {
             const std::uint32_t lit = is_dark ? 0 : progress.lit[lane];
             if (lit != before[lane]) word_of(batch, lane) = lit;
         });
-        return batch.lists;
     }
 
     [[nodiscard]] MIR_HD std::uint32_t& word_of(const ListBatch& batch, std::uint32_t lane) const {

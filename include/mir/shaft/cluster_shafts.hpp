@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/shaft/block_shafts.hpp"
+#include "mir/concepts/vpl_set.hpp"
+#include "mir/shaft/leaf_pool.hpp"
+#include "mir/shaft/work_queue.hpp"
 
 namespace mir {
-
-/// Memory for the leaves that shafts meet.
-struct LeafPool {
-    MetLeaves* leaves = nullptr;    ///< `capacity` of them
-    std::uint32_t capacity = 0;     ///< leaves that there is room for
-    std::uint32_t* used = nullptr;  ///< starts at 0
-};
 
 /// Looks for the leaves of pairs of 32 luxels and a VPL that a block's shaft left open: kernel for
 /// groups, a cluster per lane, four blocks at a time. Leaves the words of clear pairs, facing
@@ -130,34 +125,23 @@ struct ClusterShafts {
                                              const LaneGroup::PerLane<Task>& tasks,
                                              const LaneGroup::PerLane<LeafSearch>& searches,
                                              const Workspace& space) const {
-        LaneGroup::PerLane<std::uint32_t> place;
-        group.each([&](std::uint32_t lane) {
+        LaneGroup::PerLane<std::uint32_t> counts;
+        LaneGroup::PerLane<std::uint32_t> places;
+        const std::uint32_t lists = group.ballot([&](std::uint32_t lane) {
             const bool is_complete = searches[lane].state == LeafSearchState::complete;
-            place[lane] = is_complete ? searches[lane].listed : 0u;
+            counts[lane] = is_complete ? searches[lane].listed : 0u;
+            return counts[lane] > 0;
         });
-        const std::uint32_t lists =
-            group.ballot([&](std::uint32_t lane) { return place[lane] > 0; });
-        // Asked before more is added: so the count cannot wrap around.
-        if (lists == 0 || group.add(*pool.used, 0) > pool.capacity) return lists;
-        const std::uint32_t total = group.sums_before(place);
-        const std::uint32_t first = group.add(*pool.used, total);
-        const std::uint32_t fitting = group.ballot([&](std::uint32_t lane) {
-            return first + place[lane] + searches[lane].listed <= pool.capacity;
-        });
+        const std::uint32_t stored = pool.reserve(group, counts, places);
         group.each([&](std::uint32_t lane) {
-            if ((lists & fitting) >> lane & 1u)
-                return copy(first + place[lane], lane, searches[lane], space);
+            if ((stored >> lane & 1u) == 0) return;
+            for (std::uint32_t k = 0; k < counts[lane]; ++k)
+                pool.leaves[places[lane] + k] = space.leaves.met[k][lane];
         });
-        const std::uint32_t left = listed.append(group, lists & fitting, [&](std::uint32_t lane) {
-            return ListedPair{tasks[lane].pair, first + place[lane], searches[lane].listed};
+        const std::uint32_t left = listed.append(group, stored, [&](std::uint32_t lane) {
+            return ListedPair{tasks[lane].pair, places[lane], counts[lane]};
         });
-        return left | (lists & ~fitting);
-    }
-
-    MIR_HD void copy(std::uint32_t to, std::uint32_t lane, const LeafSearch& search,
-                     const Workspace& space) const {
-        for (std::uint32_t k = 0; k < search.listed; ++k)
-            pool.leaves[to + k] = space.leaves.met[k][lane];
+        return left | (lists & ~stored);
     }
 };
 

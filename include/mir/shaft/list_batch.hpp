@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/quantised_bvh.hpp"
+#include "mir/shaft/cluster_record.hpp"
 #include "mir/shaft/leaf_search.hpp"
 #include "mir/shaft/work_queue.hpp"
 
@@ -11,7 +12,7 @@ namespace mir {
 /// leaves, one pair's behind the other's: lanes that one pair leaves without a triangle have one of
 /// the next.
 struct ListBatch {
-    static constexpr std::uint32_t most_lists = 4;        ///< pairs
+    static constexpr std::uint32_t most_lists = 8;        ///< pairs
     static constexpr std::uint32_t most_triangles = 224;  ///< of all pairs
 
     std::uint32_t lists = 0;                     ///< pairs
@@ -26,7 +27,7 @@ struct ListBatch {
                                                                       std::uint32_t first) const {
         LaneGroup::PerLane<std::uint32_t> list;
         group.each([&](std::uint32_t lane) { list[lane] = 0; });
-        for (std::uint32_t k = 0; k + 1 < most_lists; ++k) {
+        for (std::uint32_t k = 0; k + 1 < lists; ++k) {
             const std::uint32_t end = group.broadcast(ends, k);
             group.each([&](std::uint32_t lane) { list[lane] += first + lane >= end ? 1u : 0u; });
         }
@@ -88,8 +89,8 @@ MIR_HD void unpack_lists(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
     LaneGroup::PerLane<LeafTriangles> leaves;
     LaneGroup::PerLane<std::uint32_t> place;
     group.each([&](std::uint32_t lane) {
-        const MetLeaves met = lane < nodes.count ? pool[nodes.at[lane]] : MetLeaves{};
-        leaves[lane] = bvh.links[met.node()].leaves(met.slots());
+        leaves[lane] = {{0, 0}, {0, 0}};
+        if (lane < nodes.count) leaves[lane] = pool[nodes.at[lane]].triangles(bvh.links);
         place[lane] = leaves[lane].count();
     });
     const std::uint32_t total = group.sums_before(place);
@@ -107,6 +108,28 @@ MIR_HD void unpack_lists(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
         if (place[lane] >= batch.triangles) return;
         std::uint32_t* out = triangles + place[lane];
         leaves[lane].for_each([&](std::uint32_t triangle) { *out++ = triangle; });
+    });
+}
+
+/// Fills a batch with the clusters of a block from the one with number `first` in it on, as many as
+/// fit, and `triangles` as unpack_lists() does: each has those of the block's list, which are 1 to
+/// 32 single ones.
+MIR_HD inline void share_list(const LaneGroup& group, const MetLeaves* pool,
+                              const ListedPair& block, std::uint32_t first, ListBatch& batch,
+                              std::uint32_t* triangles) {
+    constexpr std::uint32_t clusters = block_luxels / cluster_luxels;
+    static_assert(clusters <= ListBatch::most_lists);
+    const std::uint32_t size = block.nodes;
+    const std::uint32_t fitting = ListBatch::most_triangles / size;
+    batch.lists = clusters - first < fitting ? clusters - first : fitting;
+    batch.triangles = batch.lists * size;
+    group.each([&](std::uint32_t lane) {
+        batch.clusters[lane] = block.pair.cluster * clusters + first + lane;
+        batch.vpls[lane] = block.pair.vpl;
+        batch.ends[lane] = lane < batch.lists ? (lane + 1) * size : 0xFFFFFFFFu;
+        if (lane >= size) return;
+        const std::uint32_t triangle = pool[block.first + lane].node();
+        for (std::uint32_t k = 0; k < batch.lists; ++k) triangles[k * size + lane] = triangle;
     });
 }
 

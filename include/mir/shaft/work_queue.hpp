@@ -46,9 +46,9 @@ struct alignas(8) OpenPair {
     std::uint32_t vpl = 0;      ///< its place in the set
 };
 
-/// A pair of 32 luxels and a VPL with all leaves that its shaft meets, in a pool.
+/// A run of luxels and a VPL with all leaves whose triangles may hide one, in a pool.
 struct alignas(16) ListedPair {
-    OpenPair pair;            ///< of a cluster of 32 luxels
+    OpenPair pair;            ///< of a run of 32 or of 256 luxels as the queue says
     std::uint32_t first = 0;  ///< place in the pool
     std::uint32_t nodes = 0;  ///< with leaves
 };
