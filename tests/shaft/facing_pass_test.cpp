@@ -33,7 +33,7 @@ Faced faced_by(const ShaftStage& stage, std::uint32_t at_once) {
                              faced.words.data(),
                              mir::FacedBlocks{&faced.blocks[std::size_t{first} * blocks], blocks}};
         decltype(pass)::Workspace space;
-        for (std::uint32_t i = 0; i < pass.groups(stage.hits().stride, pass.batch); ++i)
+        for (std::uint32_t i = 0; i < decltype(pass)::groups(stage.hits().stride, pass.batch); ++i)
             pass(mir::LaneGroup{}, i, space);
     }
     return faced;

@@ -112,18 +112,21 @@ struct BlockShafts {
                 if (!cursor.find(bvh.links, space.leaves, lane)) return;
                 const Occlusion found =
                     occlusion(bvh.exact.triangles[cursor.triangles.pop()], pyramids[lane]);
-                if (found == Occlusion::none) return;
-                partial[lane] |= 1u << turn;
+                partial[lane] |= (found == Occlusion::none ? 0u : 1u) << turn;
                 if (found == Occlusion::full) cursor.stop();
-                if (found == Occlusion::full)
-                    states[lane] = PairState::covered;
-                else if (states[lane] == PairState::clear)
-                    states[lane] = PairState::listed;
+                states[lane] = after(states[lane], found);
             });
         group.each([&](std::uint32_t lane) {
             if (cursors[lane].has_more()) states[lane] = PairState::unknown;
             if (states[lane] != PairState::listed) partial[lane] = 0;
         });
+    }
+
+    /// What is known of a pair after one more of its triangles.
+    [[nodiscard]] MIR_HD static PairState after(PairState state, Occlusion found) {
+        if (found == Occlusion::full) return PairState::covered;
+        const bool is_first = found == Occlusion::partial && state == PairState::clear;
+        return is_first ? PairState::listed : state;
     }
 
     /// Queues the pairs of lanes that have partial triangles, with these. `pair` is that of lane 0.
