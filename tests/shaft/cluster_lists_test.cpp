@@ -53,8 +53,7 @@ class Lists {
         for (std::uint32_t b = 0; b < pairs / block_words; ++b) {
             const std::uint32_t shared = owner(block_words * b);
             blocks.push_back({{b, 0}, static_cast<std::uint32_t>(pool_.size()), count_[shared]});
-            for (std::uint32_t k = 0; k < count_[shared]; ++k)
-                pool_.push_back(mir::MetLeaves::of_triangle(first_[shared] + k));
+            for (std::uint32_t k = 0; k < count_[shared]; ++k) pool_.push_back(first_[shared] + k);
         }
         return decided(std::move(blocks), {}, open);
     }
@@ -140,7 +139,8 @@ class Lists {
         const auto draw = [&](std::uint32_t n) {
             return static_cast<std::uint32_t>(random_.next() * static_cast<float>(n)) % n;
         };
-        const std::uint32_t count = lengths[draw(16)];
+        const bool is_last = pair % block_words == block_words - 1;
+        const std::uint32_t count = std::max(lengths[draw(16)], is_last ? 1u : 0u);
         const Kind kind = static_cast<Kind>(draw(static_cast<std::uint32_t>(Kind::count)));
         first_.push_back(static_cast<std::uint32_t>(rows_.size()));
         count_.push_back(count);
@@ -150,13 +150,13 @@ class Lists {
             mir::NodeLinks links{0, static_cast<std::uint32_t>(rows_.size()), {here, here}};
             links.ends[0] = here * 0x01010101u;
             links.ends[1] = 0;
-            pool_.push_back(mir::MetLeaves::of(static_cast<std::uint32_t>(links_.size()), 1u));
+            pool_.push_back(mir::MetLeaves::of(static_cast<std::uint32_t>(links_.size()), 1u).bits);
             links_.push_back(links);
             for (std::uint32_t k = 0; k < here; ++k) add_triangle(pair, kind, draw(100));
             left -= here;
         }
         if (count == 0) {  // a node whose slots are empty
-            pool_.push_back(mir::MetLeaves::of(static_cast<std::uint32_t>(links_.size()), 2u));
+            pool_.push_back(mir::MetLeaves::of(static_cast<std::uint32_t>(links_.size()), 2u).bits);
             links_.push_back({0, 0, {0, 0}});
         }
         lists_.push_back(
@@ -183,7 +183,7 @@ class Lists {
     std::vector<std::uint32_t> facing_;
     std::vector<mir::TriangleRows> rows_;
     std::vector<mir::NodeLinks> links_;
-    std::vector<mir::MetLeaves> pool_;
+    std::vector<std::uint32_t> pool_;
     std::vector<mir::ListedPair> lists_;
     std::vector<std::uint32_t> first_;
     std::vector<std::uint32_t> count_;

@@ -30,7 +30,7 @@ class Lists {
                 links.ends[k / 4] |= end << 8 * (k % 4);
             }
             links_.push_back(links);
-            pool_.push_back(mir::MetLeaves::of(node, 0xFFu));
+            pool_.push_back(mir::MetLeaves::of(node, 0xFFu).bits);
         }
         std::uint32_t first = 0;
         for (const std::uint32_t size : sizes) {
@@ -38,11 +38,6 @@ class Lists {
             lists_.push_back({{cluster, 10 + cluster}, first, size});
             first += size;
         }
-    }
-
-    /// Puts a single triangle in the place of a node of the pool.
-    void put_triangle(std::uint32_t at, std::uint32_t triangle) {
-        pool_[at] = mir::MetLeaves::of_triangle(triangle);
     }
 
     /// Unpacks from list `from` on.
@@ -61,7 +56,7 @@ class Lists {
 
  private:
     std::vector<mir::NodeLinks> links_;
-    std::vector<mir::MetLeaves> pool_;
+    std::vector<std::uint32_t> pool_;
     std::vector<ListedPair> lists_;
 };
 
@@ -90,18 +85,6 @@ TEST_CASE("A batch has the triangles of its lists one behind the other") {
     CHECK(list[11] == 2);
     CHECK(list[16] == 3);
     CHECK(list[31] == 3);
-}
-
-TEST_CASE("Lists have leaves and single triangles") {
-    Lists lists({3, 0, 0, 2}, {2, 2});
-    lists.put_triangle(1, 0);
-    lists.put_triangle(2, mir::MetLeaves::most_nodes - 1);
-    const ListBatch batch = lists.unpacked();
-    REQUIRE(batch.lists == 2);
-    REQUIRE(batch.triangles == 7);
-    CHECK(batch.ends[0] == 4);
-    lists.triangles.resize(7);
-    CHECK(lists.triangles == std::vector<std::uint32_t>{0, 1, 2, 0, 0xFFFFFFu, 300, 301});
 }
 
 TEST_CASE("Lists without a triangle end where they begin") {
@@ -135,4 +118,29 @@ TEST_CASE("A batch takes the lists whose nodes and triangles fit") {
         CHECK(lists.unpacked(4).lists == 0);
         CHECK(lists.unpacked(4).triangles == 0);
     }
+}
+
+TEST_CASE("The clusters of a block share its triangles, as many as fit") {
+    const std::vector<std::uint32_t> pool = [] {
+        std::vector<std::uint32_t> places(40);
+        for (std::uint32_t k = 0; k < 40; ++k) places[k] = 500 + k;
+        return places;
+    }();
+    std::vector<std::uint32_t> triangles(ListBatch::most_triangles);
+    ListBatch batch;
+    mir::share_list(LaneGroup{}, pool.data(), {{3, 7}, 2, 5}, 0, batch, triangles.data());
+    REQUIRE(batch.lists == 8);
+    REQUIRE(batch.triangles == 40);
+    for (std::uint32_t k = 0; k < 8; ++k) {
+        CHECK(batch.clusters[k] == 24 + k);
+        CHECK(batch.vpls[k] == 7);
+        CHECK(batch.ends[k] == 5 * (k + 1));
+        for (std::uint32_t t = 0; t < 5; ++t) CHECK(triangles[5 * k + t] == 502 + t);
+    }
+    mir::share_list(LaneGroup{}, pool.data(), {{3, 7}, 8, 32}, 0, batch, triangles.data());
+    CHECK(batch.lists == 7);
+    mir::share_list(LaneGroup{}, pool.data(), {{3, 7}, 8, 32}, 7, batch, triangles.data());
+    CHECK(batch.lists == 1);
+    CHECK(batch.clusters[0] == 31);
+    CHECK(triangles[31] == 539);
 }

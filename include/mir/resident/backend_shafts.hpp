@@ -51,7 +51,7 @@ class BackendShafts {
           faced_(backend.template buffer<std::uint8_t>(pairs(luxels / block_luxels, vpls))),
           open_blocks_(backend.template buffer<OpenPair>(pairs(luxels / block_luxels, vpls))),
           open_clusters_(backend.template buffer<OpenPair>(pairs(luxels / cluster_luxels, vpls))),
-          leaves_(backend.template buffer<MetLeaves>(
+          leaves_(backend.template buffer<std::uint32_t>(
               std::min<std::size_t>(options_.leaves, 4 * open_clusters_.size()))),
           listed_blocks_(backend.template buffer<ListedPair>(open_blocks_.size() / 2)),
           listed_(backend.template buffer<ListedPair>(leaves_.size() / 8)),
@@ -134,7 +134,7 @@ class BackendShafts {
         queue.for_each_group(
             options_.groups,
             ClusterLists<space, P>{hits, clusters_.data(), vpls, visibility.bvh, visibility.sigma,
-                                   words, listed_blocks, listed, pool.leaves, open});
+                                   words, listed_blocks, listed, pool.words, open});
         queue.for_each_group(options_.groups,
                              OpenSegments{hits, vpls, visibility.segments, words, open});
     }
@@ -167,7 +167,7 @@ class BackendShafts {
     typename B::template Buffer<std::uint8_t> faced_;  ///< FacedBlocks of a batch
     typename B::template Buffer<OpenPair> open_blocks_;
     typename B::template Buffer<OpenPair> open_clusters_;
-    typename B::template Buffer<MetLeaves> leaves_;
+    typename B::template Buffer<std::uint32_t> leaves_;
     typename B::template Buffer<ListedPair> listed_blocks_;
     typename B::template Buffer<ListedPair> listed_;
     typename B::template Buffer<std::uint32_t> ordered_;  ///< hits, in planes

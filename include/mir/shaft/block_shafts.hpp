@@ -4,6 +4,7 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/shaft/faced_blocks.hpp"
 #include "mir/shaft/leaf_pool.hpp"
+#include "mir/shaft/leaf_search.hpp"
 #include "mir/shaft/vpl_batch.hpp"
 #include "mir/shaft/work_queue.hpp"
 
@@ -20,6 +21,7 @@ struct BlockShafts {
     /// Words of visibility of a block and a VPL.
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
     static constexpr std::uint32_t most_triangles = 32;  ///< tested for a pair
+    static_assert(most_triangles <= LaneGroup::width);   // share_list() has a lane for each
 
     /// What a group works in.
     struct Workspace {
@@ -34,8 +36,8 @@ struct BlockShafts {
     std::uint32_t most_nodes = 0;           ///< visited by a shaft
     FacedBlocks faced;                      ///< by the batch, of all blocks
     std::uint32_t* words = nullptr;         ///< as VisibilityWords
-    WorkQueue<ListedPair> listed;           ///< blocks with their leaves; may run full
-    LeafPool pool;                          ///< for the leaves of `listed`; may run full
+    WorkQueue<ListedPair> listed;           ///< blocks with partial triangles; may run full
+    LeafPool pool;                          ///< for the triangles of `listed`; may run full
     WorkQueue<OpenPair> open;               ///< other blocks; has room for all
 
     /// Groups that cover all pairs.
@@ -138,12 +140,11 @@ struct BlockShafts {
         LaneGroup::PerLane<std::uint32_t> counts;
         LaneGroup::PerLane<std::uint32_t> places;
         group.each([&](std::uint32_t lane) { counts[lane] = LaneGroup::count(partial[lane]); });
-        std::uint32_t stored = pool.reserve(group, counts, places);
-        const std::uint32_t too_many = group.ballot([&](std::uint32_t lane) {
-            return (stored >> lane & 1u) != 0 &&
-                   !copy(places[lane], lane, searches[lane].listed, partial[lane], space);
+        const std::uint32_t stored = pool.reserve(group, counts, places);
+        group.each([&](std::uint32_t lane) {
+            if ((stored >> lane & 1u) != 0)
+                copy(places[lane], lane, searches[lane].listed, partial[lane], space);
         });
-        stored &= ~too_many;
         const std::uint32_t left = listed.append(group, stored, [&](std::uint32_t lane) {
             return ListedPair{{pair.cluster + lane, pair.vpl}, places[lane], counts[lane]};
         });
@@ -151,19 +152,16 @@ struct BlockShafts {
     }
 
     /// Copies the triangles of a lane's leaves whose bits are set in `partial`, which are those of
-    /// the turns in which classify() has tested them. False if one does not fit.
-    MIR_HD bool copy(std::uint32_t to, std::uint32_t lane, std::uint32_t nodes,
+    /// the turns in which classify() has tested them.
+    MIR_HD void copy(std::uint32_t to, std::uint32_t lane, std::uint32_t nodes,
                      std::uint32_t partial, const Workspace& space) const {
         LeafCursor cursor;
         cursor.begin(nodes);
         for (; partial != 0; partial >>= 1) {
             if (!cursor.find(bvh.links, space.leaves, lane)) continue;
             const std::uint32_t triangle = cursor.triangles.pop();
-            if ((partial & 1u) == 0) continue;
-            if (triangle >= MetLeaves::most_nodes) return false;
-            pool.leaves[to++] = MetLeaves::of_triangle(triangle);
+            if ((partial & 1u) != 0) pool.words[to++] = triangle;
         }
-        return true;
     }
 
     /// The triangles of a lane's leaves, one node after the other.
@@ -185,7 +183,8 @@ struct BlockShafts {
         MIR_HD bool find(const NodeLinks* links, const LeafColumns<Capacity>& columns,
                          std::uint32_t lane) {
             if (!triangles.empty()) return true;
-            triangles = columns.met[at++][lane].triangles(links);
+            const MetLeaves met = columns.met[at++][lane];
+            triangles = links[met.node()].leaves(met.slots());
             return !triangles.empty();
         }
     };

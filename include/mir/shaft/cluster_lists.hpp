@@ -29,9 +29,9 @@ struct ClusterLists {
     QuantisedBvhView<S> bvh;                  ///< of the scene
     float sigma = 0.0f;                       ///< of the scene, metres, as for the records
     std::uint32_t* words = nullptr;           ///< as VisibilityWords
-    WorkQueue<ListedPair> blocks;             ///< to decide, with up to 32 single triangles
+    WorkQueue<ListedPair> blocks;             ///< to decide, with up to 32 triangles
     WorkQueue<ListedPair> listed;             ///< clusters to decide
-    const MetLeaves* pool = nullptr;          ///< leaves that both refer to: LeafPool::leaves
+    const std::uint32_t* pool = nullptr;      ///< that both refer to: LeafPool::words
     WorkQueue<OpenPair> open;                 ///< left to single segments; has room for all
 
     /// Takes pairs until none is left: any number of groups does all the work.
@@ -72,9 +72,10 @@ struct ClusterLists {
     /// Decides what was taken, as many clusters at a time as a batch holds. Clusters of a block may
     /// have no luxel: none is lit, whatever triangles do to their pyramids.
     MIR_HD void decide(const LaneGroup& group, Taken taken, Workspace& space) const {
-        const std::uint32_t left = listed.size() - taken.at;
-        const std::uint32_t lists = left < at_once ? left : at_once;
-        const std::uint32_t count = taken.is_block ? block_luxels / cluster_luxels : lists;
+        const std::uint32_t end = taken.at + at_once;
+        const std::uint32_t count = taken.is_block        ? block_luxels / cluster_luxels
+                                    : end < listed.size() ? at_once
+                                                          : listed.size() - taken.at;
         for (std::uint32_t k = 0; k < count;) {
             ListBatch batch;
             if (taken.is_block)

@@ -3,11 +3,12 @@
 
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/shaft/leaf_pool.hpp"
+#include "mir/shaft/leaf_search.hpp"
 #include "mir/shaft/work_queue.hpp"
 
 namespace mir {
 
-/// Looks for the leaves of pairs of 32 luxels and a VPL that a block's shaft left open: kernel for
+/// Looks for the leaves of pairs of 32 luxels and a VPL whose block has no list: kernel for
 /// groups, a cluster per lane, four blocks at a time. Leaves the words of clear pairs, facing
 /// masks, as they are. Pairs with leaves are queued with them, those whose search gave up or for
 /// which there is no room without.
@@ -136,7 +137,7 @@ struct ClusterShafts {
         group.each([&](std::uint32_t lane) {
             if ((stored >> lane & 1u) == 0) return;
             for (std::uint32_t k = 0; k < counts[lane]; ++k)
-                pool.leaves[places[lane] + k] = space.leaves.met[k][lane];
+                pool.words[places[lane] + k] = space.leaves.met[k][lane].bits;
         });
         const std::uint32_t left = listed.append(group, stored, [&](std::uint32_t lane) {
             return ListedPair{tasks[lane].pair, places[lane], counts[lane]};

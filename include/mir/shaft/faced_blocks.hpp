@@ -12,7 +12,7 @@ namespace mir {
 /// since shafts ask for one VPL and neighbouring blocks. Their words would be far apart.
 struct FacedBlocks {
     std::uint8_t* flags = nullptr;  ///< 1 where a luxel faces the VPL
-    std::uint32_t blocks = 0;       ///< of the image
+    std::uint32_t blocks = 0;       ///< of the tile
 
     /// Of the k-th VPL of a batch.
     [[nodiscard]] MIR_HD std::uint8_t& at(std::uint32_t block, std::uint32_t k) const {

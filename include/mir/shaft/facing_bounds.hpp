@@ -36,7 +36,7 @@ struct FacingBounds {
     float half_sum = 0.0f;        ///< sum of the half edges, metres
     float largest_normal = 0.0f;  ///< no component of a normal is larger; infinite: nothing is sure
     bool is_empty = true;         ///< no luxel counts
-    bool has_one_normal = false;  ///< `normal` is that of every luxel, in every bit
+    bool has_one_normal = false;  ///< `normal` is that of every luxel that is a number
 };
 
 /// Numbers by which facing_of() keeps away from zero. docs/shafts.md derives 29 e of `relative`.

@@ -74,6 +74,7 @@ struct FacingPass {
 
     /// Clusters that vote together, so that none waits for the other's numbers.
     static constexpr std::uint32_t at_once = 4;
+    static_assert(FacingRecord::words % at_once == 0);
     using Words = LaneGroup::PerLane<std::uint32_t>[at_once];
 
     /// Gives the lanes whose bit is set in `open` the words of some clusters and their VPL, first +

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/shaft/leaf_search.hpp"
+#include "mir/core/lane_group.hpp"
 
 namespace mir {
 
-/// Memory for the leaves that shafts meet, which kernels fill and the next one reads.
+/// Memory for what shafts meet, which kernels fill and the next one reads: a word for the leaves of
+/// a node (MetLeaves::bits) or for the place of a triangle, as the queue says that refers to it.
 struct LeafPool {
-    MetLeaves* leaves = nullptr;    ///< `capacity` of them
-    std::uint32_t capacity = 0;     ///< leaves that there is room for
-    std::uint32_t* used = nullptr;  ///< starts at 0
+    std::uint32_t* words = nullptr;  ///< `capacity` of them
+    std::uint32_t capacity = 0;      ///< words that there is room for
+    std::uint32_t* used = nullptr;   ///< starts at 0
 
     /// Takes counts[lane] places for each lane, from places[lane] on. Returns the lanes that asked
     /// for some and got them.

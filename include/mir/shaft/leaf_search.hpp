@@ -8,11 +8,10 @@
 
 namespace mir {
 
-/// Leaves of one node of a wide hierarchy, in one word: the node and a bit for each slot, of which
-/// at least one is set. Empty slots may be among them. Or, without a slot, a single triangle.
+/// Leaves of one node of a wide hierarchy, in one word: the node and a bit for each slot. Empty
+/// slots may be among them.
 struct MetLeaves {
-    /// Nodes with larger numbers do not fit, nor do triangles with larger places.
-    static constexpr std::uint32_t most_nodes = 1u << 24;
+    static constexpr std::uint32_t most_nodes = 1u << 24;  ///< larger numbers of nodes do not fit
 
     std::uint32_t bits = 0;  ///< number of the node, then a bit for each of eight slots
 
@@ -20,14 +19,7 @@ struct MetLeaves {
     [[nodiscard]] MIR_HD static MetLeaves of(std::uint32_t node, std::uint32_t slots) {
         return {node << WideNode::width | slots};
     }
-    /// The triangle at `place` < most_nodes alone.
-    [[nodiscard]] MIR_HD static MetLeaves of_triangle(std::uint32_t place) { return of(place, 0); }
-    /// Their triangles, by the links of the hierarchy's nodes.
-    [[nodiscard]] MIR_HD LeafTriangles triangles(const NodeLinks* links) const {
-        if (slots() == 0) return {{node(), 0}, {1u, 0}};
-        return links[node()].leaves(slots());
-    }
-    /// Number of the node, or place of the single triangle.
+    /// Number of the node.
     [[nodiscard]] MIR_HD std::uint32_t node() const { return bits >> WideNode::width; }
     /// Bit k: slot k is among them.
     [[nodiscard]] MIR_HD std::uint32_t slots() const {

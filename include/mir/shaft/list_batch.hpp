@@ -57,7 +57,7 @@ MIR_HD inline BatchNodes nodes_of_batch(const LaneGroup& group, const ListedPair
         batch.clusters[lane] = list.pair.cluster;
         batch.vpls[lane] = list.pair.vpl;
         firsts[lane] = list.first;
-        sizes[lane] = is_own ? list.nodes : LaneGroup::width + 1;
+        sizes[lane] = is_own ? list.count : LaneGroup::width + 1;
         nodes.at[lane] = 0;
         nodes.ends[lane] = LaneGroup::width;
     });
@@ -83,14 +83,14 @@ MIR_HD inline BatchNodes nodes_of_batch(const LaneGroup& group, const ListedPair
 /// too many triangles.
 template <Space S>
 MIR_HD void unpack_lists(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
-                         const MetLeaves* pool, const ListedPair* listed, std::uint32_t count,
+                         const std::uint32_t* pool, const ListedPair* listed, std::uint32_t count,
                          ListBatch& batch, std::uint32_t* triangles) {
     const detail::BatchNodes nodes = detail::nodes_of_batch(group, listed, count, batch);
     LaneGroup::PerLane<LeafTriangles> leaves;
     LaneGroup::PerLane<std::uint32_t> place;
     group.each([&](std::uint32_t lane) {
-        leaves[lane] = {{0, 0}, {0, 0}};
-        if (lane < nodes.count) leaves[lane] = pool[nodes.at[lane]].triangles(bvh.links);
+        const MetLeaves met = lane < nodes.count ? MetLeaves{pool[nodes.at[lane]]} : MetLeaves{};
+        leaves[lane] = bvh.links[met.node()].leaves(met.slots());
         place[lane] = leaves[lane].count();
     });
     const std::uint32_t total = group.sums_before(place);
@@ -114,12 +114,13 @@ MIR_HD void unpack_lists(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
 /// Fills a batch with the clusters of a block from the one with number `first` in it on, as many as
 /// fit, and `triangles` as unpack_lists() does: each has those of the block's list, which are 1 to
 /// 32 single ones.
-MIR_HD inline void share_list(const LaneGroup& group, const MetLeaves* pool,
+MIR_HD inline void share_list(const LaneGroup& group, const std::uint32_t* pool,
                               const ListedPair& block, std::uint32_t first, ListBatch& batch,
                               std::uint32_t* triangles) {
     constexpr std::uint32_t clusters = block_luxels / cluster_luxels;
     static_assert(clusters <= ListBatch::most_lists);
-    const std::uint32_t size = block.nodes;
+    static_assert(LaneGroup::width <= ListBatch::most_triangles);
+    const std::uint32_t size = block.count;
     const std::uint32_t fitting = ListBatch::most_triangles / size;
     batch.lists = clusters - first < fitting ? clusters - first : fitting;
     batch.triangles = batch.lists * size;
@@ -128,7 +129,7 @@ MIR_HD inline void share_list(const LaneGroup& group, const MetLeaves* pool,
         batch.vpls[lane] = block.pair.vpl;
         batch.ends[lane] = lane < batch.lists ? (lane + 1) * size : 0xFFFFFFFFu;
         if (lane >= size) return;
-        const std::uint32_t triangle = pool[block.first + lane].node();
+        const std::uint32_t triangle = pool[block.first + lane];
         for (std::uint32_t k = 0; k < batch.lists; ++k) triangles[k * size + lane] = triangle;
     });
 }

@@ -46,11 +46,12 @@ struct alignas(8) OpenPair {
     std::uint32_t vpl = 0;      ///< its place in the set
 };
 
-/// A run of luxels and a VPL with all leaves whose triangles may hide one, in a pool.
+/// A run of luxels and a VPL with all that may hide one of them, in a pool (LeafPool): the leaves
+/// of nodes for 32 luxels, single triangles for 256.
 struct alignas(16) ListedPair {
-    OpenPair pair;            ///< of a run of 32 or of 256 luxels as the queue says
+    OpenPair pair;            ///< of the run
     std::uint32_t first = 0;  ///< place in the pool
-    std::uint32_t nodes = 0;  ///< with leaves
+    std::uint32_t count = 0;  ///< words there
 };
 
 }  // namespace mir
