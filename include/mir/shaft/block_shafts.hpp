@@ -133,10 +133,9 @@ struct BlockShafts {
 
     /// Queues the pairs of lanes that have partial triangles, with these. `pair` is that of lane 0.
     /// Returns the lanes for which there was room.
-    MIR_HD std::uint32_t store(const LaneGroup& group, OpenPair pair,
-                               const LaneGroup::PerLane<LeafSearch>& searches,
-                               const Workspace& space,
-                               const LaneGroup::PerLane<std::uint32_t>& partial) const {
+    [[nodiscard]] MIR_HD std::uint32_t store(
+        const LaneGroup& group, OpenPair pair, const LaneGroup::PerLane<LeafSearch>& searches,
+        const Workspace& space, const LaneGroup::PerLane<std::uint32_t>& partial) const {
         LaneGroup::PerLane<std::uint32_t> counts;
         LaneGroup::PerLane<std::uint32_t> places;
         group.each([&](std::uint32_t lane) { counts[lane] = LaneGroup::count(partial[lane]); });
