@@ -76,6 +76,19 @@ struct Doubled : mir::VplShading<Lambert> {
     }
 };
 static_assert(mir::Shading<Doubled> && !mir::DistanceShading<Doubled>);
+static_assert(!mir::PreparedShading<Doubled>);
+static_assert(mir::PreparedShading<archetype::PreparedShading>);
+static_assert(!mir::PreparedShading<archetype::Shading>);
+static_assert(mir::PreparedShading<mir::VplShading<CookTorrance>>);
+static_assert(mir::PreparedShading<mir::VplShading<Lambert>>);
+static_assert(!mir::PreparedShading<mir::RemovedByBound<CookTorrance>>);
+static_assert(mir::PreparedBsdf<CookTorrance> && !mir::PreparedBsdf<Lambert>);
+
+/// Reflects otherwise than its base, whose outgoing() it has.
+struct Matt : CookTorrance {
+    static mir::Rgb eval(const Params& p, mir::Vec3, mir::Vec3, mir::Vec3) { return p.diffuse; }
+};
+static_assert(mir::Bsdf<Matt> && !mir::PreparedBsdf<Matt>);
 static_assert(!mir::DistanceShading<archetype::Shading>);
 static_assert(mir::DistanceShading<mir::VplShading<CookTorrance>>);
 static_assert(!mir::DistanceShading<mir::RemovedByBound<CookTorrance>>);

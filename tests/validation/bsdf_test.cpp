@@ -87,6 +87,33 @@ struct ThrowsMostAway : Lambert {
         return lobe < 0.9f ? BsdfSample{} : Lambert::sample(p, n, wo, u, lobe);
     }
 };
+/// `Own` reflects, once for all directions, what is told of each rounding.
+template <class Own>
+struct Prepared : Lambert {
+    struct Outgoing {
+        using Model = Own;
+        Rgb f;
+        Rgb operator()(Vec3, float) const { return f; }
+    };
+    template <class Rounding>
+    static Outgoing outgoing(const Params& p, Vec3, Vec3) {
+        return {p.reflectance * Own::factor(Rounding{})};
+    }
+};
+struct PreparedRightly : Prepared<PreparedRightly> {
+    template <class Rounding>
+    static float factor(Rounding) {
+        return mir::inv_pi;
+    }
+};
+struct PreparedDarker : Prepared<PreparedDarker> {
+    static float factor(mir::SeparateRounding) { return 0.999999f * mir::inv_pi; }
+    static float factor(mir::FusedRounding) { return mir::inv_pi; }
+};
+struct FusedDarker : Prepared<FusedDarker> {
+    static float factor(mir::SeparateRounding) { return mir::inv_pi; }
+    static float factor(mir::FusedRounding) { return 0.99f * mir::inv_pi; }
+};
 /// sample() squeezes directions towards the normal, pdf() does not know.
 struct SamplesAnotherDensity : Lambert {
     static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
@@ -156,6 +183,7 @@ mir::validation::Report check_samples() {
 TEST_CASE("check_bsdf finds nothing wrong with a right model") {
     CHECK(check<Lambert>().passed());
     CHECK(check<Black>().passed());
+    CHECK(check<PreparedRightly>().passed());
     CHECK_FALSE(mir::validation::check_bsdf<Lambert>({}).passed());
 }
 
@@ -172,6 +200,8 @@ TEST_CASE("check_bsdf finds each axiom that a model breaks, and no other") {
     CHECK(finds(check<SamplesBelow>(),
                 "samples are unit directions above the surface with finite weights"));
     CHECK(finds_only(check<ThrowsMostAway>(), "samples of what reflects are mostly kept"));
+    CHECK(finds_only(check<PreparedDarker>(), "prepared, it is the same in every bit"));
+    CHECK(finds_only(check<FusedDarker>(), "rounded otherwise, it is the same function"));
 }
 
 // Hypothesis, level and seed: see check_bsdf_samples().

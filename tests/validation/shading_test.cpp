@@ -47,6 +47,7 @@ enum class Bug {
     denies_light,
     reaches_too_far,
     rounds_the_distance,
+    prepares_another_luxel,
     shines_along_the_normal
 };
 
@@ -80,6 +81,21 @@ struct Buggy {
         if (bug == Bug::shines_along_the_normal) return c * j * (s.normal.y * s.normal.y);
         return c * j;
     }
+    struct Prepared {
+        Hit hit;
+        Surface surface;
+    };
+    [[nodiscard]] Prepared prepared(const Hit& hit, const Surface& s) const {
+        Prepared p{hit, s};
+        if (bug == Bug::prepares_another_luxel) p.hit.position.x += 1e-3f;
+        return p;
+    }
+    Rgb operator()(const Prepared& p, const Vpl& vpl) const {
+        return (*this)(p.hit, p.surface, vpl);
+    }
+    [[nodiscard]] static float inverse_distance(const Hit& hit, const Vpl& vpl) {
+        return 1.0f / glm::length(vpl.position - hit.position);
+    }
     [[nodiscard]] Rgb at_distance(const Hit& hit, const Surface& s, const Vpl& vpl,
                                   float inverse) const {
         const float rounded = static_cast<float>(std::lround(4096.0f * inverse)) / 4096.0f;
@@ -105,7 +121,7 @@ struct Buggy {
     }
 };
 static_assert(mir::ReachLimitedShading<Buggy> && mir::SurfaceSelectiveShading<Buggy> &&
-              mir::DistanceShading<Buggy>);
+              mir::DistanceShading<Buggy> && mir::PreparedShading<Buggy>);
 
 Report check(Bug bug) { return check_shading(Buggy{bug}, surfaces_with(grey), reflect_grey); }
 
@@ -173,6 +189,7 @@ TEST_CASE("check_shading finds each axiom that a shading breaks") {
     CHECK(finds_only(check(Bug::denies_light), "what reflects() denies is black"));
     CHECK(finds_only(check(Bug::reaches_too_far), "what lies out of reach is black"));
     CHECK(finds_only(check(Bug::rounds_the_distance), "at_distance() is the same in every bit"));
+    CHECK(finds_only(check(Bug::prepares_another_luxel), "prepared() changes no bit"));
     CHECK(finds(check_shading(mir::VplShading<Lambert>{}, surfaces_with(Lambert::Params{})),
                 "VPLs light the luxels"));
 }

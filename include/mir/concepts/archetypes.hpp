@@ -142,10 +142,25 @@ struct SurfaceSelectiveShading : Shading {
 struct DistanceShading : Shading {
     using Shading::Shading;
 
+    /// 1/d, m^-1, if all lay a metre away.
+    [[nodiscard]] static float inverse_distance(const Hit&, const Vpl&) { return 1.0f; }
     /// What it adds at any distance; 1/d, m^-1, is not looked at.
     [[nodiscard]] Rgb at_distance(const Hit&, const Surface&, const Vpl& vpl, float) const {
         return vpl.intensity;
     }
+};
+
+/// Shading that prepares luxels.
+struct PreparedShading : Shading {
+    using Shading::Shading;
+    /// Nothing of the luxel.
+    struct Prepared {};
+
+    using Shading::operator();
+    /// As of any luxel.
+    Rgb operator()(const Prepared&, const Vpl& vpl) const { return vpl.intensity; }
+    /// Reads neither.
+    [[nodiscard]] Prepared prepared(const Hit&, const Surface&) const { return {}; }
 };
 
 /// Becomes a Vpl when asked, and is nothing else.

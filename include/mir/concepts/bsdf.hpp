@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/rgb.hpp"
+#include "mir/core/rounding.hpp"
 #include "mir/data/soa.hpp"
 #include "mir/shading/bsdf_sample.hpp"
 
@@ -33,6 +34,20 @@ concept Bsdf = WordCopyable<typename B::Params> &&
     { B::sample(p, n, wo, u, v) } -> std::same_as<BsdfSample>;
     { B::albedo(p, n, wo) } -> std::same_as<Rgb>;
     { B::is_black(p) } -> std::same_as<bool>;
+};
+
+/// A Bsdf that finds once what it makes of a point and of `wo` for all directions of light, and
+/// rounds its sums of products as it is told (core/rounding.hpp): with
+/// o = B::outgoing<SeparateRounding>(p, n, wo), o(wi, n.wi) is eval(p, n, wi, wo) in every bit;
+/// with FusedRounding it is the same function, rounded otherwise. The type of `o` names B as its
+/// Model: what derives from B may reflect otherwise, so that its base's does not count.
+template <class B>
+concept PreparedBsdf = Bsdf<B> &&
+    requires(const typename B::Params& p, Vec3 n, Vec3 wi, Vec3 wo, float cos_i) {
+    { B::template outgoing<SeparateRounding>(p, n, wo)(wi, cos_i) } -> std::same_as<Rgb>;
+    { B::template outgoing<FusedRounding>(p, n, wo)(wi, cos_i) } -> std::same_as<Rgb>;
+    requires std::same_as<typename decltype(B::template outgoing<FusedRounding>(p, n, wo))::Model,
+                          B>;
 };
 
 }  // namespace mir

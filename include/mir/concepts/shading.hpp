@@ -21,13 +21,27 @@ concept Shading = DeviceCopyable<F> &&
 };
 
 /// Shading that can be told the distance beforehand, which takes a root and a quotient that most
-/// others wait for: f.at_distance(h, s, v, inverse_distance(h, v)) is f(h, s, v) in every bit. F
+/// others wait for: f.at_distance(h, s, v, F::inverse_distance(h, v)) is f(h, s, v) in every bit. F
 /// declares it itself: what derives from such a shading may shade otherwise, so that its base's
 /// does not count.
 template <class F>
 concept DistanceShading = Shading<F> &&
     std::same_as<decltype(&F::at_distance),
-                 Rgb (F::*)(const Hit&, const typename F::Surface&, const Vpl&, float) const>;
+                 Rgb (F::*)(const Hit&, const typename F::Surface&, const Vpl&, float) const> &&
+    requires(const Hit& h, const Vpl& v) {
+    { F::inverse_distance(h, v) } -> std::same_as<float>;
+};
+
+/// Shading that finds once, in a type of its own, what it makes of a luxel for all VPLs: with
+/// p = f.prepared(h, s), f(p, v) is f(h, s, v) in every bit. F declares it itself, as a
+/// DistanceShading does.
+template <class F>
+concept PreparedShading = Shading<F> &&
+    std::same_as<decltype(&F::prepared),
+                 typename F::Prepared (F::*)(const Hit&, const typename F::Surface&) const> &&
+    requires(const F f, const typename F::Prepared& p, const Vpl& v) {
+    { f(p, v) } -> std::same_as<Rgb>;
+};
 
 /// Shading that is zero beyond a distance, so that whole blocks can be skipped without loss.
 template <class F>

@@ -108,6 +108,15 @@ namespace mir::strict {
 #endif
 }
 
+/// a * b + c, rounded once. Code for hosts without such an instruction calls the C library.
+[[nodiscard]] MIR_HD inline float mul_add(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    return __fmaf_rn(a, b, c);
+#else
+    return __builtin_fmaf(a, b, c);
+#endif
+}
+
 /// a * b, rounded once.
 [[nodiscard]] MIR_HD inline double mul(double a, double b) {
 #if defined(__CUDA_ARCH__)

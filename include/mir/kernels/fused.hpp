@@ -5,6 +5,7 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/data/soa.hpp"
 #include "mir/shading/contribution.hpp"
+#include "mir/shading/prepared_luxel.hpp"
 
 namespace mir {
 
@@ -53,9 +54,9 @@ struct FusedKernel {
 
     [[nodiscard]] MIR_HD Rgb shaded(LuxelIndex i, const Hit& hit, VplIndex first, VplIndex last,
                                     std::uint32_t seen, Rgb sum) const {
-        const auto surface = luxels.surface(i);
+        const auto luxel = PreparedLuxel<F>::of(shade, hit, luxels.surface(i));
         for (VplIndex j = first; j < last; ++j)
-            if ((seen >> (j - first) & 1u) != 0) sum += shade(hit, surface, vpls[j]);
+            if ((seen >> (j - first) & 1u) != 0) sum += luxel.lit_by(vpls[j], shade);
         return sum;
     }
 };

@@ -5,6 +5,7 @@
 #include "mir/concepts/shading.hpp"
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/data/soa.hpp"
+#include "mir/shading/prepared_luxel.hpp"
 
 namespace mir {
 
@@ -22,10 +23,10 @@ struct ShadingPass {
     MIR_HD void operator()(LuxelIndex i) const {
         const Hit hit = luxels.hit(i);
         if (is_empty(hit)) return radiance.store(i, {});
-        const auto surface = luxels.surface(i);
+        const auto luxel = PreparedLuxel<F>::of(shade, hit, luxels.surface(i));
         Rgb sum;
         for (VplIndex j = 0; j < vpls.size(); ++j)
-            if (seen.sees(i, j)) sum += shade(hit, surface, vpls[j]);
+            if (seen.sees(i, j)) sum += luxel.lit_by(vpls[j], shade);
         radiance.store(i, sum);
     }
 };

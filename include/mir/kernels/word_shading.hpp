@@ -7,6 +7,7 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/core/lane_group.hpp"
 #include "mir/data/soa.hpp"
+#include "mir/shading/prepared_luxel.hpp"
 
 namespace mir {
 
@@ -30,12 +31,11 @@ struct WordShading {
 
     /// Luxels 32 i to 32 i + 31 (blocked indices). Black for those that no bit is set of.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
-        LaneGroup::PerLane<Hit> hits;
-        LaneGroup::PerLane<typename F::Surface> surfaces;
+        LaneGroup::PerLane<PreparedLuxel<F>> own_luxels;
         LaneGroup::PerLane<Rgb> sums;
         group.each([&](std::uint32_t lane) {
-            hits[lane] = luxels.hit(i * LaneGroup::width + lane);
-            surfaces[lane] = luxels.surface(i * LaneGroup::width + lane);
+            const LuxelIndex own = i * LaneGroup::width + lane;
+            own_luxels[lane] = PreparedLuxel<F>::of(shade, luxels.hit(own), luxels.surface(own));
             sums[lane] = {};
         });
         const std::uint32_t* const own_words = words + std::size_t{i} * vpls.size();
@@ -51,8 +51,7 @@ struct WordShading {
                 const std::uint32_t lit = group.broadcast(own, k);
                 const Vpl vpl = kept(k, space);
                 group.each([&](std::uint32_t lane) {
-                    if ((lit >> lane & 1u) != 0)
-                        sums[lane] += shade(hits[lane], surfaces[lane], vpl);
+                    if ((lit >> lane & 1u) != 0) sums[lane] += own_luxels[lane].lit_by(vpl, shade);
                 });
             }
         }

@@ -3,6 +3,7 @@
 
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/core/error.hpp"
+#include "mir/core/instruction_set.hpp"
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/shading/contribution.hpp"
 #include "mir/shading/surface_table.hpp"
@@ -129,11 +130,13 @@ void ImageProbe<B, V>::for_each_lit(const Vpl& place, F&& f) const {
     for (const Group& group : groups_) {
         Rgb shaded[width];
         std::uint32_t reflecting = 0;
-        for (std::uint32_t k = 0; k < width; ++k) {
-            if (!faces(group.hits[k], unit)) continue;
-            shaded[k] = shading_(group.hits[k], group.surfaces[k], unit);
-            if (!is_black(shaded[k])) reflecting |= 1u << k;
-        }
+        run_with(best_instruction_set(), [&] {
+            for (std::uint32_t k = 0; k < width; ++k) {
+                if (!faces(group.hits[k], unit)) continue;
+                shaded[k] = shading_(group.hits[k], group.surfaces[k], unit);
+                if (!is_black(shaded[k])) reflecting |= 1u << k;
+            }
+        });
         const std::uint32_t lit = visible(group, unit.position, reflecting);
         for (std::uint32_t k = 0; k < width; ++k)
             if ((lit >> k & 1u) != 0) f(group.hits[k], group.surfaces[k], shaded[k]);

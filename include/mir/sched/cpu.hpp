@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
+#include "mir/core/instruction_set.hpp"
 #include "mir/core/monitor.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sched/detail/block_list.hpp"
@@ -55,11 +56,14 @@ struct Cpu {
             if (is_empty(hit)) return {};
             const auto surface = luxels.surface(i);
             Rgb sum;
-            for (VplIndex j = 0; j < in_.vpls.size(); ++j)
-                if constexpr (KnownVisibility<decltype(In::visibility)>)
-                    sum += in_.visibility.sees(t, i, j) ? in_.shading(hit, surface, in_.vpls[j])
-                                                        : Rgb{};
-                else
+            if constexpr (KnownVisibility<decltype(In::visibility)>)
+                run_with(best_instruction_set(), [&] {
+                    for (VplIndex j = 0; j < in_.vpls.size(); ++j)
+                        if (in_.visibility.sees(t, i, j))
+                            sum += in_.shading(hit, surface, in_.vpls[j]);
+                });
+            else
+                for (VplIndex j = 0; j < in_.vpls.size(); ++j)
                     sum += contribution(hit, surface, in_.vpls[j], in_.visibility, in_.shading);
             return sum;
         }

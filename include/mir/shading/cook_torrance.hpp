@@ -29,11 +29,46 @@ struct CookTorrance {
 
     /// f(wi, wo), sr^-1, where both lie above `n`.
     [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
-        const float cos_i = glm::dot(n, wi);
-        const float cos_o = glm::dot(n, wo);
-        const HalfVector half = half_vector(n, wi, wo, cos_i + cos_o);
-        return schlick(p, half.cos_d()) * ggx_dv(half, cos_i, cos_o, p.alpha) +
-               diffuse(p, cos_i, cos_o);
+        return outgoing<SeparateRounding>(p, n, wo)(wi, glm::dot(n, wi));
+    }
+
+    /// What eval() makes of a point and the direction towards the viewer, once for all directions
+    /// that light comes from.
+    template <class Rounding>
+    struct Outgoing {
+        using Model = CookTorrance;  ///< whose reflection it is
+        Vec3 n;                      ///< unit shading normal
+        Vec3 wo;                     ///< unit direction away from the surface
+        GgxOutgoing<Rounding> ggx;   ///< of the interface
+        Rgb f0;                      ///< reflectance at normal incidence
+        Rgb to_f90;                  ///< what it gains to grazing incidence
+        Rgb base;                    ///< of diffuse reflection, light at normal incidence, sr^-1
+        Rgb to_grazing;              ///< what that gains (it loses) to grazing incidence, sr^-1
+
+        /// f(wi, wo), sr^-1; `cos_i` is n.wi.
+        [[nodiscard, gnu::always_inline]] MIR_HD Rgb operator()(Vec3 wi, float cos_i) const {
+            const auto half = HalfVector<Rounding>::of(n, wi, wo, cos_i + ggx.cos_o);
+            const Rgb fresnel = schlick<Rounding>(f0, to_f90, half.cos_d());
+            const Rgb diffuse = mul_add<Rounding>(schlick_weight(cos_i), to_grazing, base);
+            return mul_add<Rounding>(ggx.dv(half, cos_i), fresnel, diffuse);
+        }
+    };
+
+    /// Of `p` seen from `wo`, which lies above `n`.
+    template <class Rounding>
+    [[nodiscard, gnu::always_inline]] MIR_HD static Outgoing<Rounding> outgoing(const Params& p,
+                                                                                Vec3 n, Vec3 wo) {
+        const float cos_o = dot<Rounding>(n, wo);
+        const Rgb white{1.0f, 1.0f, 1.0f};
+        const Rgb to_f90 = Rgb{p.f90, p.f90, p.f90} - p.f0;
+        const Rgb base = p.diffuse * inv_pi * (white - schlick<Rounding>(p.f0, to_f90, cos_o));
+        return {n,
+                wo,
+                GgxOutgoing<Rounding>::of(cos_o, p.alpha),
+                p.f0,
+                to_f90,
+                base * (white - p.f0),
+                base * (p.f0 - Rgb{p.f90, p.f90, p.f90})};
     }
 
     /// Density of sample() at `wi`, per steradian.
@@ -72,16 +107,12 @@ struct CookTorrance {
 
     /// Schlick's Fresnel term between f0 and f90.
     MIR_HD static Rgb schlick(const Params& p, float cos_theta) {
-        return p.f0 + (Rgb{p.f90, p.f90, p.f90} - p.f0) * schlick_weight(cos_theta);
+        return schlick<SeparateRounding>(p.f0, Rgb{p.f90, p.f90, p.f90} - p.f0, cos_theta);
     }
-
-    /// The diffuse part of eval(). Of its factors those without cos_i come first, so that they are
-    /// multiplied once for all VPLs of a luxel.
-    MIR_HD static Rgb diffuse(const Params& p, float cos_i, float cos_o) {
-        const Rgb white{1.0f, 1.0f, 1.0f};
-        const Rgb base = p.diffuse * inv_pi * (white - schlick(p, cos_o));
-        return base * (white - p.f0) -
-               base * (Rgb{p.f90, p.f90, p.f90} - p.f0) * schlick_weight(cos_i);
+    /// The same, `to_f90` being f90 - f0.
+    template <class Rounding>
+    [[gnu::always_inline]] MIR_HD static Rgb schlick(Rgb f0, Rgb to_f90, float cos_theta) {
+        return mul_add<Rounding>(schlick_weight(cos_theta), to_f90, f0);
     }
 
     /// (1 - cos)^5

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/strict_float.hpp"
+#include "mir/core/rounding.hpp"
 #include "mir/core/unit_circle.hpp"
 
 namespace mir {
@@ -20,17 +20,9 @@ MIR_HD inline float ggx_d(float cos_h, float alpha) {
     return a2 / (pi * t * t);
 }
 
-/// 0.5 over this is height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo). `alpha` is
-/// not below min_ggx_alpha.
-/// Source: Heitz, "Understanding the masking-shadowing function", JCGT 3(2), 2014, eq. 99.
-MIR_HD inline float smith_sum(float cos_i, float cos_o, float alpha) {
-    const float a2 = alpha * alpha;
-    const float li = cos_o * strict::usual_sqrt(cos_i * cos_i * (1.0f - a2) + a2);
-    const float lo = cos_i * strict::usual_sqrt(cos_o * cos_o * (1.0f - a2) + a2);
-    return larger(li + lo, 1e-10f);
-}
-
-/// wi + wo, of which only lengths are needed: nothing is divided before ggx_dv() divides once.
+/// wi + wo, of which only lengths are needed: nothing is divided before GgxOutgoing::dv() divides
+/// once.
+template <class Rounding>
 struct HalfVector {
     /// Squared length below which directions count as opposite, so that products stay in range.
     static constexpr float least_squared = 1e-8f;
@@ -38,30 +30,64 @@ struct HalfVector {
     float along = 0.0f;           ///< its component along the normal: n.wi + n.wo
     float across_squared = 0.0f;  ///< the square of the rest, with all digits for narrow lobes
 
+    /// `along` is n.wi + n.wo.
+    [[nodiscard, gnu::always_inline]] MIR_HD static HalfVector of(Vec3 n, Vec3 wi, Vec3 wo,
+                                                                  float along) {
+        const Vec3 across = mul_add<Rounding>(-along, n, wi + wo);
+        return {along, dot<Rounding>(across, across)};
+    }
+
     /// |wi + wo|^2, least_squared to 4.
-    [[nodiscard]] MIR_HD float squared() const {
-        return larger(across_squared + along * along, least_squared);
+    [[nodiscard, gnu::always_inline]] MIR_HD float squared() const {
+        return larger(Rounding::mul_add(along, along, across_squared), least_squared);
     }
     /// Cosine between it and either direction.
-    [[nodiscard]] MIR_HD float cos_d() const { return 0.5f * strict::usual_sqrt(squared()); }
+    [[nodiscard, gnu::always_inline]] MIR_HD float cos_d() const {
+        return 0.5f * strict::usual_sqrt(squared());
+    }
 };
 
-/// `along` is n.wi + n.wo.
-MIR_HD inline HalfVector half_vector(Vec3 n, Vec3 wi, Vec3 wo, float along) {
-    return {along, length_squared(wi + wo - along * n)};
-}
+/// GGX reflection towards one direction: what does not depend on where light comes from is found
+/// once. `Rounding` is that of its sums of products (core/rounding.hpp).
+template <class Rounding>
+struct GgxOutgoing {
+    float cos_o = 0.0f;   ///< n.wo
+    float alpha2 = 1.0f;  ///< alpha^2
+    float rest = 0.0f;    ///< 1 - alpha^2
+    float root = 1.0f;    ///< of Smith's term for wo
+    float scale = 0.0f;   ///< alpha^2 / (2 pi)
 
-/// D V: ggx_d() times masking and shadowing over 4 (n.wi)(n.wo), per steradian. With h the half
-/// vector, cos^2 = along^2 / h^2 and sin^2 = across^2 / h^2, so
-/// D = a^2 h^4 / (pi (across^2 + a^2 along^2)^2).
-MIR_HD inline float ggx_dv(const HalfVector& half, float cos_i, float cos_o, float alpha) {
-    const float a2 = alpha * alpha;
-    const float spread = larger(half.across_squared + a2 * (half.along * half.along),
-                                a2 * HalfVector::least_squared);
-    const float squared = half.squared();
-    return a2 * (0.5f * inv_pi) * (squared * squared) /
-           (spread * spread * smith_sum(cos_i, cos_o, alpha));
-}
+    /// `alpha` is not below min_ggx_alpha.
+    [[nodiscard, gnu::always_inline]] MIR_HD static GgxOutgoing of(float cos_o, float alpha) {
+        const float a2 = alpha * alpha;
+        return {cos_o, a2, 1.0f - a2, smith_root(cos_o, a2, 1.0f - a2), a2 * (0.5f * inv_pi)};
+    }
+
+    /// 0.5 over this is height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo).
+    /// Source: Heitz, "Understanding the masking-shadowing function", JCGT 3(2), 2014, eq. 99.
+    [[nodiscard, gnu::always_inline]] MIR_HD float smith_sum(float cos_i) const {
+        const float li = cos_o * smith_root(cos_i, alpha2, rest);
+        return larger(Rounding::mul_add(cos_i, root, li), 1e-10f);
+    }
+
+    /// D V: ggx_d() times masking and shadowing over 4 (n.wi)(n.wo), per steradian. With h the half
+    /// vector, cos^2 = along^2 / h^2 and sin^2 = across^2 / h^2, so
+    /// D = a^2 h^4 / (pi (across^2 + a^2 along^2)^2).
+    [[nodiscard, gnu::always_inline]] MIR_HD float dv(const HalfVector<Rounding>& half,
+                                                      float cos_i) const {
+        const float spread =
+            larger(Rounding::mul_add(alpha2, half.along * half.along, half.across_squared),
+                   alpha2 * HalfVector<Rounding>::least_squared);
+        const float squared = half.squared();
+        return scale * (squared * squared) / (spread * spread * smith_sum(cos_i));
+    }
+
+ private:
+    [[nodiscard, gnu::always_inline]] MIR_HD static float smith_root(float cosine, float alpha2,
+                                                                     float rest) {
+        return strict::usual_sqrt(Rounding::mul_add(cosine * cosine, rest, alpha2));
+    }
+};
 
 /// Smith masking of one direction, G1 in [0, 1].
 MIR_HD inline float ggx_g1(float cos_theta, float alpha) {

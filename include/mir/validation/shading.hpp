@@ -103,20 +103,35 @@ void expect_same_at_distance(const F& shade, const MakeSurface& surface, Report&
     for (int i = 0; i < 20000; ++i) {
         const ShadedPlace at = random_shaded_place(random);
         const auto s = surface(at.normal, at.wo);
-        const Rgb told = shade.at_distance(at.hit, s, at.vpl, inverse_distance(at.hit, at.vpl));
+        const Rgb told = shade.at_distance(at.hit, s, at.vpl, F::inverse_distance(at.hit, at.vpl));
         different += bits_of(told) == bits_of(shade(at.hit, s, at.vpl)) ? 0 : 1;
     }
     report.expect(different == 0, "at_distance() is the same in every bit",
                   std::to_string(different) + " of 20000 values are not");
 }
 
+/// Given what it prepared, it answers as if it had not.
+template <PreparedShading F, class MakeSurface>
+void expect_same_when_prepared(const F& shade, const MakeSurface& surface, Report& report) {
+    Random random = numbers(68);
+    std::size_t different = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const ShadedPlace at = random_shaded_place(random);
+        const auto s = surface(at.normal, at.wo);
+        const Rgb prepared = shade(shade.prepared(at.hit, s), at.vpl);
+        different += bits_of(prepared) == bits_of(shade(at.hit, s, at.vpl)) ? 0 : 1;
+    }
+    report.expect(different == 0, "prepared() changes no bit",
+                  std::to_string(different) + " of 20000 values are not the same");
+}
+
 }  // namespace detail
 
-/// The axioms of Shading, and of ReachLimitedShading, SurfaceSelectiveShading and DistanceShading
-/// where `shade` is one. `surface(normal, wo)` makes the surface data of a luxel of some material
-/// that reflects, from its unit shading normal and the unit direction towards the viewer;
-/// surfaces_with() does so for mir's own. Luxels and VPLs stand on all sides of each other, 0.1 mm
-/// to 1 km apart.
+/// The axioms of Shading, and of ReachLimitedShading, SurfaceSelectiveShading, DistanceShading and
+/// PreparedShading where `shade` is one. `surface(normal, wo)` makes the surface data of a luxel of
+/// some material that reflects, from its unit shading normal and the unit direction towards the
+/// viewer; surfaces_with() does so for mir's own. Luxels and VPLs stand on all sides of each other,
+/// 0.1 mm to 1 km apart.
 template <Shading F, class MakeSurface>
 Report check_shading(const F& shade, const MakeSurface& surface) {
     Report report;
@@ -124,6 +139,7 @@ Report check_shading(const F& shade, const MakeSurface& surface) {
     detail::expect_linear(shade, surface, report);
     detail::expect_nothing_skipped(shade, surface, report);
     if constexpr (DistanceShading<F>) detail::expect_same_at_distance(shade, surface, report);
+    if constexpr (PreparedShading<F>) detail::expect_same_when_prepared(shade, surface, report);
     return report;
 }
 

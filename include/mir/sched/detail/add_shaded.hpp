@@ -6,7 +6,6 @@
 #include "mir/core/lanes.hpp"
 #include "mir/data/soa.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
-#include "mir/shading/inverse_distance.hpp"
 
 namespace mir::sched::detail {
 
@@ -34,11 +33,12 @@ constexpr std::uint32_t lanes_shaded_by(InstructionSet set) {
 }
 
 /// 1/d, m^-1, of each luxel of a run and a VPL.
-template <std::uint32_t First, std::uint32_t Lanes>
+template <DistanceShading F, std::uint32_t First, std::uint32_t Lanes>
 [[gnu::always_inline]] inline void find_inverse_distances(LaneRun<First, Lanes>,
                                                           SoaView<const Hit> hits, Vpl vpl,
                                                           mir::detail::LaneFloats& inverse) {
-    for (std::uint32_t k = 0; k < Lanes; ++k) inverse.at[k] = inverse_distance(hits.load(k), vpl);
+    for (std::uint32_t k = 0; k < Lanes; ++k)
+        inverse.at[k] = F::inverse_distance(hits.load(k), vpl);
 }
 
 /// Adds the VPL to the luxels of a run whose bit is set in `lit`, which is the group's. Every lane
@@ -60,7 +60,7 @@ template <std::uint32_t First, std::uint32_t Lanes, Shading F>
         Rgb c;
         if constexpr (DistanceShading<F>) {
             const float now = inverse.at[k];
-            inverse.at[k] = inverse_distance(hits.load(k), next);
+            inverse.at[k] = F::inverse_distance(hits.load(k), next);
             c = shade.at_distance(hits.load(k), surfaces.load(k), vpl, now);
         } else {
             c = shade(hits.load(k), surfaces.load(k), vpl);

@@ -3,6 +3,7 @@
 
 #include "mir/core/instruction_set.hpp"
 #include "mir/sched/detail/add_shaded.hpp"
+#include "mir/sched/detail/compiled_for.hpp"
 #include "mir/sched/detail/luxel_block.hpp"
 
 #include <bit>
@@ -39,7 +40,7 @@ class LitVpls {
         for (std::uint32_t group = 0; group < groups_per_block; ++group) {
             // A copy, of which the compiler knows that no luxel is read from it.
             GroupRadiance sum = sums[group];
-            shade_group<Set>(block, shading, group,
+            shade_group<Set>(block, compiled_for<Set>(shading), group,
                              [&](std::uint32_t) -> GroupRadiance& { return sum; });
             sums[group] = sum;
         }
@@ -51,15 +52,15 @@ class LitVpls {
     [[gnu::always_inline]] void shade_each(const LuxelBlock<F>& block, const F& shading,
                                            GroupRadiance* __restrict sums) {
         for (std::uint32_t group = 0; group < groups_per_block; ++group)
-            shade_group<Set>(block, shading, group,
+            shade_group<Set>(block, compiled_for<Set>(shading), group,
                              [sums](std::uint32_t i) -> GroupRadiance& { return sums[i]; });
         count_ = 0;
     }
 
  private:
     /// Adds VPL i to `sum_of(i)`, for each that a luxel of the group sees, and forgets which do.
-    template <InstructionSet Set, Shading F, class SumOf>
-    [[gnu::always_inline]] void shade_group(const LuxelBlock<F>& block, const F& shading,
+    template <InstructionSet Set, class Luxels, Shading F, class SumOf>
+    [[gnu::always_inline]] void shade_group(const Luxels& block, const F& shading,
                                             std::uint32_t group, const SumOf& sum_of) {
         const std::uint64_t lighting = lighting_[group];
         lighting_[group] = 0;
@@ -68,8 +69,8 @@ class LitVpls {
     }
 
     /// The same for a run of the group's lanes and for those after it.
-    template <class Run, Shading F, class SumOf>
-    [[gnu::always_inline]] void shade_runs(const LuxelBlock<F>& block, const F& shading,
+    template <class Run, class Luxels, Shading F, class SumOf>
+    [[gnu::always_inline]] void shade_runs(const Luxels& block, const F& shading,
                                            std::uint32_t group, std::uint64_t lighting,
                                            const SumOf& sum_of) {
         shade_run<Run>(block, shading, group, lighting, sum_of);
@@ -79,15 +80,15 @@ class LitVpls {
 
     /// The same for one run, VPLs in the order of their bits in `left`, which has some. The loop
     /// always shades, so that what does not change in it may move out of it.
-    template <class Run, Shading F, class SumOf>
-    [[gnu::always_inline]] void shade_run(const LuxelBlock<F>& block, const F& shading,
+    template <class Run, class Luxels, Shading F, class SumOf>
+    [[gnu::always_inline]] void shade_run(const Luxels& block, const F& shading,
                                           std::uint32_t group, std::uint64_t left,
                                           const SumOf& sum_of) {
         const auto hits = starting_at(block.hits, group * group_size + Run::first);
         const auto surfaces = starting_at(block.surfaces, group * group_size + Run::first);
         auto i = static_cast<std::uint32_t>(std::countr_zero(left));
         mir::detail::LaneFloats ahead;
-        if constexpr (DistanceShading<F>) find_inverse_distances(Run{}, hits, vpls_[i], ahead);
+        if constexpr (DistanceShading<F>) find_inverse_distances<F>(Run{}, hits, vpls_[i], ahead);
         do {
             left &= left - 1;
             // After the last, once more the last.
