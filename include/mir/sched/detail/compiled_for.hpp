@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/concepts/shading.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/shading/vpl_shading.hpp"
 
