@@ -2,6 +2,11 @@
 #pragma once
 
 #include "mir/concepts/backend.hpp"
+#include "mir/core/lane_group.hpp"
+#include "mir/core/strict_float.hpp"
+
+#include <cmath>
+#include <cstring>
 
 // Kernels by which the axioms of Backend are tried (backend_suite.hpp).
 
@@ -104,6 +109,103 @@ struct GroupVisit {
         std::uint32_t bits = 0;
         for (std::uint32_t k = i % 35; k < 32 && k < i % 35 + i % 37; ++k) bits |= 1u << k;
         return odd + any + sum + last + lowest + smaller + bits;
+    }
+};
+
+/// The float that has these bits.
+MIR_HD inline float float_of(std::uint32_t bits) {
+    float value = 0.0f;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
+/// The bits of a float.
+MIR_HD inline std::uint32_t bits_of_float(float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/// Adds up the bits of the smallest and the largest of each group's numbers, the latter by 3.
+struct GroupExtremes {
+    struct Workspace {};
+
+    std::uint32_t* out = nullptr;
+
+    /// Of any sign and size; zeros and infinities among them, and groups of nothing but zeros.
+    MIR_HD static float number(std::uint32_t i, std::uint32_t lane) {
+        const std::uint32_t word = scrambled(32 * i + lane);
+        const std::uint32_t sign = word & 0x80000000u;
+        if (i % 5 == 0 || word % 61 == 0) return float_of(sign);
+        if (word % 67 == 0) return float_of(sign | 0x7F800000u);
+        return float_of(sign | (word % 0x7F800000u));
+    }
+
+    /// Never zero.
+    MIR_HD static std::uint32_t some_bits(std::uint32_t i) { return scrambled(i) >> i % 32 | 1u; }
+
+    MIR_HD void operator()(const mir::LaneGroup& group, std::uint32_t i, Workspace&) const {
+        mir::LaneGroup::PerLane<float> values;
+        group.each_apart([&](std::uint32_t lane) { values[lane] = number(i, lane); });
+        const std::uint32_t least = bits_of_float(group.smallest(values));
+        const std::uint32_t most = bits_of_float(group.largest(values));
+        group.each([&](std::uint32_t lane) {
+            if (lane == 0) out[i] = least + 3 * most + mir::LaneGroup::highest(some_bits(i));
+        });
+    }
+
+    /// What comes out, written without groups.
+    static std::uint32_t expected(std::uint32_t i) {
+        const auto is_less = [](float a, float b) {
+            return a < b || (a == b && std::signbit(a) && !std::signbit(b));
+        };
+        float least = number(i, 0);
+        float most = least;
+        for (std::uint32_t lane = 1; lane < 32; ++lane) {
+            const float value = number(i, lane);
+            if (is_less(value, least)) least = value;
+            if (is_less(most, value)) most = value;
+        }
+        std::uint32_t highest = 0;
+        for (std::uint32_t left = some_bits(i); left > 1; left /= 2) ++highest;
+        return bits_of_float(least) + 3 * bits_of_float(most) + highest;
+    }
+};
+
+/// Functions of strict_float.hpp that are written twice, for host and device.
+enum class StrictFunction { root, reciprocal, at_most_two };
+
+/// Their bits at numbers one after the other.
+struct StrictValues {
+    /// All mantissas twice, then exponents.
+    static constexpr std::uint32_t count = (1u << 24) + (1u << 16);
+
+    StrictFunction function = StrictFunction::root;
+    std::uint32_t* out = nullptr;
+
+    /// All numbers from 1 to 4, then some from 2^-100 to 2^100, of reciprocals 2^-110 to 2^110. The
+    /// smaller of two is also asked for where one is none.
+    MIR_HD static float number(StrictFunction function, std::uint32_t i) {
+        constexpr std::uint32_t one = 127;
+        if (function == StrictFunction::at_most_two && i % 7 == 0) return float_of(0x7FC00000u);
+        if (i < 1u << 24) return float_of((one << 23) + i);
+        const std::uint32_t most = function == StrictFunction::reciprocal ? 110 : 100;
+        return float_of((one - most + i % (2 * most)) << 23 | (scrambled(i) & 0x007FFFFFu));
+    }
+
+    MIR_HD void operator()(std::uint32_t i) const {
+        const float a = number(function, i);
+        out[i] = bits_of_float(function == StrictFunction::root ? mir::strict::usual_sqrt(a)
+                               : function == StrictFunction::reciprocal
+                                   ? mir::strict::usual_reciprocal(a)
+                                   : mir::strict::at_most(a, 2.0f));
+    }
+
+    /// What comes out, by the operators of the host, which are rounded once.
+    static std::uint32_t expected(StrictFunction function, std::uint32_t i) {
+        const float a = number(function, i);
+        if (function == StrictFunction::root) return bits_of_float(std::sqrt(a));
+        if (function == StrictFunction::reciprocal) return bits_of_float(1.0f / a);
+        return bits_of_float(a < 2.0f ? a : 2.0f);
     }
 };
 

@@ -106,6 +106,33 @@ class BackendExperiments {
         return differences(words, wanted) + differences(lanes, Words(1, 32 * n));
     }
 
+    /// What groups make of floats.
+    [[nodiscard]] std::size_t wrong_extremes(std::uint32_t n) const {
+        Words words(n, 0u);
+        auto there = backend_.template buffer<std::uint32_t>(n);
+        auto queue = backend_.queue();
+        queue.for_each_group(n, GroupExtremes{there.data()});
+        queue.download(there, std::span<std::uint32_t>(words));
+        queue.record().sync();
+        std::size_t wrong = 0;
+        for (std::uint32_t i = 0; i < n; ++i) wrong += words[i] != GroupExtremes::expected(i);
+        return wrong;
+    }
+
+    /// Strict functions that differ in a bit from what the host's operators are rounded to.
+    [[nodiscard]] std::size_t wrong_values(StrictFunction function) const {
+        Words words(StrictValues::count, 0u);
+        auto there = backend_.template buffer<std::uint32_t>(words.size());
+        auto queue = backend_.queue();
+        queue.for_each(StrictValues::count, StrictValues{function, there.data()});
+        queue.download(there, std::span<std::uint32_t>(words));
+        queue.record().sync();
+        std::size_t wrong = 0;
+        for (std::uint32_t i = 0; i < StrictValues::count; ++i)
+            wrong += words[i] != StrictValues::expected(function, i);
+        return wrong;
+    }
+
     /// Axiom 6: pairs whose keys are the `distinct` first numbers, spread over 64 bits. What lies
     /// behind them stays as it was.
     [[nodiscard]] std::size_t wrong_after_sort(std::uint32_t n, std::uint32_t distinct) const {
@@ -293,6 +320,11 @@ std::vector<Finding> examine_backend(const B& backend) {
                   experiments.wrong_words(rows, columns));
     for (std::uint32_t n : {0u, 1u, 3u, 4u, 5u, 1000u})
         named("visits of for_each_group", n, experiments.wrong_groups(n));
+    named("extremes of groups", 3000, experiments.wrong_extremes(3000));
+    named("roots", StrictValues::count, experiments.wrong_values(StrictFunction::root));
+    named("reciprocals", StrictValues::count, experiments.wrong_values(StrictFunction::reciprocal));
+    named("the smaller of two", StrictValues::count,
+          experiments.wrong_values(StrictFunction::at_most_two));
     named("order in one queue", 3000, experiments.wrong_after_chain(3000, 20));
     constexpr std::uint32_t slow = 1u << 14;
     named("queue behind an event", 300, experiments.wrong_after_wait(300, slow));

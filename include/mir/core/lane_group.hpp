@@ -22,6 +22,14 @@ class LaneGroup {
     static constexpr std::uint32_t width = 32;         ///< lanes
     static constexpr std::uint32_t all = 0xFFFFFFFFu;  ///< the bits of all lanes
 
+    /// Whether lanes are those of a warp, of which none is done before the others.
+    static constexpr bool is_warp =
+#if defined(__CUDA_ARCH__)
+        true;
+#else
+        false;
+#endif
+
     /// A value for each lane; a lane may touch its own alone.
     template <class T>
     class PerLane {
@@ -53,6 +61,16 @@ class LaneGroup {
         __syncwarp();
 #else
         for (std::uint32_t lane = 0; lane < width; ++lane) f(lane);
+#endif
+    }
+
+    /// each() of what writes to nothing but a PerLane: no lane waits for another.
+    template <class F>
+    MIR_HD void each_apart(const F& f) const {
+#if defined(__CUDA_ARCH__)
+        f(own_lane());
+#else
+        each(f);
 #endif
     }
 
@@ -142,6 +160,28 @@ class LaneGroup {
 #endif
     }
 
+    /// The smallest value; none may be NaN. -0 is below 0, on host and device.
+    [[nodiscard]] MIR_HD float smallest(const PerLane<float>& values) const {
+        const PerLane<std::int32_t> places = places_of(values);
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
+        return value_at(__reduce_min_sync(all, places[0]));
+#else
+        return value_at(
+            combined(places, [](std::int32_t a, std::int32_t b) { return a < b ? a : b; }));
+#endif
+    }
+
+    /// The largest value; see smallest().
+    [[nodiscard]] MIR_HD float largest(const PerLane<float>& values) const {
+        const PerLane<std::int32_t> places = places_of(values);
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 800
+        return value_at(__reduce_max_sync(all, places[0]));
+#else
+        return value_at(
+            combined(places, [](std::int32_t a, std::int32_t b) { return a > b ? a : b; }));
+#endif
+    }
+
     /// Adds to a counter that groups share, and returns what it was before.
     MIR_HD std::uint32_t add(std::uint32_t& counter, std::uint32_t amount) const {
 #if defined(__CUDA_ARCH__)
@@ -199,7 +239,41 @@ class LaneGroup {
 #endif
     }
 
+    /// Place of the highest bit that is set; `bits` is not zero.
+    [[nodiscard]] MIR_HD static std::uint32_t highest(std::uint32_t bits) {
+#if defined(__CUDA_ARCH__)
+        return static_cast<std::uint32_t>(31 - __clz(static_cast<int>(bits)));
+#else
+        return static_cast<std::uint32_t>(std::bit_width(bits) - 1);
+#endif
+    }
+
  private:
+    /// Integers in the order of the values: the device compares those of a warp in one instruction.
+    [[nodiscard]] MIR_HD PerLane<std::int32_t> places_of(const PerLane<float>& values) const {
+        PerLane<std::int32_t> places;
+        each_apart([&](std::uint32_t lane) {
+#if defined(__CUDA_ARCH__)
+            places[lane] = with_sign_turned(__float_as_int(values[lane]));
+#else
+            places[lane] = with_sign_turned(std::bit_cast<std::int32_t>(values[lane]));
+#endif
+        });
+        return places;
+    }
+    /// Back from places_of().
+    [[nodiscard]] MIR_HD static float value_at(std::int32_t place) {
+#if defined(__CUDA_ARCH__)
+        return __int_as_float(with_sign_turned(place));
+#else
+        return std::bit_cast<float>(with_sign_turned(place));
+#endif
+    }
+    /// Negative floats have their order reversed as integers; the same turns them back.
+    [[nodiscard]] MIR_HD static std::int32_t with_sign_turned(std::int32_t bits) {
+        return bits ^ ((bits >> 31) & 0x7FFFFFFF);
+    }
+
 #if defined(__CUDA_ARCH__)
     /// Thread blocks are runs of whole warps.
     MIR_HD static std::uint32_t own_lane() { return threadIdx.x % width; }

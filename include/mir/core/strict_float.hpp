@@ -175,16 +175,22 @@ namespace mir::strict {
 #endif
 }
 
-/// 1 / sqrt(a), rounded twice, of any number: the bits of 1.0f / sqrtf(a), with one branch on the
-/// device where that has two.
-[[nodiscard]] MIR_HD inline float reciprocal_of_root(float a) {
+/// 1 / a, rounded once, of a number from 2^-110 to 2^110 in size; see usual_sqrt().
+[[nodiscard]] MIR_HD inline float usual_reciprocal(float a) {
 #if defined(__CUDA_ARCH__)
-    if (!(a >= 0x1p-100f && a <= 0x1p100f)) return 1.0f / sqrtf(a);
-    const float root = usual_sqrt(a);
-    const float estimate = loose::rough_reciprocal(root);
-    return __fmaf_rn(estimate, __fmaf_rn(-root, estimate, 1.0f), estimate);
+    const float estimate = loose::rough_reciprocal(a);
+    return __fmaf_rn(estimate, __fmaf_rn(-a, estimate, 1.0f), estimate);
 #else
-    return 1.0f / sqrtf(a);
+    return 1.0f / a;
+#endif
+}
+
+/// The smaller of a and `limit`, which is a number: `limit` where `a` is none.
+[[nodiscard]] MIR_HD inline float at_most(float a, float limit) {
+#if defined(__CUDA_ARCH__)
+    return fminf(a, limit);
+#else
+    return a < limit ? a : limit;
 #endif
 }
 

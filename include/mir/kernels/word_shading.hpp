@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/triangle_rows.hpp"
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/shading.hpp"
 #include "mir/concepts/vpl_set.hpp"
@@ -16,17 +15,24 @@ namespace mir {
 /// together. Writes W m^-2 sr^-1, VPLs summed in their order: the bits of ShadingPass.
 template <GBuffer G, VplSet P, Shading F>
 struct WordShading {
+    /// Aligned so that the device fetches it as one word.
+    struct alignas(16) Row {
+        float x = 0.0f;         ///< or red
+        float y = 0.0f;         ///< or green
+        float z = 0.0f;         ///< or blue
+        std::uint32_t lit = 0;  ///< with positions, luxels that see the VPL
+    };
     /// What a group works in: 32 VPLs, which all lanes read one after the other.
     struct Workspace {
-        AffineRow positions[LaneGroup::width];    ///< metres; w is not used
-        AffineRow normals[LaneGroup::width];      ///< w is not used
-        AffineRow intensities[LaneGroup::width];  ///< W sr^-1; w is not used
+        Row positions[LaneGroup::width];    ///< metres
+        Row normals[LaneGroup::width];      ///< unit
+        Row intensities[LaneGroup::width];  ///< W sr^-1
     };
 
     G luxels;                              ///< of the tile, whole groups of 32
     P vpls;                                ///< those that `words` knows of, in its order
     const std::uint32_t* words = nullptr;  ///< VisibilityWords::words of the tile
-    F shade;                               ///< asked for pairs that see each other
+    F shade;                               ///< a device asks it for all lanes of a word with a bit
     SoaView<Rgb> radiance;                 ///< W m^-2 sr^-1 by blocked index
 
     /// Luxels 32 i to 32 i + 31 (blocked indices). Black for those that no bit is set of.
@@ -39,37 +45,59 @@ struct WordShading {
             sums[lane] = {};
         });
         const std::uint32_t* const own_words = words + std::size_t{i} * vpls.size();
-        for (VplIndex first = 0; first < vpls.size(); first += LaneGroup::width) {
-            LaneGroup::PerLane<std::uint32_t> own;
+        LaneGroup::PerLane<std::uint32_t> own, next;
+        const auto fetch = [&](VplIndex first, LaneGroup::PerLane<std::uint32_t>& into) {
             group.each([&](std::uint32_t lane) {
-                own[lane] = first + lane < vpls.size() ? own_words[first + lane] : 0u;
-                if (own[lane] != 0) keep(vpls[first + lane], lane, space);
+                const VplIndex j = of_lane(first, lane);
+                into[lane] = j < vpls.size() ? own_words[j] : 0u;
+            });
+        };
+        fetch(0, own);
+        for (VplIndex first = 0; first < vpls.size(); first += LaneGroup::width) {
+            group.each([&](std::uint32_t lane) {
+                if (own[lane] != 0) keep(vpls[of_lane(first, lane)], own[lane], lane, space);
             });
             std::uint32_t seen = group.ballot([&](std::uint32_t lane) { return own[lane] != 0; });
-            for (; seen != 0; seen &= seen - 1) {
-                const std::uint32_t k = LaneGroup::lowest(seen);
-                const std::uint32_t lit = group.broadcast(own, k);
-                const Vpl vpl = kept(k, space);
-                group.each([&](std::uint32_t lane) {
-                    if ((lit >> lane & 1u) != 0) sums[lane] += own_luxels[lane].lit_by(vpl, shade);
-                });
+            fetch(first + LaneGroup::width, next);
+            while (seen != 0) {
+                const std::uint32_t k = LaneGroup::highest(seen);
+                add(group, own_luxels, k, space, sums);
+                seen &= LaneGroup::bits(0, k);
             }
+            group.each([&](std::uint32_t lane) { own[lane] = next[lane]; });
         }
         group.each(
             [&](std::uint32_t lane) { radiance.store(i * LaneGroup::width + lane, sums[lane]); });
     }
 
  private:
-    MIR_HD static void keep(const Vpl& vpl, std::uint32_t at, Workspace& space) {
-        space.positions[at] = {vpl.position.x, vpl.position.y, vpl.position.z, 0.0f};
-        space.normals[at] = {vpl.normal.x, vpl.normal.y, vpl.normal.z, 0.0f};
-        space.intensities[at] = {vpl.intensity.r, vpl.intensity.g, vpl.intensity.b, 0.0f};
+    /// VPL of a lane, the first for the last lane: highest bits are found faster than lowest ones.
+    [[nodiscard]] MIR_HD static VplIndex of_lane(VplIndex first, std::uint32_t lane) {
+        return first + (LaneGroup::width - 1 - lane);
     }
-    [[nodiscard]] MIR_HD static Vpl kept(std::uint32_t at, const Workspace& space) {
-        const AffineRow p = space.positions[at];
-        const AffineRow n = space.normals[at];
-        const AffineRow j = space.intensities[at];
-        return {{p.x, p.y, p.z}, {n.x, n.y, n.z}, {j.x, j.y, j.z}};
+
+    /// Adds the light of the VPL in place `at` of the workspace.
+    MIR_HD void add(const LaneGroup& group, const LaneGroup::PerLane<PreparedLuxel<F>>& own_luxels,
+                    std::uint32_t at, const Workspace& space, LaneGroup::PerLane<Rgb>& sums) const {
+        const Row p = space.positions[at];
+        const Row n = space.normals[at];
+        const Row j = space.intensities[at];
+        const Vpl vpl{{p.x, p.y, p.z}, {n.x, n.y, n.z}, {j.x, j.y, j.z}};
+        group.each_apart([&](std::uint32_t lane) {
+            const bool is_lit = (p.lit >> lane & 1u) != 0;
+            // A lane of a warp would save nothing by leaving, and the branch costs all of them.
+            if (!LaneGroup::is_warp && !is_lit) return;
+            const Rgb c = own_luxels[lane].lit_by(vpl, shade);
+            Rgb& sum = sums[lane];
+            sum = {is_lit ? sum.r + c.r : sum.r, is_lit ? sum.g + c.g : sum.g,
+                   is_lit ? sum.b + c.b : sum.b};
+        });
+    }
+
+    MIR_HD static void keep(const Vpl& vpl, std::uint32_t lit, std::uint32_t at, Workspace& space) {
+        space.positions[at] = {vpl.position.x, vpl.position.y, vpl.position.z, lit};
+        space.normals[at] = {vpl.normal.x, vpl.normal.y, vpl.normal.z, 0};
+        space.intensities[at] = {vpl.intensity.r, vpl.intensity.g, vpl.intensity.b, 0};
     }
 };
 template <class G, class P, class F>

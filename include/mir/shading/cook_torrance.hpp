@@ -41,16 +41,18 @@ struct CookTorrance {
         Vec3 wo;                     ///< unit direction away from the surface
         GgxOutgoing<Rounding> ggx;   ///< of the interface
         Rgb f0;                      ///< reflectance at normal incidence
-        Rgb to_f90;                  ///< what it gains to grazing incidence
+        Rgb to_f90_by_32;            ///< what it gains to grazing incidence, over 2^5
         Rgb base;                    ///< of diffuse reflection, light at normal incidence, sr^-1
         Rgb to_grazing;              ///< what that gains (it loses) to grazing incidence, sr^-1
 
         /// f(wi, wo), sr^-1; `cos_i` is n.wi.
         [[nodiscard, gnu::always_inline]] MIR_HD Rgb operator()(Vec3 wi, float cos_i) const {
-            const auto half = HalfVector<Rounding>::of(n, wi, wo, cos_i + ggx.cos_o);
-            const Rgb fresnel = schlick<Rounding>(f0, to_f90, half.cos_d());
-            const Rgb diffuse = mul_add<Rounding>(schlick_weight(cos_i), to_grazing, base);
-            return mul_add<Rounding>(ggx.dv(half, cos_i), fresnel, diffuse);
+            const float cosine = larger(cos_i, 0.0f);
+            const auto half = HalfVector<Rounding>::of(n, wi, wo, cosine + ggx.cos_o);
+            const Rgb fresnel =
+                mul_add<Rounding>(fifth_power(half.twice_versine()), to_f90_by_32, f0);
+            const Rgb diffuse = mul_add<Rounding>(fifth_power(1.0f - cosine), to_grazing, base);
+            return mul_add<Rounding>(ggx.dv(half, cosine), fresnel, diffuse);
         }
     };
 
@@ -66,7 +68,7 @@ struct CookTorrance {
                 wo,
                 GgxOutgoing<Rounding>::of(cos_o, p.alpha),
                 p.f0,
-                to_f90,
+                to_f90 * 0x1p-5f,
                 base * (white - p.f0),
                 base * (p.f0 - Rgb{p.f90, p.f90, p.f90})};
     }
@@ -112,14 +114,13 @@ struct CookTorrance {
     /// The same, `to_f90` being f90 - f0.
     template <class Rounding>
     [[gnu::always_inline]] MIR_HD static Rgb schlick(Rgb f0, Rgb to_f90, float cos_theta) {
-        return mul_add<Rounding>(schlick_weight(cos_theta), to_f90, f0);
+        return mul_add<Rounding>(fifth_power(1.0f - cos_theta), to_f90, f0);
     }
 
-    /// (1 - cos)^5
-    MIR_HD static float schlick_weight(float cos_theta) {
-        const float m = 1.0f - cos_theta;
-        const float m2 = m * m;
-        return m2 * m2 * m;
+    /// x^5, Schlick's weight of reflectance at grazing incidence where x is 1 - cos.
+    MIR_HD static float fifth_power(float x) {
+        const float x2 = x * x;
+        return x2 * x2 * x;
     }
 
     /// Probability with which sample() picks the specular lobe: its share of the reflected light,

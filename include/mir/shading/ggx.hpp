@@ -24,26 +24,23 @@ MIR_HD inline float ggx_d(float cos_h, float alpha) {
 /// once.
 template <class Rounding>
 struct HalfVector {
-    /// Squared length below which directions count as opposite, so that products stay in range.
-    static constexpr float least_squared = 1e-8f;
-
     float along = 0.0f;           ///< its component along the normal: n.wi + n.wo
     float across_squared = 0.0f;  ///< the square of the rest, with all digits for narrow lobes
 
-    /// `along` is n.wi + n.wo.
+    /// `along` is n.wi + n.wo, at least GgxOutgoing::least_cosine.
     [[nodiscard, gnu::always_inline]] MIR_HD static HalfVector of(Vec3 n, Vec3 wi, Vec3 wo,
                                                                   float along) {
         const Vec3 across = mul_add<Rounding>(-along, n, wi + wo);
         return {along, dot<Rounding>(across, across)};
     }
 
-    /// |wi + wo|^2, least_squared to 4.
+    /// |wi + wo|^2, up to 4.
     [[nodiscard, gnu::always_inline]] MIR_HD float squared() const {
-        return larger(Rounding::mul_add(along, along, across_squared), least_squared);
+        return Rounding::mul_add(along, along, across_squared);
     }
-    /// Cosine between it and either direction.
-    [[nodiscard, gnu::always_inline]] MIR_HD float cos_d() const {
-        return 0.5f * strict::usual_sqrt(squared());
+    /// 2 - 2 cos of the angle between it and either direction.
+    [[nodiscard, gnu::always_inline]] MIR_HD float twice_versine() const {
+        return 2.0f - strict::usual_sqrt(squared());
     }
 };
 
@@ -51,35 +48,41 @@ struct HalfVector {
 /// once. `Rounding` is that of its sums of products (core/rounding.hpp).
 template <class Rounding>
 struct GgxOutgoing {
-    float cos_o = 0.0f;   ///< n.wo
-    float alpha2 = 1.0f;  ///< alpha^2
-    float rest = 0.0f;    ///< 1 - alpha^2
-    float root = 1.0f;    ///< of Smith's term for wo
-    float scale = 0.0f;   ///< alpha^2 / (2 pi)
+    /// Smaller cosines of wo count as this one: all that is divided by then stays in range, from
+    /// 2^-105 to 2^40, without a comparison for each direction of light.
+    static constexpr float least_cosine = 1e-5f;
+
+    float cos_o = 1.0f;      ///< n.wo
+    float alpha2 = 1.0f;     ///< alpha^2
+    float rest = 0.0f;       ///< 1 - alpha^2
+    float root_part = 1.0f;  ///< of Smith's term for wo, the root over alpha^2 / (2 pi)
+    float cos_part = 1.0f;   ///< n.wo over the same
 
     /// `alpha` is not below min_ggx_alpha.
-    [[nodiscard, gnu::always_inline]] MIR_HD static GgxOutgoing of(float cos_o, float alpha) {
+    [[nodiscard, gnu::always_inline]] MIR_HD static GgxOutgoing of(float n_wo, float alpha) {
+        const float cos_o = larger(n_wo, least_cosine);
         const float a2 = alpha * alpha;
-        return {cos_o, a2, 1.0f - a2, smith_root(cos_o, a2, 1.0f - a2), a2 * (0.5f * inv_pi)};
+        const float rest = 1.0f - a2;
+        const float part = strict::usual_reciprocal(a2 * (0.5f * inv_pi));
+        return {cos_o, a2, rest, part * smith_root(cos_o, a2, rest), part * cos_o};
     }
 
-    /// 0.5 over this is height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo).
+    /// pi / alpha^2 over this is height-correlated Smith masking and shadowing over
+    /// 4 (n.wi)(n.wo); `cos_i` is n.wi, not negative.
     /// Source: Heitz, "Understanding the masking-shadowing function", JCGT 3(2), 2014, eq. 99.
     [[nodiscard, gnu::always_inline]] MIR_HD float smith_sum(float cos_i) const {
-        const float li = cos_o * smith_root(cos_i, alpha2, rest);
-        return larger(Rounding::mul_add(cos_i, root, li), 1e-10f);
+        return Rounding::mul_add(cos_i, root_part, cos_part * smith_root(cos_i, alpha2, rest));
     }
 
     /// D V: ggx_d() times masking and shadowing over 4 (n.wi)(n.wo), per steradian. With h the half
     /// vector, cos^2 = along^2 / h^2 and sin^2 = across^2 / h^2, so
-    /// D = a^2 h^4 / (pi (across^2 + a^2 along^2)^2).
+    /// D = a^2 h^4 / (pi (across^2 + a^2 along^2)^2). `cos_i` is not negative.
     [[nodiscard, gnu::always_inline]] MIR_HD float dv(const HalfVector<Rounding>& half,
                                                       float cos_i) const {
         const float spread =
-            larger(Rounding::mul_add(alpha2, half.along * half.along, half.across_squared),
-                   alpha2 * HalfVector<Rounding>::least_squared);
+            Rounding::mul_add(alpha2, half.along * half.along, half.across_squared);
         const float squared = half.squared();
-        return scale * (squared * squared) / (spread * spread * smith_sum(cos_i));
+        return squared * squared * strict::usual_reciprocal(spread * spread * smith_sum(cos_i));
     }
 
  private:

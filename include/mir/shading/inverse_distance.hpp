@@ -6,12 +6,13 @@
 
 namespace mir {
 
-/// 1 / d of a luxel at a place, metres, and a VPL, m^-1; infinite where they touch. Same bits on
-/// host and device.
+/// 1 / d of a luxel at a place, metres, and a VPL, m^-1; places nearer than 2^-50 m count as so far
+/// apart. Same bits on host and device.
 template <class Rounding>
 [[gnu::always_inline]] MIR_HD inline float inverse_distance(Vec3 luxel, const Vpl& vpl) {
     const Vec3 d = vpl.position - luxel;
-    return strict::reciprocal_of_root(dot<Rounding>(d, d));
+    const float squared = larger(dot<Rounding>(d, d), 0x1p-100f);
+    return strict::usual_reciprocal(strict::usual_sqrt(squared));
 }
 
 }  // namespace mir

@@ -75,7 +75,7 @@ struct VplShading {
         const Vec3 wi = (vpl.position - luxel.position) * inverse;
         const float cos_l = dot<Rounding>(wi, luxel.normal);
         const float cos_v = -dot<Rounding>(wi, vpl.normal);
-        const float g = smaller(geometry_term(cos_l, cos_v, inverse), bound);
+        const float g = strict::at_most(geometry_term(cos_l, cos_v, inverse), bound);
         return luxel.outgoing(wi, cos_l) * (vpl.intensity * g);
     }
 };

@@ -84,8 +84,8 @@ MIR_HD inline MiddleOfRange middle_of(const LaneGroup& group,
         low[lane] = ranges[lane].low;
         high[lane] = ranges[lane].high;
     });
-    const float least = group.combined(low, [](float a, float b) { return smaller(a, b); });
-    const float most = group.combined(high, [](float a, float b) { return larger(a, b); });
+    const float least = group.smallest(low);
+    const float most = group.largest(high);
     const float middle = 0.5f * (least + most);
     return {middle, larger(most - middle, middle - least)};
 }

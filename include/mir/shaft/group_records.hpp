@@ -72,12 +72,6 @@ struct GroupRecords {
         return fabsf(p.x) >= 0.0f && fabsf(p.y) >= 0.0f && fabsf(p.z) >= 0.0f;
     }
 
-    MIR_HD static float smallest(const LaneGroup& group, Floats values) {
-        return group.combined(values, [](float a, float b) { return smaller(a, b); });
-    }
-    MIR_HD static float largest(const LaneGroup& group, Floats values) {
-        return group.combined(values, [](float a, float b) { return larger(a, b); });
-    }
     MIR_HD static float total(const LaneGroup& group, Floats values) {
         return group.combined(values, [](float a, float b) { return strict::add(a, b); });
     }
@@ -102,8 +96,8 @@ struct GroupRecords {
                 high[lane] = own[lane].high[axis];
                 normal[lane] = own[lane].normals[axis];
             });
-            sum.low[axis] = smallest(group, low);
-            sum.high[axis] = largest(group, high);
+            sum.low[axis] = group.smallest(low);
+            sum.high[axis] = group.largest(high);
             sum.normals[axis] = total(group, normal);
         }
         return sum;
@@ -131,7 +125,7 @@ struct GroupRecords {
                 high[lane] = larger(along, high[lane]);
             }
         });
-        return {smallest(group, least), {smallest(group, low), largest(group, high)}};
+        return {group.smallest(least), {group.smallest(low), group.largest(high)}};
     }
 };
 
