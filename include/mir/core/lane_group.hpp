@@ -64,7 +64,8 @@ class LaneGroup {
 #endif
     }
 
-    /// each() of what writes to nothing but a PerLane: no lane waits for another.
+    /// each() of what writes to nothing but a PerLane: no lane waits for another. Memory that lanes
+    /// read in it may be written after a later each() alone.
     template <class F>
     MIR_HD void each_apart(const F& f) const {
 #if defined(__CUDA_ARCH__)

@@ -64,6 +64,7 @@ struct WordShading {
                 add(group, own_luxels, k, space, sums);
                 seen &= LaneGroup::bits(0, k);
             }
+            // Not each_apart(): no lane may keep() the next VPLs while another reads these.
             group.each([&](std::uint32_t lane) { own[lane] = next[lane]; });
         }
         group.each(
