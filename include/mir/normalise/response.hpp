@@ -52,7 +52,8 @@ void add_block(const sched::detail::LuxelBlock<F>& block, const P& vpls, const V
     GroupRadiance lanes[vpls_per_task];
     LitVpls lit_vpls;
     for (VplIndex j = first; j < last; ++j) {
-        const BlockMask lit = known_mask(block, j, bits);
+        BlockMask lit;
+        find_known(block, j, bits, lit);
         Vpl unit = vpls[j];
         unit.intensity = {1.0f, 1.0f, 1.0f};
         lit_vpls.add(unit, lit);

@@ -77,9 +77,9 @@ struct CpuBlocks {
             work.batch.template shade<Set>(work.block, in_.shading, work.sums);
         }
         [[nodiscard]] std::vector<Work> start(const detail::PlacedPage& page) const;
-        template <InstructionSet Set, class LitMask>
+        template <InstructionSet Set, class FindLit>
         void add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
-                      const LitMask& lit_mask) const;
+                      const FindLit& find_lit) const;
         void store(detail::Block b, const detail::GroupRadiance* sums) const;
 
         /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing. Who
@@ -134,12 +134,15 @@ void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
         const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
         detail::GroupRadiance sums[detail::groups_per_block];
         if constexpr (KnownVisibility<V>) {
-            add_vpls<set()>(block, sums, [&](VplIndex j, const Vpl&) {
-                return detail::known_mask(block, j, in_.visibility);
+            add_vpls<set()>(block, sums, [&](VplIndex j, const Vpl&, BlockMask& lit) {
+                return detail::find_known(block, j, in_.visibility, lit);
             });
         } else {
             const detail::BlockSight<V> sight(block, in_.visibility);
-            add_vpls<set()>(block, sums, [&](VplIndex, const Vpl& vpl) { return sight(vpl); });
+            add_vpls<set()>(block, sums, [&](VplIndex, const Vpl& vpl, BlockMask& lit) {
+                lit = sight(vpl);
+                return lit.any();
+            });
         }
         store(b, sums);
     });
@@ -192,19 +195,19 @@ void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
     }
 }
 
-/// Adds all VPLs; `lit_mask(j, vpl)` says to which luxels of the block.
+/// Adds all VPLs; `find_lit(j, vpl, lit)` finds to which luxels of the block, false if to none.
 template <Executor E>
 template <class In>
-template <InstructionSet Set, class LitMask>
+template <InstructionSet Set, class FindLit>
 void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
-                                          const LitMask& lit_mask) const {
+                                          const FindLit& find_lit) const {
     if (block.bounds.empty) return;
     detail::LitVpls batch;
     for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
         const Vpl vpl = in_.vpls[j];
         if (is_out_of_reach(block, vpl)) continue;
-        const BlockMask lit = lit_mask(j, vpl);
-        if (lit.any()) batch.add(vpl, lit);
+        BlockMask lit;
+        if (find_lit(j, vpl, lit)) batch.add(vpl, lit);
         if (batch.is_full()) batch.template shade<Set>(block, in_.shading, sums);
     }
     batch.template shade<Set>(block, in_.shading, sums);

@@ -25,10 +25,9 @@ class LitVpls {
     [[gnu::always_inline]] void add(const Vpl& vpl, const BlockMask& lit) {
         const std::uint64_t bit = std::uint64_t{1} << count_;
         vpls_[count_] = vpl;
-        for (std::uint32_t group = 0; group < groups_per_block; ++group) {
-            lit_[count_][group] = static_cast<std::uint16_t>(lit.packet[group]);
-            lighting_[group] |= lit.packet[group] != 0 ? bit : 0;
-        }
+        lit_[count_] = lit;
+        each_group(
+            [&](std::uint32_t group) { lighting_[group] |= lit.packet[group] != 0 ? bit : 0; });
         ++count_;
     }
 
@@ -93,15 +92,15 @@ class LitVpls {
             left &= left - 1;
             // After the last, once more the last.
             const auto next = left == 0 ? i : static_cast<std::uint32_t>(std::countr_zero(left));
-            add_shaded(Run{}, hits, surfaces, vpls_[i], vpls_[next], shading, lit_[i][group], ahead,
-                       sum_of(i));
+            add_shaded(Run{}, hits, surfaces, vpls_[i], vpls_[next], shading, lit_[i].packet[group],
+                       ahead, sum_of(i));
             i = next;
         } while (left != 0);
     }
 
     std::uint32_t count_ = 0;
     Vpl vpls_[capacity];
-    std::uint16_t lit_[capacity][groups_per_block];
+    BlockMask lit_[capacity];
     std::uint64_t lighting_[groups_per_block] = {};  ///< VPLs that light a group, a bit each
 };
 

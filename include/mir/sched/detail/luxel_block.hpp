@@ -17,6 +17,17 @@ inline constexpr std::uint32_t group_size = PointPacket::width;
 inline constexpr std::uint32_t groups_per_block = BlockMask::packets;
 static_assert(groups_per_block * group_size == BlockedLayout::block_size);
 
+/// Calls `body` for each group of a block. As a loop: of sixteen scalars, which compilers make of
+/// it where they unroll first, no vector registers come.
+template <class Body>
+[[gnu::always_inline]] inline void each_group(const Body& body) {
+    // nvcc does not know the pragma.
+#if !defined(__CUDACC__)
+#pragma GCC unroll 1
+#endif
+    for (std::uint32_t group = 0; group < groups_per_block; ++group) body(group);
+}
+
 /// The luxels of `view` from `first` on, in the same planes.
 template <class T>
 SoaView<T> starting_at(SoaView<T> view, std::uint32_t first) {
@@ -66,9 +77,9 @@ struct LuxelBlock : HitBlock {
     LuxelBlock(SoaView<const Hit> tile_hits, SoaView<const typename F::Surface> tile_surfaces,
                Block b, const F& shade)
         : HitBlock(tile_hits, b,
-                   [&](std::uint32_t i) {
+                   [&, of_block = starting_at(tile_surfaces, first_luxel(b))](std::uint32_t i) {
                        if constexpr (SurfaceSelectiveShading<F>)
-                           return shade.reflects(tile_surfaces.load(first_luxel(b) + i));
+                           return shade.reflects(of_block.load(i));
                        else
                            return true;
                    }),
@@ -129,15 +140,18 @@ class BlockSight {
     const V& visibility_;
 };
 
-/// Luxels of the block that count and see a VPL, from what is known.
+/// Finds the luxels of the block that count and see a VPL, from what is known; true if there are
+/// some. Both in one go: masks are written in halves, and whoever reads them as one waits for it.
 template <KnownVisibility V>
-[[gnu::always_inline]] inline BlockMask known_mask(const HitBlock& block, VplIndex j,
-                                                   const V& known) {
+[[gnu::always_inline]] inline bool find_known(const HitBlock& block, VplIndex j, const V& known,
+                                              BlockMask& lit) {
     const std::uint16_t* const masks = known.block_masks(block.place.tile, block.place.block, j);
-    BlockMask mask;
-    for (std::uint32_t group = 0; group < groups_per_block; ++group)
-        mask.packet[group] = masks[group] & block.candidates[group];
-    return mask;
+    std::uint32_t any = 0;
+    each_group([&](std::uint32_t group) {
+        lit.packet[group] = masks[group] & block.candidates[group];
+        any |= lit.packet[group];
+    });
+    return any != 0;
 }
 
 }  // namespace mir::sched::detail
