@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/detail/origin_rows.hpp"
+#include "mir/accel/detail/packet_avx512.hpp"
 #include "mir/accel/triangle_rows.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "mir/core/lanes.hpp"
@@ -10,23 +12,16 @@ namespace mir::detail {
 
 static_assert(PointPacket::width == lane_count);
 
-/// The common origin of a packet as a triangle's rows see it: row_at() of each.
-struct OriginRows {
-    float u = 0.0f;
-    float v = 0.0f;
-    float s = 0.0f;
-};
-
-inline OriginRows origin_rows(const TriangleRows& rows, Vec3 origin) {
-    return {row_at(rows.u, origin), row_at(rows.v, origin), row_at(rows.s, origin)};
-}
-
 /// Lanes of `open` whose segments from the origin the triangle hits: hits_segment(), bit for bit.
 /// Where the ends lie on opposite sides the sign of the crossing's d is that of -s at the origin,
 /// which is why the edges are asked for that side alone.
 template <InstructionSet Set = InstructionSet::baseline>
 std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from, const PointPacket& points,
                         std::uint32_t open) {
+#if defined(__x86_64__)
+    if constexpr (Set == InstructionSet::avx512)
+        return open & hit_lanes_by_avx512(rows, from, points);
+#endif
     const float side = from.s < 0.0f ? 1.0f : -1.0f;
     return open & lanes_where<Set>([&](std::uint32_t k) {
                const Vec3 to{points.x[k], points.y[k], points.z[k]};
@@ -49,6 +44,10 @@ inline std::uint32_t lanes_of_packet(std::uint32_t lanes, std::uint32_t p) {
 template <InstructionSet Set, std::uint32_t Packets>
 std::uint32_t hit_lanes_of(const TriangleRows& rows, Vec3 origin, const PointPacket* points,
                            std::uint32_t open) {
+#if defined(__x86_64__)
+    if constexpr (Set == InstructionSet::avx512)
+        return open & hit_lanes_by_avx512<Packets>(rows, origin, points);
+#endif
     const OriginRows from = origin_rows(rows, origin);
     std::uint32_t hit = 0;
     for (std::uint32_t p = 0; p < Packets; ++p)

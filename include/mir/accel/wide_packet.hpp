@@ -47,18 +47,23 @@ class PacketSlabs {
         }
     }
 
-    /// Lanes whose segments meet the box of child `k`, those for which met_children() finds it.
+    /// Lanes whose segments meet the box of child `k`, those for which met_children() finds it but
+    /// for rounding.
+    [[nodiscard]] std::uint32_t meet(const WideNode& node, std::uint32_t k) const {
+        return mixed_ ? meet<true>(node, k) : meet<false>(node, k);
+    }
+
+ private:
+    /// If `Mixed`, which planes of the box lanes enter by is found lane by lane.
+    template <bool Mixed>
     [[nodiscard]] std::uint32_t meet(const WideNode& node, std::uint32_t k) const {
         const auto& planes = node.planes;
         const Vec3 near(planes[near_[0]][k], planes[near_[1]][k], planes[near_[2]][k]);
         const Vec3 far(planes[far_[0]][k], planes[far_[1]][k], planes[far_[2]][k]);
-        return mixed_ ? meet<true>(near, far) : meet<false>(near, far);
-    }
-
- private:
-    /// For the planes of one box. If `Mixed`, which of them lanes enter by is found lane by lane.
-    template <bool Mixed>
-    [[nodiscard]] std::uint32_t meet(Vec3 near, Vec3 far) const {
+#if defined(__x86_64__)
+        if constexpr (Set == InstructionSet::avx512)
+            return meet_by_avx512<Mixed>(inverse_, offset_, near, far);
+#endif
         return lanes_where<Set>([&](std::uint32_t lane) {
             const auto at = [&](int axis, float plane) {
                 return loose::mul_sub(plane, inverse_[axis].at[lane], offset_[axis].at[lane]);
@@ -201,21 +206,18 @@ class WidePacketWalk {
                 lanes |= slabs_[p].meet(node, k) << p * lane_count;
             lanes &= open_;
             const std::uint32_t ref = node.ref[k];
-            prefetch_child(node.is_inner(k), ref);
-            // Written in any case, and counted where there is something: that takes no branch.
+            const auto is_inner = static_cast<std::uint32_t>(node.is_inner(k));
+            const auto is_met = static_cast<std::uint32_t>(lanes != 0);
+            prefetch(below_[is_inner].from + below_[is_inner].bytes * ref, sizeof(WideNode));
+            // Written in any case, and counted where there is something: by sums and products, of
+            // which compilers make no branches.
             stack_[waiting_] = {ref, lanes};
-            waiting_ += node.is_inner(k) && lanes != 0 ? 1u : 0u;
+            waiting_ += is_inner & is_met;
             for (std::uint32_t t = 0; t < Round::leaf_size; ++t)
                 round.triangles[round.triangle_count + t] = ref + t;
             round.triangle_count +=
-                node.is_leaf(k) && lanes != 0 ? static_cast<std::uint32_t>(node.count[k]) : 0u;
+                static_cast<std::uint32_t>(std::max(node.count[k], WideNode::inner)) * is_met;
         }
-    }
-
-    void prefetch_child(bool is_node, std::uint32_t ref) const {
-        const auto* const at = is_node ? reinterpret_cast<const char*>(bvh_.nodes + ref)
-                                       : reinterpret_cast<const char*>(bvh_.triangles + ref);
-        prefetch(at, sizeof(WideNode));
     }
 
     void ask_triangles(const Round& round) {
@@ -240,7 +242,16 @@ class WidePacketWalk {
         return there;
     }
 
+    /// Where children lie, by their number.
+    struct Below {
+        const char* from;
+        std::size_t bytes;  ///< of one
+    };
+
     const WideBvhView<Space::host>& bvh_;
+    const Below below_[2] = {
+        {reinterpret_cast<const char*>(bvh_.triangles), sizeof(TriangleRows)},
+        {reinterpret_cast<const char*>(bvh_.nodes), sizeof(WideNode)}};  ///< leaves, nodes
     const Hull& hull_;
     const AlphaMaskView<Space::host>* mask_;
     Vec3 origin_;
