@@ -12,8 +12,8 @@
 namespace mir {
 
 // Segments from one origin, packets of sixteen, walk a wide hierarchy together: a node is fetched
-// once, and each of its children is tested against all lanes at the same time, by the numbers and
-// with the proof of wide_traverse.hpp. Loops over lanes have no branches.
+// once, and each of its children is tested against all lanes at the same time, by the proof of
+// wide_traverse.hpp. Loops over lanes have no branches.
 
 namespace detail {
 
@@ -48,7 +48,7 @@ class PacketSlabs {
     }
 
     /// Lanes whose segments meet the box of child `k`, those for which met_children() finds it but
-    /// for rounding.
+    /// for rounding. An empty slot may be met by lanes that go both ways.
     [[nodiscard]] std::uint32_t meet(const WideNode& node, std::uint32_t k) const {
         return mixed_ ? meet<true>(node, k) : meet<false>(node, k);
     }
@@ -215,6 +215,7 @@ class WidePacketWalk {
             waiting_ += is_inner & is_met;
             for (std::uint32_t t = 0; t < Round::leaf_size; ++t)
                 round.triangles[round.triangle_count + t] = ref + t;
+            // An empty slot counts -1 triangles.
             round.triangle_count +=
                 static_cast<std::uint32_t>(std::max(node.count[k], WideNode::inner)) * is_met;
         }

@@ -16,8 +16,8 @@ namespace mir {
 // a child is visited when, by the numbers computed, t_near <= t_x <= t_far in each axis. With
 // d = to - from, a computed t is the fraction at which the segment passes a plane that is displaced
 // by at most
-//   |t d - (plane - from)| <= 3 e |plane - from| + e |plane| + e |from| <= 12 e M    (host)
-//                          <= 4 e |plane - from| + e |from|             <= 13.5 e M  (device),
+//   |t d - (plane - from)| <= 3 e |plane - from| + e |plane| + e |from| <= 12 e M    (unfused)
+//                          <= 4 e |plane - from| + e |from|             <= 13.5 e M  (fused),
 // since ends and planes lie within 1.5 M but for terms in e^2. So for d > 0
 //   t_near d <= low - from + 13.5 e M <= t_x d - 0.5 e M, and likewise on the other side.
 // A d nearer to zero than 2^-50 reach becomes one of that length: it moves X by less than

@@ -2,7 +2,7 @@
 #pragma once
 
 /// Marks a function that kernels call: compiled for host and device under nvcc, plain elsewhere.
-/// The only macro of the public headers.
+/// The only macro that public headers leave behind.
 #if defined(__CUDACC__)
 #define MIR_HD __host__ __device__
 #else

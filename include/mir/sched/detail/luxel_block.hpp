@@ -17,8 +17,8 @@ inline constexpr std::uint32_t group_size = PointPacket::width;
 inline constexpr std::uint32_t groups_per_block = BlockMask::packets;
 static_assert(groups_per_block * group_size == BlockedLayout::block_size);
 
-/// Calls `body` for each group of a block. As a loop: of sixteen scalars, which compilers make of
-/// it where they unroll first, no vector registers come.
+/// Calls `body` for each group of a block. Kept a loop, of which compilers make vectors: once they
+/// have unrolled it into sixteen numbers they do not.
 template <class Body>
 [[gnu::always_inline]] inline void each_group(const Body& body) {
     // nvcc does not know the pragma.
@@ -141,7 +141,7 @@ class BlockSight {
 };
 
 /// Finds the luxels of the block that count and see a VPL, from what is known; true if there are
-/// some. Both in one go: masks are written in halves, and whoever reads them as one waits for it.
+/// some. Both in one go: masks are stored half a vector at a time, and who reads them as one waits.
 template <KnownVisibility V>
 [[gnu::always_inline]] inline bool find_known(const HitBlock& block, VplIndex j, const V& known,
                                               BlockMask& lit) {
