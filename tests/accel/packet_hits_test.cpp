@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace {
 
@@ -16,19 +17,26 @@ using mir::Vec3;
 
 /// On a lattice of few places, so that segments meet edges, corners and planes, and ends and
 /// weights are zeros of both signs.
-Vec3 lattice_point(mir::Random& random) {
-    const auto coordinate = [&] { return std::floor(5.0f * random.next()) - 2.0f; };
+Vec3 lattice_point(mir::Random& random, float spacing) {
+    const auto coordinate = [&] { return spacing * (std::floor(5.0f * random.next()) - 2.0f); };
     return {coordinate(), coordinate(), coordinate()};
 }
 
-/// Some are no numbers.
-PointPacket lattice_packet(mir::Random& random) {
+/// The same; some are no numbers.
+Vec3 hard_point(mir::Random& random, float spacing) {
+    Vec3 p = lattice_point(random, spacing);
+    if (random.next() < 0.02f) p.x = std::numeric_limits<float>::quiet_NaN();
+    if (random.next() < 0.02f) p.z = std::numeric_limits<float>::infinity();
+    return p;
+}
+
+PointPacket hard_packet(mir::Random& random, float spacing) {
     PointPacket points;
     for (std::uint32_t k = 0; k < PointPacket::width; ++k) {
-        const Vec3 p = lattice_point(random);
-        points.x[k] = random.next() < 0.02f ? std::numeric_limits<float>::quiet_NaN() : p.x;
+        const Vec3 p = hard_point(random, spacing);
+        points.x[k] = p.x;
         points.y[k] = p.y;
-        points.z[k] = random.next() < 0.02f ? std::numeric_limits<float>::infinity() : p.z;
+        points.z[k] = p.z;
     }
     return points;
 }
@@ -47,35 +55,39 @@ struct Drawn {
     Vec3 from;
     PointPacket points[2];
     std::uint32_t open;
+    std::uint32_t hit;  ///< what segments say, one by one, of both packets
 };
 
-Drawn draw(mir::Random& random) {
+Drawn draw(mir::Random& random, float spacing) {
     Drawn d;
-    d.rows = mir::make_triangle_rows(lattice_point(random), lattice_point(random),
-                                     lattice_point(random));
-    d.from = lattice_point(random);
-    for (PointPacket& points : d.points) points = lattice_packet(random);
+    const auto corner = [&] { return lattice_point(random, spacing); };
+    d.rows = mir::make_triangle_rows(corner(), corner(), corner());
+    d.from = hard_point(random, spacing);
+    for (PointPacket& points : d.points) points = hard_packet(random, spacing);
     const auto half = [&] { return static_cast<std::uint32_t>(65536.0f * random.next()); };
     d.open = half() | half() << 16;
+    d.hit = one_by_one(d.rows, d.from, d.points[0], d.open & 0xFFFFu) |
+            one_by_one(d.rows, d.from, d.points[1], d.open >> 16) << 16;
     return d;
 }
 
-/// How often a packet or a pair of them says something else than its segments, and in `hits` how
-/// many lanes hit.
-template <mir::InstructionSet Set>
-std::uint32_t count_different(std::uint32_t draws, std::uint64_t& hits) {
+std::vector<Drawn> draw_many(std::size_t count, float spacing) {
     mir::Random random = mirtest::test_random(1);
+    std::vector<Drawn> drawn;
+    for (std::size_t i = 0; i < count; ++i) drawn.push_back(draw(random, spacing));
+    return drawn;
+}
+
+/// How often a packet or a pair of them says something else than its segments.
+template <mir::InstructionSet Set>
+std::uint32_t count_different(const std::vector<Drawn>& drawn) {
     std::uint32_t different = 0;
-    for (std::uint32_t i = 0; i < draws; ++i) {
-        const Drawn d = draw(random);
-        const std::uint32_t first = one_by_one(d.rows, d.from, d.points[0], d.open & 0xFFFFu);
-        const std::uint32_t second = one_by_one(d.rows, d.from, d.points[1], d.open >> 16);
+    for (const Drawn& d : drawn) {
         const std::uint32_t pair =
             mir::detail::hit_lanes_of<Set, 2>(d.rows, d.from, d.points, d.open);
         const std::uint32_t alone = mir::detail::hit_lanes<Set>(
             d.rows, mir::detail::origin_rows(d.rows, d.from), d.points[0], d.open & 0xFFFFu);
-        different += pair != (first | second << 16) || alone != first ? 1u : 0u;
-        hits += static_cast<std::uint64_t>(std::popcount(pair));
+        different += pair != d.hit || alone != (d.hit & 0xFFFFu) ? 1u : 0u;
     }
     return different;
 }
@@ -83,13 +95,15 @@ std::uint32_t count_different(std::uint32_t draws, std::uint64_t& hits) {
 }  // namespace
 
 TEST_CASE("Packets hit a triangle where their segments do, bit for bit") {
-    constexpr std::uint32_t draws = 20000;
-    for (const mir::InstructionSet wanted : mirtest::instruction_sets()) {
-        std::uint32_t different = draws;
-        std::uint64_t hits = 0;
-        mir::run_with(wanted, [&](auto set) { different = count_different<set()>(draws, hits); });
-        CAPTURE(static_cast<int>(wanted));
-        CHECK(different == 0);
-        CHECK(hits > draws);
-    }
+    // With the smallest and the largest products vanish and overflow.
+    const float spacing = GENERATE(0x1p-70f, 0x1p-40f, 0x1p-20f, 1.0f, 0x1p20f, 0x1p60f);
+    const std::vector<Drawn> drawn = draw_many(20000, spacing);
+    std::size_t hits = 0;
+    for (const Drawn& d : drawn) hits += static_cast<std::size_t>(std::popcount(d.hit));
+    if (spacing == 1.0f) CHECK(hits > drawn.size());
+    for (const mir::InstructionSet set : mirtest::instruction_sets())
+        mir::run_with(set, [&](auto s) {
+            INFO("spacing " << spacing << ", instruction set " << static_cast<int>(set));
+            CHECK(count_different<decltype(s)::value>(drawn) == 0);
+        });
 }

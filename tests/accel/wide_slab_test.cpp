@@ -2,6 +2,7 @@
 #include "accel/wide_nodes.hpp"
 #include "conformance/worlds.hpp"
 #include "mir/accel/detail/packet_hull.hpp"
+#include "mir/accel/wide_packet.hpp"
 #include "mir/accel/wide_traverse.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
@@ -126,24 +127,46 @@ struct Verdicts {
     std::size_t culled_inside = 0;  ///< although met by more than is reserved
     std::size_t culled_met = 0;     ///< although met
     std::size_t kept_outside = 0;   ///< although missed by more than is reserved
+
+    void add(const Bounds& box, const SegmentEnds& s, bool kept, long double reserved) {
+        const bool is_met = mirtest::meets(box, 0, s.from, s.to);
+        met += is_met ? 1 : 0;
+        culled_met += is_met && !kept ? 1 : 0;
+        if (!kept && mirtest::meets(box, -reserved, s.from, s.to)) ++culled_inside;
+        if (kept && !mirtest::meets(box, reserved, s.from, s.to)) ++kept_outside;
+    }
 };
 
 Verdicts judge(float scale, std::size_t nodes, std::uint64_t index) {
-    const long double reserved = reserved_at(scale);
     Verdicts verdicts;
     judge_boxes(scale, nodes, index,
                 [&](HardBoxes&, const mir::WideNode& node, std::uint32_t slot, const Bounds& box,
                     const SegmentEnds& s) {
                     const mir::detail::SlabSegment segment(s.from, s.to, mir::reach_of(scale));
                     const auto found = mir::detail::met_children(node, segment, 1.0f);
-                    const bool kept = (found.mask >> slot & 1u) != 0;
-                    const bool met = mirtest::meets(box, 0, s.from, s.to);
-                    verdicts.met += met ? 1 : 0;
-                    verdicts.culled_met += met && !kept ? 1 : 0;
-                    if (!kept && mirtest::meets(box, -reserved, s.from, s.to))
-                        ++verdicts.culled_inside;
-                    if (kept && !mirtest::meets(box, reserved, s.from, s.to))
-                        ++verdicts.kept_outside;
+                    verdicts.add(box, s, (found.mask >> slot & 1u) != 0, reserved_at(scale));
+                });
+    return verdicts;
+}
+
+/// Of two lanes of a packet, all of which are active or only those two.
+template <mir::InstructionSet Set>
+Verdicts judge_lanes(float scale, std::size_t nodes, std::uint64_t index) {
+    Verdicts verdicts;
+    std::uint32_t asked = 0;
+    judge_boxes(scale, nodes, index,
+                [&](HardBoxes& boxes, const mir::WideNode& node, std::uint32_t slot,
+                    const Bounds& box, const SegmentEnds& s) {
+                    const std::uint32_t lane = ++asked % mir::PointPacket::width;
+                    const std::uint32_t other = asked / 7 % mir::PointPacket::width;
+                    const mir::PointPacket points = boxes.points_around(s.to, lane);
+                    mir::detail::PacketSlabs<Set> slabs;
+                    slabs.set(s.from, points, asked % 3 == 0 ? 0xFFFFu : 1u << lane | 1u << other,
+                              mir::reach_of(scale));
+                    const std::uint32_t kept = slabs.meet(node, slot);
+                    for (const std::uint32_t k : {lane, other})
+                        verdicts.add(box, {s.from, {points.x[k], points.y[k], points.z[k]}},
+                                     (kept >> k & 1u) != 0, reserved_at(scale));
                 });
     return verdicts;
 }
@@ -225,6 +248,20 @@ TEST_CASE("A box is kept when a segment meets it by more than is reserved, else 
     CHECK(verdicts.kept_outside == 0);
     // Without the slack that accept boxes bring along, boxes that are met would be lost.
     CHECK(verdicts.culled_met > 0);
+}
+
+TEST_CASE("Lanes of a packet keep and cull boxes within what is reserved, as single segments do") {
+    const float scale = GENERATE(1e-3f, 1.0f, 24.0f, 1e3f, 1e12f, 1e36f);
+    for (const mir::InstructionSet set : mirtest::instruction_sets())
+        mir::run_with(set, [&](auto s) {
+            const Verdicts verdicts = judge_lanes<decltype(s)::value>(scale, 10000, 3);
+            INFO("scale " << scale << ", instruction set " << static_cast<int>(set));
+            CHECK(verdicts.met > 20000);
+            CHECK(verdicts.met < 140000);
+            CHECK(verdicts.culled_inside == 0);
+            CHECK(verdicts.kept_outside == 0);
+            CHECK(verdicts.culled_met > 0);
+        });
 }
 
 TEST_CASE("A child begins where the segment enters it, and none is met behind the end") {

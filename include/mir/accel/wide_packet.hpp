@@ -7,6 +7,8 @@
 #include "mir/accel/wide_traverse.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 
 namespace mir {
@@ -90,6 +92,20 @@ class PacketSlabs {
 /// A bit for each child of a node.
 inline constexpr std::uint32_t all_slots = (1u << WideNode::width) - 1u;
 
+/// The slots of a set, from the lowest; behind them zeros.
+using SlotList = std::array<std::uint8_t, WideNode::width>;
+
+/// By set: a bit for each slot that is in it.
+inline constexpr auto slot_lists = [] {
+    std::array<SlotList, all_slots + 1> lists{};
+    for (std::uint32_t slots = 0; slots <= all_slots; ++slots) {
+        std::uint32_t count = 0;
+        for (std::uint32_t k = 0; k < WideNode::width; ++k)
+            if ((slots >> k & 1u) != 0) lists[slots][count++] = static_cast<std::uint8_t>(k);
+    }
+    return lists;
+}();
+
 /// Asks the cache for what will be read soon.
 inline void prefetch(const void* from, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; i += 64)
@@ -143,11 +159,6 @@ class WidePacketWalk {
         std::uint32_t lanes;
     };
 
-    struct Child {
-        const WideNode* parent;
-        std::uint32_t slot;
-    };
-
     /// Nodes are visited some at a time, so that loops are long and know their lengths before they
     /// begin: a processor guesses wrong once a loop, not once a node.
     static constexpr std::uint32_t nodes_at_once = 8;
@@ -164,7 +175,9 @@ class WidePacketWalk {
         static constexpr std::uint32_t most_children = nodes_at_once * WideNode::width;
         static constexpr std::uint32_t leaf_size = WideBvhOptions::largest_leaf;
 
-        Child children[most_children];  ///< that the hull meets
+        const WideNode* parents[nodes_at_once];
+        std::uint32_t parent_count = 0;
+        std::uint8_t children[most_children];  ///< that the hull meets: 8 times parent, and slot
         std::uint32_t child_count = 0;
         std::uint32_t triangles[most_children * leaf_size];  ///< of leaves that lanes meet
         std::uint32_t triangle_count = 0;
@@ -189,18 +202,21 @@ class WidePacketWalk {
     /// Lists the children of a node, out of `among`, that the hull meets.
     void meet_hull(const WideNode& node, std::uint32_t among, Round& round) const {
         const std::uint32_t slots = hull_.template met<Set>(node) & among;
-        for (std::uint32_t k = 0; k < WideNode::width; ++k) {
-            round.children[round.child_count] = {&node, k};
-            round.child_count += slots >> k & 1u;
-        }
+        const auto first = static_cast<std::uint8_t>(round.parent_count * WideNode::width);
+        const SlotList& list = slot_lists[slots];
+        std::uint8_t* const to = round.children + round.child_count;
+        for (std::uint32_t i = 0; i < WideNode::width; ++i)
+            to[i] = static_cast<std::uint8_t>(list[i] + first);
+        round.child_count += static_cast<std::uint32_t>(std::popcount(slots));
+        round.parents[round.parent_count++] = &node;
     }
 
     /// Puts those of the listed children that open lanes meet on the stack, or lists their
     /// triangles.
     void meet_lanes(Round& round) {
         for (std::uint32_t i = 0; i < round.child_count; ++i) {
-            const WideNode& node = *round.children[i].parent;
-            const std::uint32_t k = round.children[i].slot;
+            const WideNode& node = *round.parents[round.children[i] / WideNode::width];
+            const std::uint32_t k = round.children[i] % WideNode::width;
             std::uint32_t lanes = 0;
             for (std::uint32_t p = 0; p < Packets; ++p)
                 lanes |= slabs_[p].meet(node, k) << p * lane_count;
@@ -208,7 +224,11 @@ class WidePacketWalk {
             const std::uint32_t ref = node.ref[k];
             const auto is_inner = static_cast<std::uint32_t>(node.is_inner(k));
             const auto is_met = static_cast<std::uint32_t>(lanes != 0);
-            prefetch(below_[is_inner].from + below_[is_inner].bytes * ref, sizeof(WideNode));
+            // What nobody meets would keep what is needed waiting. In its place the node itself is
+            // asked for, which is at hand.
+            const void* const wanted[2] = {&node,
+                                           below_[is_inner].from + below_[is_inner].bytes * ref};
+            prefetch(wanted[is_met], sizeof(WideNode));
             // Written in any case, and counted where there is something: by sums and products, of
             // which compilers make no branches.
             stack_[waiting_] = {ref, lanes};
