@@ -177,7 +177,7 @@ class WidePacketWalk {
 
         const WideNode* parents[nodes_at_once];
         std::uint32_t parent_count = 0;
-        std::uint8_t children[most_children];  ///< that the hull meets: 8 times parent, and slot
+        std::uint8_t children[most_children];  ///< that the hull meets: parent, slot
         std::uint32_t child_count = 0;
         std::uint32_t triangles[most_children * leaf_size];  ///< of leaves that lanes meet
         std::uint32_t triangle_count = 0;
@@ -225,7 +225,7 @@ class WidePacketWalk {
             const auto is_inner = static_cast<std::uint32_t>(node.is_inner(k));
             const auto is_met = static_cast<std::uint32_t>(lanes != 0);
             // What nobody meets would keep what is needed waiting. In its place the node itself is
-            // asked for, which is at hand.
+            // asked for, which is at hand: a look-up, because a branch would be guessed wrong.
             const void* const wanted[2] = {&node,
                                            below_[is_inner].from + below_[is_inner].bytes * ref};
             prefetch(wanted[is_met], sizeof(WideNode));
