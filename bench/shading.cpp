@@ -65,8 +65,8 @@ void shading(benchmark::State& state, const std::string& name, mir::InstructionS
         state.SkipWithError("this processor does not have these instructions");
         return;
     }
-    mir::cpu::TbbExecutor one_thread(1);
-    const Known known(bench_scene(name), one_thread);
+    mir::cpu::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
+    const Known known(bench_scene(name), executor);
     double blocks = 0.0;
     double plain = 0.0;
     for (auto _ : state) {
@@ -75,11 +75,11 @@ void shading(benchmark::State& state, const std::string& name, mir::InstructionS
         const double before = blocks;
         {
             const mir::Stopwatch watch(blocks);
-            by_blocks = known.shade(mir::sched::CpuBlocks{one_thread, nullptr, set});
+            by_blocks = known.shade(mir::sched::CpuBlocks{executor, nullptr, set});
         }
         {
             const mir::Stopwatch watch(plain);
-            by_luxels = known.shade(mir::sched::Cpu{one_thread});
+            by_luxels = known.shade(mir::sched::Cpu{executor});
         }
         if (!same_bits(by_blocks, by_luxels)) state.SkipWithError("blocks changed a bit");
         state.SetIterationTime(blocks - before);
@@ -102,6 +102,9 @@ const int registered = [] {
             benchmark::RegisterBenchmark(
                 (std::string("shading/") + title + "/" + scene).c_str(),
                 [scene, set = set](benchmark::State& s) { shading(s, scene, set); })
+                ->ArgName("threads")
+                ->Arg(1)
+                ->Arg(0)
                 ->UseManualTime()
                 ->Iterations(5)
                 ->Unit(benchmark::kMillisecond);

@@ -170,10 +170,11 @@ class WidePacketWalk {
         (nodes_at_once * WideBvhView<Space::host>::max_depth + 1) * WideNode::width +
         WaitingNodes::capacity;
 
-    /// What a round finds. Without values beyond the counts.
+    /// What a round finds. What lies beyond the counts means nothing.
     struct Round {
         static constexpr std::uint32_t most_children = nodes_at_once * WideNode::width;
         static constexpr std::uint32_t leaf_size = WideBvhOptions::largest_leaf;
+        static_assert(most_children <= 256, "children are named by a byte");
 
         const WideNode* parents[nodes_at_once];
         std::uint32_t parent_count = 0;
