@@ -62,7 +62,8 @@ struct DoubleReach : archetype::Shading {
 static_assert(mir::Shading<DoubleReach> && !mir::ReachLimitedShading<DoubleReach>);
 
 struct RedAtDistance : archetype::Shading {
-    [[nodiscard]] float at_distance(const mir::Hit&, const Surface&, const mir::Vpl&, float) const {
+    [[nodiscard]] float at_distance(const mir::Hit&, const Surface&, const mir::Vpl&, mir::Vec3,
+                                    float) const {
         return 1.0f;
     }
 };

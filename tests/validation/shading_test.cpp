@@ -93,10 +93,8 @@ struct Buggy {
     Rgb operator()(const Prepared& p, const Vpl& vpl) const {
         return (*this)(p.hit, p.surface, vpl);
     }
-    [[nodiscard]] static float inverse_distance(const Hit& hit, const Vpl& vpl) {
-        return 1.0f / glm::length(vpl.position - hit.position);
-    }
-    [[nodiscard]] Rgb at_distance(const Hit& hit, const Surface& s, const Vpl& vpl,
+    [[nodiscard]] static float inverse_distance(Vec3 way) { return 1.0f / glm::length(way); }
+    [[nodiscard]] Rgb at_distance(const Hit& hit, const Surface& s, const Vpl& vpl, Vec3 /*way*/,
                                   float inverse) const {
         const float rounded = static_cast<float>(std::lround(4096.0f * inverse)) / 4096.0f;
         const Rgb c = (*this)(hit, s, vpl);

@@ -143,9 +143,9 @@ struct DistanceShading : Shading {
     using Shading::Shading;
 
     /// 1/d, m^-1, if all lay a metre away.
-    [[nodiscard]] static float inverse_distance(const Hit&, const Vpl&) { return 1.0f; }
-    /// What it adds at any distance; 1/d, m^-1, is not looked at.
-    [[nodiscard]] Rgb at_distance(const Hit&, const Surface&, const Vpl& vpl, float) const {
+    [[nodiscard]] static float inverse_distance(Vec3) { return 1.0f; }
+    /// What it adds at any distance; neither the way, metres, nor 1/d, m^-1, is looked at.
+    [[nodiscard]] Rgb at_distance(const Hit&, const Surface&, const Vpl& vpl, Vec3, float) const {
         return vpl.intensity;
     }
 };

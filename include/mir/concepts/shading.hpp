@@ -23,15 +23,15 @@ concept Shading = DeviceCopyable<F> &&
 };
 
 /// Shading that can be told the distance beforehand, which takes a root and a quotient that most
-/// others wait for: f.at_distance(h, s, v, F::inverse_distance(h, v)) is f(h, s, v) in every bit. F
-/// declares it itself: what derives from such a shading may shade otherwise, so that its base's
-/// does not count.
+/// others wait for: with the way w = v.position - h.position, f.at_distance(h, s, v, w,
+/// F::inverse_distance(w)) is f(h, s, v) in every bit. F declares it itself: what derives from such
+/// a shading may shade otherwise, so that its base's does not count.
 template <class F>
 concept DistanceShading = Shading<F> &&
-    std::same_as<decltype(&F::at_distance),
-                 Rgb (F::*)(const Hit&, const typename F::Surface&, const Vpl&, float) const> &&
-    requires(const Hit& h, const Vpl& v) {
-    { F::inverse_distance(h, v) } -> std::same_as<float>;
+    std::same_as<decltype(&F::at_distance), Rgb (F::*)(const Hit&, const typename F::Surface&,
+                                                       const Vpl&, Vec3, float) const> &&
+    requires(Vec3 w) {
+    { F::inverse_distance(w) } -> std::same_as<float>;
 };
 
 /// Shading that finds once, in a type of its own, what it makes of a luxel for all VPLs: with

@@ -49,15 +49,15 @@ struct VplShading {
                                                  const Vpl& vpl) const {
         return (*this)(prepared(hit, s), vpl);
     }
-    /// 1/d, m^-1.
-    [[nodiscard, gnu::always_inline]] MIR_HD static float inverse_distance(const Hit& hit,
-                                                                           const Vpl& vpl) {
-        return mir::inverse_distance<Rounding>(hit.position, vpl);
+    /// 1/d, m^-1, of the way from a luxel to a VPL, metres.
+    [[nodiscard, gnu::always_inline]] MIR_HD static float inverse_distance(Vec3 way) {
+        return mir::inverse_distance<Rounding>(way);
     }
-    /// Radiance, that being known.
+    /// Radiance, both being known.
     [[nodiscard, gnu::always_inline]] MIR_HD Rgb at_distance(const Hit& hit, const Surface& s,
-                                                             const Vpl& vpl, float inverse) const {
-        return of(prepared(hit, s), vpl, inverse);
+                                                             const Vpl& vpl, Vec3 way,
+                                                             float inverse) const {
+        return of(prepared(hit, s), vpl, way, inverse);
     }
     /// What is the same for all VPLs.
     [[nodiscard, gnu::always_inline]] MIR_HD Prepared prepared(const Hit& hit,
@@ -66,13 +66,14 @@ struct VplShading {
     }
     /// Radiance of a luxel that was prepared.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Prepared& luxel, const Vpl& vpl) const {
-        return of(luxel, vpl, mir::inverse_distance<Rounding>(luxel.position, vpl));
+        const Vec3 way = vpl.position - luxel.position;
+        return of(luxel, vpl, way, mir::inverse_distance<Rounding>(way));
     }
 
  private:
-    [[nodiscard, gnu::always_inline]] MIR_HD Rgb of(const Prepared& luxel, const Vpl& vpl,
+    [[nodiscard, gnu::always_inline]] MIR_HD Rgb of(const Prepared& luxel, const Vpl& vpl, Vec3 way,
                                                     float inverse) const {
-        const Vec3 wi = (vpl.position - luxel.position) * inverse;
+        const Vec3 wi = way * inverse;
         const float cos_l = dot<Rounding>(wi, luxel.normal);
         const float cos_v = -dot<Rounding>(wi, vpl.normal);
         const float g = strict::at_most(geometry_term(cos_l, cos_v, inverse), bound);
@@ -92,8 +93,9 @@ struct RemovedByBound {
     /// Radiance towards the viewer, W m^-2 sr^-1; 0 where G is no larger than the bound.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
-        const float inverse = inverse_distance<SeparateRounding>(hit.position, vpl);
-        const Vec3 wi = (vpl.position - hit.position) * inverse;
+        const Vec3 way = vpl.position - hit.position;
+        const float inverse = inverse_distance<SeparateRounding>(way);
+        const Vec3 wi = way * inverse;
         const float excess = geometry_term(wi, inverse, s.normal, vpl.normal) - bound;
         if (!(excess > 0.0f)) return {};
         return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * excess;

@@ -103,7 +103,8 @@ void expect_same_at_distance(const F& shade, const MakeSurface& surface, Report&
     for (int i = 0; i < 20000; ++i) {
         const ShadedPlace at = random_shaded_place(random);
         const auto s = surface(at.normal, at.wo);
-        const Rgb told = shade.at_distance(at.hit, s, at.vpl, F::inverse_distance(at.hit, at.vpl));
+        const Vec3 way = at.vpl.position - at.hit.position;
+        const Rgb told = shade.at_distance(at.hit, s, at.vpl, way, F::inverse_distance(way));
         different += bits_of(told) == bits_of(shade(at.hit, s, at.vpl)) ? 0 : 1;
     }
     report.expect(different == 0, "at_distance() is the same in every bit",

@@ -32,25 +32,40 @@ constexpr std::uint32_t lanes_shaded_by(InstructionSet set) {
     return set == InstructionSet::avx2 ? 8 : 4;
 }
 
-/// 1/d, m^-1, of each luxel of a run and a VPL.
+/// Where a VPL lies from each luxel of a run, metres, and 1/d, m^-1.
+struct WaysAhead {
+    mir::detail::LaneFloats x;
+    mir::detail::LaneFloats y;
+    mir::detail::LaneFloats z;
+    mir::detail::LaneFloats inverse;
+
+    template <DistanceShading F>
+    [[gnu::always_inline]] void find(std::uint32_t k, const Hit& hit, const Vpl& vpl) {
+        const Vec3 way = vpl.position - hit.position;
+        x.at[k] = way.x;
+        y.at[k] = way.y;
+        z.at[k] = way.z;
+        inverse.at[k] = F::inverse_distance(way);
+    }
+};
+
+/// Finds those of a VPL.
 template <DistanceShading F, std::uint32_t First, std::uint32_t Lanes>
-[[gnu::always_inline]] inline void find_inverse_distances(LaneRun<First, Lanes>,
-                                                          SoaView<const Hit> hits, Vpl vpl,
-                                                          mir::detail::LaneFloats& inverse) {
-    for (std::uint32_t k = 0; k < Lanes; ++k)
-        inverse.at[k] = F::inverse_distance(hits.load(k), vpl);
+[[gnu::always_inline]] inline void find_ways(LaneRun<First, Lanes>, SoaView<const Hit> hits,
+                                             Vpl vpl, WaysAhead& ahead) {
+    for (std::uint32_t k = 0; k < Lanes; ++k) ahead.find<F>(k, hits.load(k), vpl);
 }
 
 /// Adds the VPL to the luxels of a run whose bit is set in `lit`, which is the group's. Every lane
 /// is computed, so that the loop becomes one pass over vector registers. A root and a quotient wait
 /// for one another at the beginning of most shadings, and no processor looks far enough ahead to
-/// begin with the next VPL meanwhile: a DistanceShading finds the inverse distances of this VPL in
-/// `inverse`, which is then given those of the `next`.
+/// begin with the next VPL meanwhile: a DistanceShading finds those of this VPL in `ahead`, which
+/// is then given those of the `next`, the ways to it among them, which would else be found twice.
 template <std::uint32_t First, std::uint32_t Lanes, Shading F>
 [[gnu::always_inline]] inline void add_shaded(LaneRun<First, Lanes>, SoaView<const Hit> hits,
                                               SoaView<const typename F::Surface> surfaces, Vpl vpl,
                                               Vpl next, F shade, std::uint32_t lit,
-                                              mir::detail::LaneFloats& __restrict inverse,
+                                              WaysAhead& __restrict ahead,
                                               GroupRadiance& __restrict sum) {
     // Without the promise that the sum is no input, a compiler takes the lanes one by one.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -59,9 +74,10 @@ template <std::uint32_t First, std::uint32_t Lanes, Shading F>
     for (std::uint32_t k = 0; k < Lanes; ++k) {
         Rgb c;
         if constexpr (DistanceShading<F>) {
-            const float now = inverse.at[k];
-            inverse.at[k] = F::inverse_distance(hits.load(k), next);
-            c = shade.at_distance(hits.load(k), surfaces.load(k), vpl, now);
+            const Vec3 way{ahead.x.at[k], ahead.y.at[k], ahead.z.at[k]};
+            const float inverse = ahead.inverse.at[k];
+            ahead.find<F>(k, hits.load(k), next);
+            c = shade.at_distance(hits.load(k), surfaces.load(k), vpl, way, inverse);
         } else {
             c = shade(hits.load(k), surfaces.load(k), vpl);
         }

@@ -86,8 +86,8 @@ class LitVpls {
         const auto hits = starting_at(block.hits, group * group_size + Run::first);
         const auto surfaces = starting_at(block.surfaces, group * group_size + Run::first);
         auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-        mir::detail::LaneFloats ahead;
-        if constexpr (DistanceShading<F>) find_inverse_distances<F>(Run{}, hits, vpls_[i], ahead);
+        WaysAhead ahead;
+        if constexpr (DistanceShading<F>) find_ways<F>(Run{}, hits, vpls_[i], ahead);
         do {
             left &= left - 1;
             // After the last, once more the last.
