@@ -41,8 +41,8 @@ struct Treatment {
     std::string name;
     mir::BoundPolicy::Kind bound = mir::BoundPolicy::Kind::automatic;
     std::uint32_t compensate = 0;
-    float vsl = 0.0f;             ///< scale of the spheres' radii; 0: points
-    std::optional<float> glossy;  ///< least roughness of the lobes; none: Lambertian VPLs
+    float vsl = 0.0f;               ///< scale of the spheres' radii; 0: points
+    std::optional<float> glossy{};  ///< least roughness of the lobes; none: Lambertian VPLs
 };
 
 std::vector<Treatment> treatments(const BoundOptions& o) {

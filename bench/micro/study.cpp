@@ -56,12 +56,12 @@ std::vector<SurfelRay> gather_rays(const SceneStudy& s, std::uint32_t each, floa
 
 void trace(const SurfelTree& tree, std::span<const SurfelRay> rays) {
     // Volatile, so that no search is left out.
-    volatile float found = 0.0f;
+    [[maybe_unused]] volatile float found = 0.0f;
     for (const SurfelRay& ray : rays) found = closest_surfel(tree.view(), ray).t;
 }
 
 void ask_all(const SurfelTree& tree, std::span<const SurfelRay> rays) {
-    volatile float found = 0.0f;
+    [[maybe_unused]] volatile float found = 0.0f;
     for (const SurfelRay& ray : rays) {
         mir::SurfelHit hit;
         for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)

@@ -57,6 +57,26 @@ TEST_CASE("nothing comes from below a horizon") {
         is_black(shade(ground, surface(-up), vpl({0, 0, 1}, -up))));  // shading normal turned away
 }
 
+TEST_CASE("the inverse distance has limits at both ends") {
+    const auto at = [](float d) {
+        return mir::inverse_distance<mir::FusedRounding>(Vec3(0.0f, 0.0f, -d));
+    };
+    CHECK(at(0.0f) == 0x1p50f);
+    CHECK(at(0x1p-60f) == 0x1p50f);
+    CHECK(at(0x1p-50f) == 0x1p50f);
+    CHECK(at(0x1p-49f) == 0x1p49f);
+    CHECK(at(0x1p63f) == 0x1p-63f);
+}
+
+TEMPLATE_TEST_CASE("a VPL that touches a luxel adds nothing", "", Lambert, mir::CookTorrance) {
+    const auto params = material_params(mir::Material{}, TestType{});
+    const mir::Surface<typename TestType::Params> s{up, up, {}, params};
+    for (const Vec3 normal : {-up, up, Vec3(1, 0, 0)}) {
+        const Rgb l = VplShading<TestType>{}(ground, s, vpl(ground.position, normal));
+        CHECK((l.r == 0.0f && l.g == 0.0f && l.b == 0.0f));
+    }
+}
+
 TEST_CASE("the bound caps the geometry term and nothing else") {
     const Vpl near = vpl({0, 0, 0.1f}, -up);
     const Rgb bounded = VplShading<Lambert>{10.0f}(ground, surface(), near);

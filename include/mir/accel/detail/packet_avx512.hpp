@@ -92,6 +92,7 @@ MIR_AVX512 inline std::uint32_t hit_lanes_by_avx512(const TriangleRows& rows,
 template <std::uint32_t Packets>
 MIR_AVX512 inline std::uint32_t hit_lanes_by_avx512(const TriangleRows& rows, Vec3 origin,
                                                     const PointPacket* points) {
+    static_assert(Packets * PointPacket::width <= 32, "a word has a bit for each lane");
     const Points512 at = spread_512(origin);
     const Origin512 from{row_at_512(rows.u, at), row_at_512(rows.v, at), row_at_512(rows.s, at)};
     std::uint32_t hit = 0;
