@@ -102,7 +102,7 @@ std::uint32_t count_different(const std::vector<Drawn>& drawn) {
 }  // namespace
 
 TEST_CASE("Packets hit a triangle where their segments do, bit for bit") {
-    // Values are exact; rounded; products vanish; differences are infinite.
+    // Places are exact; rounded; so close that products vanish; so far that products overflow.
     const auto [seed, spacing] =
         GENERATE(table<std::uint64_t, float>({{1, 1.0f}, {2, 0.1f}, {3, 0x1p-70f}, {4, 0x1p125f}}));
     CAPTURE(spacing);

@@ -22,8 +22,8 @@ concept Shading = DeviceCopyable<F> &&
     { f(h, s, v) } -> std::same_as<Rgb>;
 };
 
-/// Shading that can be told the distance beforehand, which takes a root and a quotient that most
-/// others wait for: with the way w = v.position - h.position, f.at_distance(h, s, v, w,
+/// Shading that can be told way and distance beforehand, which take a root and a quotient that most
+/// others wait for: with w = v.position - h.position, metres, f.at_distance(h, s, v, w,
 /// F::inverse_distance(w)) is f(h, s, v) in every bit. F declares it itself: what derives from such
 /// a shading may shade otherwise, so that its base's does not count.
 template <class F>

@@ -53,7 +53,8 @@ struct VplShading {
     [[nodiscard, gnu::always_inline]] MIR_HD static float inverse_distance(Vec3 way) {
         return mir::inverse_distance<Rounding>(way);
     }
-    /// Radiance, both being known.
+    /// Radiance, the `way` from the luxel to the VPL, metres, and `inverse`, its 1/d, m^-1, being
+    /// known.
     [[nodiscard, gnu::always_inline]] MIR_HD Rgb at_distance(const Hit& hit, const Surface& s,
                                                              const Vpl& vpl, Vec3 way,
                                                              float inverse) const {

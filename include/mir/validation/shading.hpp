@@ -95,7 +95,7 @@ void expect_nothing_skipped(const F& shade, const MakeSurface& surface, Report& 
                       std::to_string(out_of_reach) + " of 20000 values are not");
 }
 
-/// Told the distance, it answers as if it had found it.
+/// Told way and distance, it answers as if it had found them.
 template <DistanceShading F, class MakeSurface>
 void expect_same_at_distance(const F& shade, const MakeSurface& surface, Report& report) {
     Random random = numbers(67);

@@ -32,13 +32,14 @@ constexpr std::uint32_t lanes_shaded_by(InstructionSet set) {
     return set == InstructionSet::avx2 ? 8 : 4;
 }
 
-/// Where a VPL lies from each luxel of a run, metres, and 1/d, m^-1.
+/// Ways from each luxel of a run to a VPL, and their inverse distances.
 struct WaysAhead {
-    mir::detail::LaneFloats x;
-    mir::detail::LaneFloats y;
-    mir::detail::LaneFloats z;
-    mir::detail::LaneFloats inverse;
+    mir::detail::LaneFloats x;        ///< metres
+    mir::detail::LaneFloats y;        ///< metres
+    mir::detail::LaneFloats z;        ///< metres
+    mir::detail::LaneFloats inverse;  ///< 1/d, m^-1
 
+    /// Sets those of luxel `k`.
     template <DistanceShading F>
     [[gnu::always_inline]] void find(std::uint32_t k, const Hit& hit, const Vpl& vpl) {
         const Vec3 way = vpl.position - hit.position;
@@ -49,7 +50,7 @@ struct WaysAhead {
     }
 };
 
-/// Finds those of a VPL.
+/// Finds the ways to a VPL and their inverse distances.
 template <DistanceShading F, std::uint32_t First, std::uint32_t Lanes>
 [[gnu::always_inline]] inline void find_ways(LaneRun<First, Lanes>, SoaView<const Hit> hits,
                                              Vpl vpl, WaysAhead& ahead) {
@@ -59,8 +60,8 @@ template <DistanceShading F, std::uint32_t First, std::uint32_t Lanes>
 /// Adds the VPL to the luxels of a run whose bit is set in `lit`, which is the group's. Every lane
 /// is computed, so that the loop becomes one pass over vector registers. A root and a quotient wait
 /// for one another at the beginning of most shadings, and no processor looks far enough ahead to
-/// begin with the next VPL meanwhile: a DistanceShading finds those of this VPL in `ahead`, which
-/// is then given those of the `next`, the ways to it among them, which would else be found twice.
+/// begin with the next VPL meanwhile: a DistanceShading finds ways and inverse distances of this
+/// VPL in `ahead`, which is then given those of the `next`.
 template <std::uint32_t First, std::uint32_t Lanes, Shading F>
 [[gnu::always_inline]] inline void add_shaded(LaneRun<First, Lanes>, SoaView<const Hit> hits,
                                               SoaView<const typename F::Surface> surfaces, Vpl vpl,
