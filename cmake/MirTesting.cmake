@@ -34,10 +34,10 @@ endif()
 # mir_add_test(NAME source... [LIBRARIES target...] [LABELS label...])
 #
 # One test program. Each TEST_CASE becomes a test "NAME: <its sentence>"; those tagged [statistical],
-# [extended] for tests that ./test.sh leaves to .ci/run, or [slow] for those that take half a minute
-# under a sanitizer, which leaves them out, get that label besides LABELS. Two labels say
-# which sanitizers are not worth their time: all programs but those labelled `slow` are built by the
-# target memory_tests, those labelled `threads` by threaded_tests.
+# [extended] for tests that ./test.sh leaves to .ci/run, or [slow] for those that sanitizers leave
+# out, because they take them long and others run the same code, get that label besides LABELS. Two
+# labels say which sanitizers are not worth their time: all programs but those labelled `slow` are
+# built by the target memory_tests, those labelled `threads` by threaded_tests.
 function(mir_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;LABELS")
     mir_batches(sources ${name} ${arg_UNPARSED_ARGUMENTS})

@@ -1,8 +1,18 @@
 # SPDX-License-Identifier: MIT
 include_guard()
 
-set(MIR_UNITY_BATCH 6 CACHE STRING "Sources of the program mir and of its tests that are compiled \
+set(MIR_UNITY_BATCH 40 CACHE STRING "Sources of the program mir and of its tests that are compiled \
 as one: more are quicker from nothing, 1 is quicker after a change")
+
+# mir_unite(NAME SIZE)
+#
+# Compiles the sources of a program or library together, SIZE of them as one, where units are wished
+# for at all.
+function(mir_unite name size)
+    if(MIR_UNITY_BATCH GREATER 1)
+        set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+    endif()
+endfunction()
 
 # mir_batches(RESULT NAME source...)
 #

@@ -3,11 +3,11 @@
 """lint_units.py COMPILE_COMMANDS OUT
 
 Prepares linting in few large units: nearly all that a linter reads of a source is headers, the same
-for its neighbours. Writes units that include the sources, the compile commands of the units and of
-what stays alone, and prints the names of both. Sources that nothing else links to (tests,
-benchmarks, snippets) come into a namespace of their own, so that their names do not meet, and the
-headers stand before them; those that are compiled alike make a unit together, whatever their
-folders. Of others each folder makes one.
+for its neighbours. Writes units that include the sources, and their compile commands, and prints the
+names of the units. Sources that nothing else links to (tests, benchmarks, snippets, those with
+main()) come into a namespace of their own, so that their names do not meet, and the headers stand
+before them; they make units together, whatever their programs, which see the include folders and
+definitions of all. Of others each program or library makes one.
 """
 
 import collections
@@ -29,14 +29,11 @@ def is_linted(path: pathlib.Path) -> bool:
 
 
 def is_independent(path: pathlib.Path) -> bool:
-    return path.name.endswith("_test.cpp") or path.parent in (root / "bench", root / "docs/snippets")
-
-
-def stays_alone(path: pathlib.Path) -> bool:
-    """Programs of one file, and variants of which a build takes one."""
-    programs = (root / "examples", root / "bench/micro")
-    return (path.name == "main.cpp" or any(map(path.is_relative_to, programs))
-            or "with" in path.name)
+    if path.name.endswith("_test.cpp") or path.parent in (root / "bench", root / "docs/snippets"):
+        return True
+    # Inside another namespace, one of that name would not be its headers'.
+    text = path.read_text()
+    return "\nint main(" in text and not re.search(r"\nnamespace \w", text)
 
 
 def includes_of(source: pathlib.Path) -> list[str]:
@@ -83,16 +80,20 @@ def rules_of(folder: pathlib.Path) -> pathlib.Path:
     return folder if (folder / ".clang-tidy").exists() else rules_of(folder.parent)
 
 
-def how_compiled(entry: dict) -> str:
-    """The command without the names of its input and output."""
-    return re.sub(r"\S*" + re.escape(pathlib.Path(entry["file"]).name) + r"\S*", "", entry["command"])
-
-
-def family_of(path: pathlib.Path, entry: dict) -> tuple:
+def family_of(path: pathlib.Path, entry: dict) -> str:
     """Sources of one family may share a unit."""
     if is_independent(path):
-        return str(rules_of(path.parent)), how_compiled(entry)
-    return str(path.parent), ""
+        return str(rules_of(path.parent))
+    return re.search(r" -o (\S*CMakeFiles/[^/]+)/", entry["command"])[1]
+
+
+def command_of(unit: pathlib.Path, entries: list[dict]) -> str:
+    """That of the first, with what the others find and define besides."""
+    command = entries[0]["command"].replace(entries[0]["file"], str(unit))
+    flags = itertools.chain.from_iterable(
+        re.findall(r"-(?:I|D|isystem )\S+", entry["command"]) for entry in entries)
+    more = [flag for flag in dict.fromkeys(flags) if f" {flag} " not in command]
+    return " ".join([command, *more])
 
 
 def parts_of(sources: list[pathlib.Path]) -> list[list[pathlib.Path]]:
@@ -104,20 +105,18 @@ def parts_of(sources: list[pathlib.Path]) -> list[list[pathlib.Path]]:
 def main() -> None:
     commands, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     entries = {pathlib.Path(e["file"]): e for e in json.loads(commands.read_text())}
-    entries = {path: e for path, e in entries.items() if is_linted(path)}
-    listed = [e for path, e in entries.items() if stays_alone(path)]
     families = collections.defaultdict(list)
-    for path in sorted(path for path in entries if not stays_alone(path)):
+    for path in sorted(filter(is_linted, entries)):
         families[family_of(path, entries[path])].append(path)
     shutil.rmtree(out, ignore_errors=True)
+    listed = []
     for part in itertools.chain.from_iterable(map(parts_of, families.values())):
         unit = out / part[0].relative_to(root).with_suffix("") / "unit.cpp"
         unit.parent.mkdir(parents=True)
         unit.write_text(unit_of(sorted(part, key=place_in_unit)))
         copy_rules(part[0].parent, out)
-        first = entries[part[0]]
-        command = first["command"].replace(first["file"], str(unit))
-        listed.append({**first, "file": str(unit), "command": command})
+        command = command_of(unit, [entries[path] for path in part])
+        listed.append({**entries[part[0]], "file": str(unit), "command": command})
     (out / "compile_commands.json").write_text(json.dumps(listed, indent=1))
     print("\n".join(e["file"] for e in listed))
 

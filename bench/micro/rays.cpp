@@ -80,7 +80,7 @@ void embree(benchmark::State& state, const std::string& scene) {
 }
 
 template <class Run>
-void add(const std::string& what, const std::string& scene, const Run& run) {
+void add_rays(const std::string& what, const std::string& scene, const Run& run) {
     benchmark::RegisterBenchmark(("micro_rays/" + what + '/' + scene).c_str(),
                                  [scene, run](benchmark::State& s) { run(s, scene); })
         ->Unit(benchmark::kMillisecond);
@@ -88,16 +88,16 @@ void add(const std::string& what, const std::string& scene, const Run& run) {
 
 void add_hierarchy(const std::string& what, const std::string& scene,
                    const mir::SurfelTreeOptions& options, float threshold) {
-    add(what, scene, [options, threshold](benchmark::State& state, const std::string& name) {
+    add_rays(what, scene, [options, threshold](benchmark::State& state, const std::string& name) {
         hierarchy(state, name, options, threshold);
     });
 }
 
-const int registered = [] {
+const int rays_registered = [] {
     using mir::SphereFit;
     using mir::SurfelSplit;
     for (const std::string& scene : scenes_of_run()) {
-        add("brute_force", scene, brute_force);
+        add_rays("brute_force", scene, brute_force);
         for (const auto& [split, cut] :
              {std::pair{SurfelSplit::median, "median"}, {SurfelSplit::orientation, "orientation"}})
             for (const auto& [sphere, fit] : {std::pair{SphereFit::mean, "mean"},
@@ -109,7 +109,7 @@ const int registered = [] {
                                   scene, {.sphere = sphere, .split = split}, threshold);
         add_hierarchy("threshold_0.25/default", scene, {}, 0.25f);
         add_hierarchy("threshold_4/default", scene, {}, 4.0f);
-        add("embree", scene, embree);
+        add_rays("embree", scene, embree);
     }
     return 0;
 }();

@@ -6,6 +6,7 @@
 #include "conformance/worlds.hpp"
 #include "mir/accel/kd_packet.hpp"
 #include "support/catch.hpp"
+#include "support/packet_points.hpp"
 
 namespace {
 
@@ -79,9 +80,7 @@ TEST_CASE("Packets of a kd-tree answer like its single segments in every bit") {
         std::uint32_t alone = 0;
         for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k) {
             const mir::Vec3 p = segments.next().to;
-            points.x[k] = p.x;
-            points.y[k] = p.y;
-            points.z[k] = p.z;
+            mirtest::set_point(points, k, p);
             if (!mir::is_hidden(tree.view(), origin, p)) alone |= 1u << k;
         }
         if (mir::visible_in_packet(tree.view(), origin, points, 0xFFFF) != alone) ++wrong;

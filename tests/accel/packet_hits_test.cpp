@@ -4,6 +4,7 @@
 #include "conformance/worlds.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
+#include "support/packet_points.hpp"
 
 #include <bit>
 #include <cmath>
@@ -32,12 +33,8 @@ Vec3 hard_point(mir::Random& random, float spacing) {
 
 PointPacket hard_packet(mir::Random& random, float spacing) {
     PointPacket points;
-    for (std::uint32_t k = 0; k < PointPacket::width; ++k) {
-        const Vec3 p = hard_point(random, spacing);
-        points.x[k] = p.x;
-        points.y[k] = p.y;
-        points.z[k] = p.z;
-    }
+    for (std::uint32_t k = 0; k < PointPacket::width; ++k)
+        mirtest::set_point(points, k, hard_point(random, spacing));
     return points;
 }
 
@@ -46,7 +43,7 @@ std::uint32_t one_by_one(const mir::TriangleRows& rows, Vec3 from, const PointPa
                          std::uint32_t open) {
     std::uint32_t hit = 0;
     for (std::uint32_t k = 0; k < PointPacket::width; ++k)
-        if (mir::hits_segment(rows, from, {points.x[k], points.y[k], points.z[k]})) hit |= 1u << k;
+        if (mir::hits_segment(rows, from, mirtest::point_of(points, k))) hit |= 1u << k;
     return hit & open;
 }
 

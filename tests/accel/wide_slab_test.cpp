@@ -6,6 +6,8 @@
 #include "mir/accel/wide_traverse.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
+#include "support/packet_points.hpp"
+#include "support/scene_places.hpp"
 #include "support/segment_box.hpp"
 #include "support/segment_ends.hpp"
 
@@ -21,14 +23,6 @@ struct HardPacket {
     std::uint32_t lane;
     std::uint32_t other;
 
-    void put(std::uint32_t k, Vec3 p) {
-        points.x[k] = p.x;
-        points.y[k] = p.y;
-        points.z[k] = p.z;
-    }
-    [[nodiscard]] Vec3 end(std::uint32_t k) const {
-        return {points.x[k], points.y[k], points.z[k]};
-    }
     [[nodiscard]] std::uint32_t judged() const { return 1u << lane | 1u << other; }
 };
 
@@ -44,7 +38,10 @@ class HardBoxes {
         for (std::uint32_t slot = 0; slot < mir::WideNode::width; ++slot) {
             const Vec3 a = point();
             Vec3 b = random_.next() < 0.5f ? point() : a + 0.01f * point();
-            if (random_.next() < 0.2f) b[axis()] = a[0];
+            if (random_.next() < 0.2f) {
+                const int k = axis();
+                b[k] = a[k];
+            }
             for (int k = 0; k < 3; ++k)
                 node.set_bounds(k, slot, std::max(std::min(a[k], b[k]), -scale_),
                                 std::min(std::max(a[k], b[k]), scale_));
@@ -55,13 +52,16 @@ class HardBoxes {
     /// A packet one of whose lanes ends at `to`, the others close by or anywhere.
     HardPacket packet(Vec3 to) {
         HardPacket packet;
-        packet.lane = index(mir::PointPacket::width);
-        packet.other = index(mir::PointPacket::width);
+        packet.lane = mirtest::random_index(random_, mir::PointPacket::width);
+        packet.other = mirtest::random_index(random_, mir::PointPacket::width);
         const float size = random_.next() < 0.5f ? 1.5f * scale_ : 0.01f * scale_;
         for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k) {
             Vec3 p = kept(to + size * mirtest::point_in_cube(random_));
-            if (random_.next() < 0.2f) p[axis()] = to[axis()];
-            packet.put(k, k == packet.lane ? to : p);
+            if (random_.next() < 0.2f) {
+                const int flat = axis();
+                p[flat] = to[flat];
+            }
+            mirtest::set_point(packet.points, k, k == packet.lane ? to : p);
         }
         return packet;
     }
@@ -98,11 +98,7 @@ class HardBoxes {
 
  private:
     Vec3 point() { return scale_ * mirtest::point_in_cube(random_); }
-    std::uint32_t index(std::uint32_t count) {
-        return std::min(count - 1,
-                        static_cast<std::uint32_t>(static_cast<float>(count) * random_.next()));
-    }
-    int axis() { return static_cast<int>(index(3)); }
+    int axis() { return static_cast<int>(mirtest::random_index(random_, 3)); }
     Vec3 kept(Vec3 p) const { return glm::clamp(p, Vec3(-1.5f * scale_), Vec3(1.5f * scale_)); }
 
     /// On a face, edge or corner but for some units in the last place.
@@ -179,14 +175,15 @@ Verdicts judge_lanes(float scale, std::size_t nodes, std::uint64_t index) {
                         slabs.set(s.from, packet.points, active, mir::reach_of(scale));
                         const std::uint32_t kept = slabs.meet(node, slot);
                         for (const std::uint32_t k : {packet.lane, packet.other})
-                            verdicts.add(box, {s.from, packet.end(k)}, (kept >> k & 1u) != 0,
-                                         reserved_at(scale));
+                            verdicts.add(box, {s.from, mirtest::point_of(packet.points, k)},
+                                         (kept >> k & 1u) != 0, reserved_at(scale));
                     }
                 });
     return verdicts;
 }
 
-/// Of packets with such segments, each of whose hulls is asked about one box.
+/// Of packets with such segments, whose hulls, around the judged lanes and around all, are each
+/// asked about one box.
 struct HullVerdicts {
     std::size_t kept = 0;
     std::size_t culled = 0;
@@ -200,21 +197,26 @@ HullVerdicts judge_hulls(float scale, std::size_t nodes, std::uint64_t index) {
                 [&](HardBoxes& boxes, const mir::WideNode& node, std::uint32_t slot,
                     const Bounds& box, const SegmentEnds& s) {
                     const HardPacket packet = boxes.packet(s.to);
-                    // A lane of the others is active, too, so that points are on both sides.
-                    const mir::detail::PacketHull hull(s.from, packet.points, packet.judged(),
-                                                       mir::reach_of(scale));
-                    const bool kept = (hull.met<Set>(node) >> slot & 1u) != 0;
-                    verdicts.kept += kept ? 1 : 0;
-                    verdicts.culled += kept ? 0 : 1;
-                    if (!kept && mirtest::meets(box, -reserved_at(scale), s.from, s.to))
-                        ++verdicts.culled_inside;
+                    for (const std::uint32_t active : {packet.judged(), 0xFFFFu}) {
+                        const mir::detail::PacketHull hull(s.from, packet.points, active,
+                                                           mir::reach_of(scale));
+                        const bool kept = (hull.met<Set>(node) >> slot & 1u) != 0;
+                        verdicts.kept += kept ? 1 : 0;
+                        verdicts.culled += kept ? 0 : 1;
+                        if (kept) continue;
+                        for (const std::uint32_t k : {packet.lane, packet.other})
+                            if (mirtest::meets(box, -reserved_at(scale), s.from,
+                                               mirtest::point_of(packet.points, k)))
+                                ++verdicts.culled_inside;
+                    }
                 });
     return verdicts;
 }
 
 }  // namespace
 
-TEST_CASE("The hull of a packet keeps boxes that a segment meets by more than is reserved") {
+TEST_CASE("The hull of a packet keeps boxes that a segment meets by more than is reserved",
+          "[slow]") {
     const float scale = GENERATE(1e-3f, 1.0f, 24.0f, 1e3f, 1e12f, 1e36f);
     for (const mir::InstructionSet set : mirtest::instruction_sets())
         mir::run_with(set, [&](auto s) {
@@ -250,7 +252,8 @@ TEST_CASE("The hull of a packet is no larger than its segments need") {
     CHECK(met(0x0001) == 0b00100000);
 }
 
-TEST_CASE("A box is kept when a segment meets it by more than is reserved, else it may be culled") {
+TEST_CASE("A box is kept when a segment meets it by more than is reserved, else it may be culled",
+          "[slow]") {
     const float scale = GENERATE(1e-3f, 1.0f, 24.0f, 1e3f, 1e12f, 1e36f);
     const Verdicts verdicts = judge(scale, 100000, 1);
     INFO("scale " << scale << ", " << verdicts.met << " met");
@@ -262,7 +265,7 @@ TEST_CASE("A box is kept when a segment meets it by more than is reserved, else 
     CHECK(verdicts.culled_met > 0);
 }
 
-TEST_CASE("Lanes of a packet keep and cull boxes within what is reserved") {
+TEST_CASE("Lanes of a packet keep and cull boxes within what is reserved", "[slow]") {
     const float scale = GENERATE(1e-3f, 1.0f, 24.0f, 1e3f, 1e12f, 1e36f);
     for (const mir::InstructionSet set : mirtest::instruction_sets())
         mir::run_with(set, [&](auto s) {

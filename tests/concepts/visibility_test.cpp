@@ -54,10 +54,10 @@ static_assert(mir::Visibility<PacketOfBools> && !mir::PacketVisibility<PacketOfB
 
 }  // namespace
 
-TEST_CASE("Brute force keeps the axioms of Visibility, which checks the suite") {
+TEST_CASE("Brute force keeps the axioms of Visibility, which checks the suite", "[slow]") {
     mirtest::visibility_suite<mirtest::BruteForceScene>();
 }
 
-TEST_CASE("Brute force keeps the axiom of PacketVisibility, which checks the suite") {
+TEST_CASE("Brute force keeps the axiom of PacketVisibility, which checks the suite", "[slow]") {
     mirtest::packet_suite<mirtest::BruteForceScene>(200);
 }

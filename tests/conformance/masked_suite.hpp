@@ -5,6 +5,7 @@
 #include "conformance/packet_suite.hpp"
 #include "conformance/ray_caster_suite.hpp"
 #include "support/masked_scene.hpp"
+#include "support/packet_points.hpp"
 
 // What alpha masks cut away is there for no ray: single segments, packets and closest hits of an
 // engine against brute force in double precision, which looks texels up by itself.
@@ -132,7 +133,7 @@ void checkerboard_casts_its_shadow() {
         wrong += seen != (active & ~hidden) ? 1 : 0;
         for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k) {
             if ((active >> k & 1u) == 0) continue;
-            const mir::Vec3 p{points.x[k], points.y[k], points.z[k]};
+            const mir::Vec3 p = point_of(points, k);
             const bool sees = visibility.visible(apex, p);
             wrong += sees == ((hidden >> k & 1u) != 0) ? 1 : 0;
             ++asked;

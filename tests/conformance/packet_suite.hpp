@@ -5,6 +5,7 @@
 #include "conformance/worlds.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "support/catch.hpp"
+#include "support/packet_points.hpp"
 
 #include <cmath>
 #include <limits>
@@ -33,7 +34,7 @@ void compare_packet(const V& visibility, const Referee& referee, mir::Vec3 origi
     const std::uint32_t packet = visibility.visible_packet(origin, points, active);
     for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k) {
         const bool in_packet = (packet >> k & 1u) != 0;
-        const mir::Vec3 point{points.x[k], points.y[k], points.z[k]};
+        const mir::Vec3 point = point_of(points, k);
         const bool asked = (active >> k & 1u) != 0;
         const bool single = asked && visibility.visible(origin, point);
         ++count.lanes;
@@ -45,12 +46,6 @@ void compare_packet(const V& visibility, const Referee& referee, mir::Vec3 origi
     }
     // Bits beyond the packet's width belong to nobody.
     if (packet >> mir::PointPacket::width != 0) ++count.sure_and_different;
-}
-
-inline void set_point(mir::PointPacket& points, std::uint32_t k, mir::Vec3 p) {
-    points.x[k] = p.x;
-    points.y[k] = p.y;
-    points.z[k] = p.z;
 }
 
 /// Points all over the place, some lanes switched off and filled with what is not a number.

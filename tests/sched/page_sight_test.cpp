@@ -5,6 +5,7 @@
 #include "mir/shading/contribution.hpp"
 #include "shaft/stepped_plane.hpp"
 #include "support/catch.hpp"
+#include "support/packet_points.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +48,7 @@ struct Strips {
                                                std::uint32_t active) const {
         std::uint32_t seen = 0;
         for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k)
-            if (visible(origin, {points.x[k], points.y[k], points.z[k]})) seen |= 1u << k;
+            if (visible(origin, mirtest::point_of(points, k))) seen |= 1u << k;
         return seen & active;
     }
     [[nodiscard]] Block block(const mir::SoaView<const Hit>& luxels, mir::InstructionSet) const {

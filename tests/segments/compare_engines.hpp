@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/host/backend.hpp"
+#include "support/packet_points.hpp"
 #include "support/random_segments.hpp"
 #include "support/segment_bits.hpp"
 #include "support/segment_judge.hpp"
@@ -61,11 +62,7 @@ std::vector<std::uint32_t> packet_bits(const V& visibility, std::span<const Segm
         for (std::uint32_t half = 0; half < 2; ++half) {
             const SegmentEnds* packet = &segments[w * 32 + half * 16];
             mir::PointPacket points;
-            for (std::uint32_t k = 0; k < 16; ++k) {
-                points.x[k] = packet[k].to.x;
-                points.y[k] = packet[k].to.y;
-                points.z[k] = packet[k].to.z;
-            }
+            for (std::uint32_t k = 0; k < 16; ++k) set_point(points, k, packet[k].to);
             words[w] |= visibility.visible_packet(packet->from, points, 0xFFFF) << 16 * half;
         }
     });

@@ -10,6 +10,7 @@
 #include "support/catch.hpp"
 #include "support/free_sight.hpp"
 #include "support/instruction_sets.hpp"
+#include "support/packet_points.hpp"
 #include "support/same_records.hpp"
 #include "support/test_sky.hpp"
 
@@ -42,7 +43,7 @@ struct RightPackets : RightSight {
                                                std::uint32_t active) const {
         std::uint32_t seen = 0;
         for (std::uint32_t k = 0; k < mir::PointPacket::width; ++k)
-            if ((active >> k & 1u) != 0 && visible(origin, {points.x[k], points.y[k], points.z[k]}))
+            if ((active >> k & 1u) != 0 && visible(origin, mirtest::point_of(points, k)))
                 seen |= 1u << k;
         return seen;
     }

@@ -57,7 +57,7 @@ TEST_CASE("nothing comes from below a horizon") {
         is_black(shade(ground, surface(-up), vpl({0, 0, 1}, -up))));  // shading normal turned away
 }
 
-TEST_CASE("the inverse distance has limits at both ends") {
+TEST_CASE("the inverse distance has a limit where VPLs are near, none where they are far") {
     const auto at = [](float d) {
         return mir::inverse_distance<mir::FusedRounding>(Vec3(0.0f, 0.0f, -d));
     };

@@ -82,7 +82,7 @@ struct Tally {
 
 }  // namespace
 
-TEST_CASE("What faces all luxels of a cluster or none faces each of them or not") {
+TEST_CASE("What faces all luxels of a cluster or none faces each of them or not", "[slow]") {
     const Cluster cluster = {GENERATE(1e-6f, 1.0f, 1e6f), GENERATE(0.0f, 1e-5f, 0.1f),
                              GENERATE(0.0f, 1e-6f, 0.3f), GENERATE(32u, 256u)};
     mir::Random random = test_random(2301);

@@ -108,7 +108,8 @@ TEST_CASE("Boxes refused by a half-space lie behind the VPL and behind all luxel
     CHECK(wrong.met == 0);
 }
 
-TEST_CASE("Half-spaces without slack, turned round or for any VPL refuse boxes that are met") {
+TEST_CASE("Half-spaces without slack, turned round or for any VPL refuse boxes that are met",
+          "[slow]") {
     CHECK(refusals(without_slack, 1000000).met > 100);
     CHECK(refusals(other_side, 200000).met > 1000);
     CHECK(refusals(vpl_not_asked, 200000).met > 1000);

@@ -28,7 +28,7 @@ struct BareObject {
 
 }  // namespace
 
-TEST_CASE("a ground under a sun has the radiance of its reflectance and its irradiance") {
+TEST_CASE("a ground under a sun has the radiance of its reflectance and its irradiance", "[slow]") {
     const BareObject bare;
     // Irradiance E cos over pi, times the reflectance 1/2.
     for (const auto& [sun, cosine] :

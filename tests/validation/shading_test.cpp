@@ -47,6 +47,7 @@ enum class Bug {
     denies_light,
     reaches_too_far,
     rounds_the_distance,
+    turns_the_way,
     prepares_another_luxel,
     shines_along_the_normal
 };
@@ -94,10 +95,12 @@ struct Buggy {
         return (*this)(p.hit, p.surface, vpl);
     }
     [[nodiscard]] static float inverse_distance(Vec3 way) { return 1.0f / glm::length(way); }
-    [[nodiscard]] Rgb at_distance(const Hit& hit, const Surface& s, const Vpl& vpl, Vec3 /*way*/,
+    [[nodiscard]] Rgb at_distance(const Hit& hit, const Surface& s, const Vpl& vpl, Vec3 way,
                                   float inverse) const {
+        Vpl seen = vpl;
+        if (bug == Bug::turns_the_way) seen.position = hit.position - way;
         const float rounded = static_cast<float>(std::lround(4096.0f * inverse)) / 4096.0f;
-        const Rgb c = (*this)(hit, s, vpl);
+        const Rgb c = (*this)(hit, s, seen);
         return bug == Bug::rounds_the_distance ? c * (rounded / inverse) : c;
     }
 
@@ -186,7 +189,8 @@ TEST_CASE("check_shading finds each axiom that a shading breaks") {
     CHECK(finds(check(Bug::counts_calls), "the same question has the same answer"));
     CHECK(finds_only(check(Bug::denies_light), "what reflects() denies is black"));
     CHECK(finds_only(check(Bug::reaches_too_far), "what lies out of reach is black"));
-    CHECK(finds_only(check(Bug::rounds_the_distance), "at_distance() is the same in every bit"));
+    for (const Bug bug : {Bug::rounds_the_distance, Bug::turns_the_way})
+        CHECK(finds_only(check(bug), "at_distance() is the same in every bit"));
     CHECK(finds_only(check(Bug::prepares_another_luxel), "prepared() changes no bit"));
     CHECK(finds(check_shading(mir::VplShading<Lambert>{}, surfaces_with(Lambert::Params{})),
                 "VPLs light the luxels"));
