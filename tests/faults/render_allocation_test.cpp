@@ -33,7 +33,7 @@ TEST_CASE("a render whose allocations fail throws, or makes the picture all the 
     std::optional<mir::RenderResult> result;
     std::size_t wrong = 0;
     const auto failures = mirtest::fail_allocations(
-        40, 23, [&] { result = renderer->render(scene, settings, nullptr); },
+        40, 17, [&] { result = renderer->render(scene, settings, nullptr); },
         [&](bool done) {
             const auto pixels = whole.beauty.pixels();
             if (done && std::memcmp(result->beauty.pixels().data(), pixels.data(),
