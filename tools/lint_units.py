@@ -57,7 +57,8 @@ def unit_of(sources: list[pathlib.Path]) -> str:
     lines = []
     for source in filter(is_independent, sources):
         lines += includes_of(source)
-    lines = list(dict.fromkeys(lines))
+    # Once each, whatever the quotes.
+    lines = list({re.sub('[<>"]', "", line): line for line in lines}.values())
     for i, source in enumerate(sources):
         body = f'#include "{source}"  // NOLINT(bugprone-suspicious-include)'
         lines.append(f"namespace unit_{i} {{\n{body}\n}}" if is_independent(source) else body)
