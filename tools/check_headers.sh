@@ -1,0 +1,38 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# tools/check_headers.sh       compiles a third of the headers that users include, each by itself
+# tools/check_headers.sh all   compiles all of them
+#
+# All of them take as long as the tests take to build. Which third it is goes by the time of the last
+# commit, so that commits take turns.
+set -eu
+
+cd -- "$(dirname -- "$0")/.."
+MIR_WANT=check
+. tools/setup.sh
+
+case ${1:-} in
+all) share=1 ;;
+'') share=3 ;;
+*)
+    echo "usage: tools/check_headers.sh [all]" >&2
+    exit 2
+    ;;
+esac
+
+[ -f build/cpu/build.ninja ] || mir_configure cpu >build/cpu.log 2>&1 || {
+    tail -n 20 build/cpu.log >&2
+    exit 1
+}
+turn=$(git log -1 --format=%ct 2>/dev/null) || turn=0
+objects=$(ninja -C build/cpu -t targets all |
+    sed -n 's/^\(.*_verify_interface_header_sets\/mir\/.*\.o\): .*/\1/p' |
+    awk -v share="$share" -v turn="$turn" 'NR % share == turn % share')
+[ -n "$objects" ] || {
+    echo "no headers were found in build/cpu; is its CMake 3.25 or later?" >&2
+    exit 1
+}
+# shellcheck disable=SC2086
+mir_build cpu $objects
+echo "$(echo "$objects" | wc -l) headers compile by themselves"
