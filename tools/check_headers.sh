@@ -4,8 +4,8 @@
 # tools/check_headers.sh       compiles a third of the headers that users include, each by itself
 # tools/check_headers.sh all   compiles all of them
 #
-# All of them take as long as the tests take to build. Which third it is goes by the time of the last
-# commit, so that commits take turns.
+# All of them take two cores five minutes. Which third it is goes by the time of the last commit, so
+# that commits take turns.
 set -eu
 
 cd -- "$(dirname -- "$0")/.."
