@@ -30,7 +30,7 @@ objects=$(ninja -C build/cpu -t targets all |
     sed -n 's/^\(.*_verify_interface_header_sets\/mir\/.*\.o\): .*/\1/p' |
     awk -v share="$share" -v turn="$turn" 'NR % share == turn % share')
 [ -n "$objects" ] || {
-    echo "no headers were found in build/cpu; is its CMake 3.25 or later?" >&2
+    echo "build/cpu checks no headers; remove it and try again" >&2
     exit 1
 }
 # shellcheck disable=SC2086
