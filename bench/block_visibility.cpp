@@ -76,7 +76,7 @@ class Bench {
             mir::fill_visibility(matrix_, gbuffer_, vpls_.span(), visibility, executor_, set_);
             return;
         }
-        for_blocks([&](const HitBlock& block, BlockMask* masks) {
+        for_blocks([&](const BoundedHitBlock& block, BlockMask* masks) {
             const auto known = visibility.block(block.hits, set_);
             for (std::uint32_t j = 0; j < vpls_.size(); ++j) {
                 masks[j] = facing(block, vpls_.span()[j]);
@@ -111,9 +111,9 @@ class Bench {
     [[nodiscard]] double pairs() const { return static_cast<double>(image.area()) * vpls_.size(); }
 
  private:
-    using HitBlock = mir::sched::detail::HitBlock;
+    using BoundedHitBlock = mir::sched::detail::BoundedHitBlock;
 
-    static BlockMask facing(const HitBlock& block, const mir::Vpl& vpl) {
+    static BlockMask facing(const BoundedHitBlock& block, const mir::Vpl& vpl) {
         return block.cannot_face(vpl) ? BlockMask{} : mir::sched::detail::facing_mask(block, vpl);
     }
 
@@ -128,7 +128,7 @@ class Bench {
     void for_blocks(const Run& run) {
         executor_.for_each(blocks_.size(), [&](std::size_t b) {
             mir::run_with(set_, [&] {
-                const HitBlock block(hits(), blocks_[b], [](std::uint32_t) { return true; });
+                const BoundedHitBlock block(hits(), blocks_[b], [](std::uint32_t) { return true; });
                 run(block, words_.data() + b * vpls_.size());
             });
         });
@@ -136,7 +136,7 @@ class Bench {
 
     template <class Packet>
     void by_packets(const Packet& packet) {
-        for_blocks([&](const HitBlock& block, BlockMask* masks) {
+        for_blocks([&](const BoundedHitBlock& block, BlockMask* masks) {
             std::array<mir::PointPacket, BlockMask::packets> points;
             for (std::uint32_t g = 0; g < BlockMask::packets; ++g)
                 mir::sched::detail::load_points(

@@ -45,7 +45,7 @@ template <TiledGBuffer G, VplSet P, PacketVisibility V>
 void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const V& visibility,
                 sched::detail::Block b) {
     using namespace sched::detail;
-    const HitBlock block(gbuffer.view(b.tile).hits, b, [](std::uint32_t) { return true; });
+    const BoundedHitBlock block(gbuffer.view(b.tile).hits, b, [](std::uint32_t) { return true; });
     const BlockSight<V> sight(block, visibility);
     for (VplIndex j = 0; j < vpls.size(); ++j) {
         const Vpl vpl = vpls[j];

@@ -156,8 +156,8 @@ TEST_CASE("A block's bounds never reject a VPL that faces one of its luxels") {
             luxels[(37 * k + static_cast<std::size_t>(i)) % luxels.size()] = hits.back();
         }
         const mirtest::HitRun run(luxels);
-        const mir::sched::detail::HitBlock block(run.view(), {},
-                                                 [](std::uint32_t) { return true; });
+        const mir::sched::detail::BoundedHitBlock block(run.view(), {},
+                                                        [](std::uint32_t) { return true; });
         const mir::sched::detail::BlockBounds& bounds = block.bounds;
         // Half of the VPLs lie on a luxel, so that rounding decides.
         const mir::Vec3 anywhere = mirtest::point_in_cube(random);

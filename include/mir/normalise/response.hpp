@@ -87,7 +87,7 @@ void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shad
         for (std::uint32_t x = 0; x < layout.blocks_x; ++x) {
             const sched::detail::Block place{t, row_of_tile * layout.blocks_x + x};
             const sched::detail::LuxelBlock<F> block(view.hits, view.surfaces, place, shading);
-            if (block.bounds.empty) continue;
+            if (block.none_counts) continue;
             add_block<Set>(block, vpls, bits, shading, first, last, sums);
         }
     }

@@ -57,7 +57,9 @@ struct CpuBlocks {
      private:
         using F = decltype(In::shading);
         using V = std::remove_const_t<decltype(In::visibility)>;
-        using LuxelBlock = detail::LuxelBlock<F>;
+        static constexpr bool wants_bounds = !KnownVisibility<V> || ReachLimitedShading<F>;
+        using Hits = std::conditional_t<wants_bounds, detail::BoundedHitBlock, detail::HitBlock>;
+        using LuxelBlock = detail::LuxelBlock<F, Hits>;
 
         static constexpr bool by_pages = BlockVisibility<V> && !KnownVisibility<V>;
         using Part = std::conditional_t<by_pages, detail::PlacedPage, detail::Block>;
@@ -134,12 +136,16 @@ void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
         const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
         detail::GroupRadiance sums[detail::groups_per_block];
         if constexpr (KnownVisibility<V>) {
-            add_vpls<set()>(block, sums, [&](VplIndex j, const Vpl&, BlockMask& lit) {
-                return detail::find_known(block, j, in_.visibility, lit);
+            // Masks first: most pairs of a block and a VPL end there.
+            add_vpls<set()>(block, sums, [&](VplIndex j, BlockMask& lit) {
+                return detail::find_known(block, j, in_.visibility, lit) &&
+                       !is_out_of_reach(block, in_.vpls[j]);
             });
         } else {
             const detail::BlockSight<V> sight(block, in_.visibility);
-            add_vpls<set()>(block, sums, [&](VplIndex, const Vpl& vpl, BlockMask& lit) {
+            add_vpls<set()>(block, sums, [&](VplIndex j, BlockMask& lit) {
+                const Vpl vpl = in_.vpls[j];
+                if (is_out_of_reach(block, vpl)) return false;
                 lit = sight(vpl);
                 return lit.any();
             });
@@ -195,19 +201,18 @@ void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
     }
 }
 
-/// Adds all VPLs; `find_lit(j, vpl, lit)` finds to which luxels of the block, false if to none.
+/// Adds all VPLs; `find_lit(j, lit)` finds to which luxels of the block, false if to none.
 template <Executor E>
 template <class In>
 template <InstructionSet Set, class FindLit>
 void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
                                           const FindLit& find_lit) const {
-    if (block.bounds.empty) return;
+    if (block.none_counts) return;
     detail::LitVpls batch;
     for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
-        const Vpl vpl = in_.vpls[j];
-        if (is_out_of_reach(block, vpl)) continue;
         BlockMask lit;
-        if (find_lit(j, vpl, lit)) batch.add(vpl, lit);
+        if (!find_lit(j, lit)) continue;
+        batch.add(in_.vpls[j], lit);
         if (batch.is_full()) batch.template shade<Set>(block, in_.shading, sums);
     }
     batch.template shade<Set>(block, in_.shading, sums);

@@ -19,7 +19,6 @@ struct BlockBounds {
     Vec3 high{std::numeric_limits<float>::lowest()};
     Vec3 normal_low{1.0f};  ///< and of one around the normals
     Vec3 normal_high{-1.0f};
-    bool empty = true;
 
     /// True when every luxel lies behind the VPL's tangent plane.
     [[nodiscard]] bool behind(const Vpl& vpl) const {
@@ -68,9 +67,8 @@ class BoundsOfLanes {
         }
     }
 
-    /// Adds those of sixteen luxels whose bit is set in `on`, which has some.
+    /// Adds those of sixteen luxels whose bit is set in `on`.
     void add(SoaView<const Hit> group, std::uint32_t on) {
-        empty_ = false;
         for (std::uint32_t k = 0; k < mir::detail::lane_count; ++k) {
             const Hit hit = group.load(k);
             const bool counts = (on & mir::detail::lane_bits[k]) != 0;
@@ -90,7 +88,6 @@ class BoundsOfLanes {
     /// Around all that were added.
     [[nodiscard]] BlockBounds all() const {
         BlockBounds bounds;
-        bounds.empty = empty_;
         for (int axis = 0; axis < 3; ++axis) {
             bounds.low[axis] = std::ranges::min(low_[axis].at);
             bounds.high[axis] = std::ranges::max(high_[axis].at);
@@ -105,7 +102,6 @@ class BoundsOfLanes {
     mir::detail::LaneFloats high_[3];
     mir::detail::LaneFloats normal_low_[3];
     mir::detail::LaneFloats normal_high_[3];
-    bool empty_ = true;
 };
 
 }  // namespace mir::sched::detail

@@ -33,8 +33,8 @@ class LitVpls {
 
     /// Adds the light of all to luxels, `sums` having a place for each group, and forgets them.
     /// For all of this the caller is compiled for `Set`.
-    template <InstructionSet Set, Shading F>
-    [[gnu::always_inline]] void shade(const LuxelBlock<F>& block, const F& shading,
+    template <InstructionSet Set, Shading F, class Hits>
+    [[gnu::always_inline]] void shade(const LuxelBlock<F, Hits>& block, const F& shading,
                                       GroupRadiance* sums) {
         for (std::uint32_t group = 0; group < groups_per_block; ++group) {
             // A copy, of which the compiler knows that no luxel is read from it.

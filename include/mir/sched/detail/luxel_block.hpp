@@ -38,14 +38,13 @@ SoaView<T> starting_at(SoaView<T> view, std::uint32_t first) {
 struct HitBlock {
     Block place;
     SoaView<const Hit> hits;
-    BlockBounds bounds;
     std::uint32_t candidates[groups_per_block] = {};  ///< luxels that count, a bit each
+    bool none_counts = true;
 
     /// One of the blocks of a tile; luxel i of it counts if it sees something and `wanted(i)`.
     template <class Wanted>
     HitBlock(SoaView<const Hit> tile, Block b, const Wanted& wanted)
         : place(b), hits(starting_at(tile, first_luxel(b))) {
-        BoundsOfLanes lanes;
         for (std::uint32_t group = 0; group < groups_per_block; ++group) {
             const std::uint32_t first = group * group_size;
             const auto group_hits = starting_at(hits, first);
@@ -53,36 +52,50 @@ struct HitBlock {
                 return (static_cast<int>(!is_empty(group_hits.load(k))) &
                         static_cast<int>(wanted(first + k))) != 0;
             });
-            if (candidates[group] != 0) lanes.add(group_hits, candidates[group]);
+            none_counts = none_counts && candidates[group] == 0;
         }
-        bounds = lanes.all();
     }
 
     /// True when luxel `i` of the block counts.
     [[nodiscard]] bool counts(std::uint32_t i) const {
         return (candidates[i / group_size] >> i % group_size & 1u) != 0;
     }
+};
+
+/// The same with bounds of those that count, for who is not told whom they see.
+struct BoundedHitBlock : HitBlock {
+    BlockBounds bounds;
+
+    template <class Wanted>
+    BoundedHitBlock(SoaView<const Hit> tile, Block b, const Wanted& wanted)
+        : HitBlock(tile, b, wanted) {
+        BoundsOfLanes lanes;
+        for (std::uint32_t group = 0; group < groups_per_block; ++group)
+            if (candidates[group] != 0)
+                lanes.add(starting_at(hits, group * group_size), candidates[group]);
+        bounds = lanes.all();
+    }
 
     /// True only if no luxel that counts faces the VPL: skipping it loses nothing.
     [[nodiscard]] bool cannot_face(const Vpl& vpl) const {
-        return bounds.empty || bounds.behind(vpl) || bounds.turned_away_from(vpl.position);
+        return none_counts || bounds.behind(vpl) || bounds.turned_away_from(vpl.position);
     }
 };
 
 /// One 16x16 block ready to meet VPLs; luxels that reflect nothing do not count.
-template <Shading F>
-struct LuxelBlock : HitBlock {
+template <Shading F, class Hits = HitBlock>
+struct LuxelBlock : Hits {
     SoaView<const typename F::Surface> surfaces;
 
     LuxelBlock(SoaView<const Hit> tile_hits, SoaView<const typename F::Surface> tile_surfaces,
                Block b, const F& shade)
-        : HitBlock(tile_hits, b,
-                   [&, of_block = starting_at(tile_surfaces, first_luxel(b))](std::uint32_t i) {
-                       if constexpr (SurfaceSelectiveShading<F>)
-                           return shade.reflects(of_block.load(i));
-                       else
-                           return true;
-                   }),
+        : Hits(tile_hits, b,
+               [&, of_block = starting_at(tile_surfaces, first_luxel(b))](std::uint32_t i) {
+                   if constexpr (SurfaceSelectiveShading<F>)
+                       return shade.reflects(of_block.load(i));
+                   else
+                       return true;
+               }),
           surfaces(starting_at(tile_surfaces, first_luxel(b))) {}
 };
 

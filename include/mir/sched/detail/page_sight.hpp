@@ -77,7 +77,7 @@ class PageSight {
     /// 256 luxels of the page, and what the visibility knows of them, which may refer to them: so
     /// it neither copies nor moves.
     struct Cluster {
-        HitBlock luxels;
+        BoundedHitBlock luxels;
         typename V::Block known;
 
         template <class Wanted>
