@@ -116,23 +116,12 @@ ClusterOutcome outcome_of(const SearchedStage& stage, const ClusterLimits& limit
     return outcome;
 }
 
-/// Random luxels and VPLs, half of which lie in front of surfaces: boxes of leaves are coarse, and
-/// a shaft that touches a surface nearly always meets one.
-mirtest::Lit lit_in_space(const mirtest::World& world, std::uint32_t luxels, std::uint32_t vpls) {
-    mirtest::Lit lit = mirtest::random_lit(world.geometry, luxels, vpls, mirtest::test_random(31));
-    for (std::size_t i = 0; i < lit.luxels.size(); ++i)
-        if (i / mir::block_luxels % 2 == 0) lit.luxels[i].position += 0.2f * lit.luxels[i].normal;
-    for (std::size_t j = 0; j < lit.vpls.size(); j += 2)
-        lit.vpls[j].position += 0.2f * lit.vpls[j].normal;
-    return mirtest::clustered(lit);
-}
-
 }  // namespace
 
 TEST_CASE("Shafts of clusters list every triangle that hides a luxel, and no other pair is clear") {
     const bool room = GENERATE(true, false);
     const mirtest::World world = room ? mirtest::sphere_in_box(24) : mirtest::soup(false);
-    const mirtest::ShaftStage drawn(world.geometry, lit_in_space(world, 6000, 150));
+    const mirtest::ShaftStage drawn(world.geometry, mirtest::lit_in_space(world, 6000, 150));
     const SearchedStage stage(drawn);
     const ClusterOutcome found = outcome_of(stage);
     CHECK(found.open == 0);
@@ -180,18 +169,13 @@ TEST_CASE("Lists of clusters for which there is no room are left open, and no ot
 
 TEST_CASE("Clusters and VPLs beyond reach are left open unless no luxel faces") {
     const mirtest::World world = mirtest::soup(false);
-    mirtest::Lit lit = mirtest::random_lit(world.geometry, 1500, 20, mirtest::test_random(30));
-    for (std::size_t i = 0; i < 512; ++i) lit.luxels[i].position *= 40.0f;
-    for (std::size_t j = 0; j < lit.vpls.size(); j += 4) lit.vpls[j].position *= 40.0f;
-    const mirtest::ShaftStage drawn(world.geometry, lit);
+    const mirtest::ShaftStage drawn(world.geometry, mirtest::lit_beyond_reach(world, 1500, 20));
     const SearchedStage stage(drawn);
-    const float reach = drawn.bvh().view().reach;
     std::uint32_t beyond = 0;
     for (const mir::OpenPair& block : some_blocks(stage))
-        for (std::uint32_t c = 8 * block.cluster; c < 8 * block.cluster + 8; ++c)
-            if (stage.facing({c, block.vpl}) != 0 &&
-                (!mir::within_reach(drawn.clusters()[c], reach) ||
-                 !mir::within_reach(lit.vpls[block.vpl].position, reach)))
+        for (const mir::OpenPair& pair : SearchedStage::parts(block))
+            if (stage.facing(pair) != 0 &&
+                stage.is_beyond_reach(drawn.clusters()[pair.cluster], pair.vpl))
                 ++beyond;
     REQUIRE(beyond > 100);
     CHECK(outcome_of(stage).open == beyond);

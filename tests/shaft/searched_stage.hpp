@@ -71,6 +71,46 @@ class SearchedStage {
         return found;
     }
 
+    /// The pairs of 32 that one of 256 has.
+    [[nodiscard]] static std::vector<mir::OpenPair> parts(mir::OpenPair block) {
+        constexpr std::uint32_t count = mir::block_luxels / mir::cluster_luxels;
+        std::vector<mir::OpenPair> pairs;
+        for (std::uint32_t k = 0; k < count; ++k)
+            pairs.push_back({block.cluster * count + k, block.vpl});
+        return pairs;
+    }
+    /// Whether a luxel of a pair of 256 faces.
+    [[nodiscard]] bool is_faced(mir::OpenPair block) const {
+        const std::vector<mir::OpenPair> all = parts(block);
+        return std::any_of(all.begin(), all.end(),
+                           [&](mir::OpenPair part) { return facing(part) != 0; });
+    }
+    /// Places of all triangles that hide a luxel of a pair of 256.
+    [[nodiscard]] std::vector<std::uint32_t> hiding_in_block(mir::OpenPair block) const {
+        std::vector<std::uint32_t> found;
+        for (const mir::OpenPair& part : parts(block))
+            for (const std::uint32_t t : hiding(part)) found.push_back(t);
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        return found;
+    }
+    /// Whether one triangle by itself hides all luxels of a pair of 256 that face.
+    [[nodiscard]] bool is_covered(mir::OpenPair block) const {
+        const std::vector<mir::OpenPair> all = parts(block);
+        const auto hides_all = [&](std::uint32_t t) {
+            return std::all_of(all.begin(), all.end(), [&](mir::OpenPair part) {
+                return hidden_by(t, part) == facing(part);
+            });
+        };
+        const std::vector<std::uint32_t> some = hiding_in_block(block);
+        return std::any_of(some.begin(), some.end(), hides_all);
+    }
+    /// Whether the luxels of a record or a VPL lie where no search is proved right.
+    [[nodiscard]] bool is_beyond_reach(const mir::ClusterRecord& run, std::uint32_t vpl) const {
+        const float reach = stage_.bvh().view().reach;
+        return !mir::within_reach(run, reach) || !mir::within_reach(vpls()[vpl].position, reach);
+    }
+
     /// Places of the triangles in the leaves of a list of MetLeaves, by the nodes themselves; none
     /// when one of them is no node.
     [[nodiscard]] std::vector<std::uint32_t> triangles_of(const std::uint32_t* leaves,
@@ -96,6 +136,25 @@ class SearchedStage {
     std::vector<mir::ClusterRecord> blocks_;
     std::vector<std::uint32_t> facing_;
 };
+
+/// Random luxels and VPLs, half of which lie in front of surfaces: boxes of leaves are coarse, and
+/// a shaft that touches a surface nearly always meets one.
+inline Lit lit_in_space(const World& world, std::uint32_t luxels, std::uint32_t vpls) {
+    Lit lit = random_lit(world.geometry, luxels, vpls, test_random(31));
+    for (std::size_t i = 0; i < lit.luxels.size(); ++i)
+        if (i / mir::block_luxels % 2 == 0) lit.luxels[i].position += 0.2f * lit.luxels[i].normal;
+    for (std::size_t j = 0; j < lit.vpls.size(); j += 2)
+        lit.vpls[j].position += 0.2f * lit.vpls[j].normal;
+    return clustered(lit);
+}
+
+/// Random luxels and VPLs, some of which lie far outside of the scene.
+inline Lit lit_beyond_reach(const World& world, std::uint32_t luxels, std::uint32_t vpls) {
+    Lit lit = random_lit(world.geometry, luxels, vpls, test_random(30));
+    for (std::size_t i = 0; i < 2 * mir::block_luxels; ++i) lit.luxels[i].position *= 40.0f;
+    for (std::size_t j = 0; j < lit.vpls.size(); j += 4) lit.vpls[j].position *= 40.0f;
+    return lit;
+}
 
 /// Whether every item of `some` is among those of `all`.
 inline bool are_among(std::vector<std::uint32_t> some, std::vector<std::uint32_t> all) {
