@@ -49,6 +49,8 @@ class PoolMemory {
     [[nodiscard]] mir::LeafPool view() { return {words_.data(), capacity_, &used_}; }
     [[nodiscard]] const std::vector<std::uint32_t>& words() const { return words_; }
     [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
+    [[nodiscard]] std::uint32_t used() const { return used_; }
+    /// False when something behind the last word was written.
     [[nodiscard]] bool is_whole() const {
         for (std::size_t i = capacity_; i < words_.size(); ++i)
             if (words_[i] != unwritten) return false;
