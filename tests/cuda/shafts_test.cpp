@@ -2,7 +2,7 @@
 #include "cuda/shafts.hpp"
 
 #include "mir/cuda/device.hpp"
-#include "shaft/shaft_stage.hpp"
+#include "shaft/adversarial_cases.hpp"
 #include "support/catch.hpp"
 
 // Words by the GPU's shafts against every triangle asked on the host, bit for bit.
@@ -75,6 +75,14 @@ TEST_CASE("Luxels that the GPU puts into clusters by pages keep their bits") {
         const ShaftStage stage = stage_of(world, layout.size(), 70);
         REQUIRE(stage.hits().stride == layout.size());
         CHECK(different_bits(words(stage, {}, layout), stage.by_segments()) == 0);
+    }
+}
+
+TEST_CASE("Configurations that are hard for shafts keep their bits on the GPU") {
+    for (const auto& [name, stage, truth] : mirtest::adversarial_cases()) {
+        INFO(name);
+        CHECK(different_bits(words(stage), truth) == 0);
+        CHECK(different_bits(words(stage, {0, 1000}), truth) == 0);
     }
 }
 

@@ -5,9 +5,9 @@
 #include "support/catch.hpp"
 #include "support/soa_run.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 // Forms that are kept, and what they do to the 32 segments of a pair, against hits_segment().
@@ -18,6 +18,8 @@ using mir::FormRange;
 using mir::KeptForms;
 using mir::LaneGroup;
 using mir::Vec3;
+
+using Words = std::array<std::uint32_t, sizeof(mir::SureForms) / 4>;
 
 constexpr float sigma = 0x1p-19f;
 const Vec3 apex(0.1f, -0.05f, 0.9f);
@@ -99,7 +101,7 @@ TEST_CASE("Kept forms are what was put there, at all places and in any order") {
         const mir::SureForms there = forms.get(at);
         const mir::SureForms wanted =
             numbered_forms(at == 3 ? 7.0f : 100.0f * static_cast<float>(at));
-        CHECK(std::memcmp(&there, &wanted, sizeof there) == 0);
+        CHECK(std::bit_cast<Words>(there) == std::bit_cast<Words>(wanted));
         CHECK(forms.triangle(at) == (at == 3 ? 77 : 1000 + at));
     }
     CHECK(FormRange{4, 4}.empty());

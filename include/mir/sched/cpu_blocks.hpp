@@ -57,6 +57,7 @@ struct CpuBlocks {
      private:
         using F = decltype(In::shading);
         using V = std::remove_const_t<decltype(In::visibility)>;
+        // Those that is_out_of_reach() reads.
         static constexpr bool wants_bounds = !KnownVisibility<V> || ReachLimitedShading<F>;
         using Hits = std::conditional_t<wants_bounds, detail::BoundedHitBlock, detail::HitBlock>;
         using LuxelBlock = detail::LuxelBlock<F, Hits>;
@@ -136,7 +137,7 @@ void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
         const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
         detail::GroupRadiance sums[detail::groups_per_block];
         if constexpr (KnownVisibility<V>) {
-            // Masks first: most pairs of a block and a VPL end there.
+            // Masks first: they are at hand before the VPL is.
             add_vpls<set()>(block, sums, [&](VplIndex j, BlockMask& lit) {
                 return detail::find_known(block, j, in_.visibility, lit) &&
                        !is_out_of_reach(block, in_.vpls[j]);

@@ -39,7 +39,7 @@ struct HitBlock {
     Block place;
     SoaView<const Hit> hits;
     std::uint32_t candidates[groups_per_block] = {};  ///< luxels that count, a bit each
-    bool none_counts = true;
+    bool none_counts = true;                          ///< no bit is set in `candidates`
 
     /// One of the blocks of a tile; luxel i of it counts if it sees something and `wanted(i)`.
     template <class Wanted>
@@ -62,7 +62,7 @@ struct HitBlock {
     }
 };
 
-/// The same with bounds of those that count, for who is not told whom they see.
+/// The same with bounds of the luxels that count, for tests that throw whole blocks away.
 struct BoundedHitBlock : HitBlock {
     BlockBounds bounds;
 
