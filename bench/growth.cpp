@@ -2,7 +2,8 @@
 //
 // How the cost of a picture grows with VPLs, luxels, triangles and threads, one of them at a time,
 // on the processor and on a GPU where there is one: milliseconds by stage, and nanoseconds for a
-// contribution. tools/plot_growth.py draws it.
+// contribution. What `--accel auto` chooses has beside it what asks ray by ray: Embree's packets,
+// and the plain kernel over a kd-tree. tools/plot_growth.py draws it.
 #include "mir/scene/builtin.hpp"
 #include "support/bench_scene.hpp"
 #include "support/frame_runs.hpp"
@@ -13,17 +14,24 @@
 
 namespace {
 
-/// A machine, and the picture that a sweep varies.
+/// A machine and what asks for visibility there, and the picture that a sweep varies.
 struct Machine {
     const char* name;
     mir::BackendKind backend;
+    mir::Acceleration acceleration;
     mir::Extent image;
     int frames;
 };
 
-constexpr Machine machines[] = {{"cuda", mir::BackendKind::cuda, {1600, 1200}, 5},
-                                {"cpu", mir::BackendKind::cpu, {800, 600}, 1}};
+constexpr mir::Extent gpu_image{1600, 1200};
+constexpr mir::Extent cpu_image{800, 600};
+constexpr Machine machines[] = {
+    {"cuda", mir::BackendKind::cuda, mir::Acceleration::automatic, gpu_image, 5},
+    {"kdtree", mir::BackendKind::cuda, mir::Acceleration::kd_tree, gpu_image, 1},
+    {"cpu", mir::BackendKind::cpu, mir::Acceleration::automatic, cpu_image, 1},
+    {"embree", mir::BackendKind::cpu, mir::Acceleration::embree, cpu_image, 1}};
 constexpr std::uint32_t usual_vpls = 256;
+constexpr std::uint32_t many_vpls = 4'096;
 constexpr std::uint32_t sphere_triangles[] = {2'000, 20'000, 200'000, 2'000'000, 10'000'000};
 constexpr mir::Extent images[] = {
     {816, 612}, {1152, 864}, {1632, 1224}, {2304, 1728}, {3264, 2448}};
@@ -57,6 +65,7 @@ mir::RenderSettings usual_settings(const Machine& machine) {
     mir::RenderSettings settings;
     settings.image = machine.image;
     settings.vpls = usual_vpls;
+    settings.acceleration = machine.acceleration;
     return settings;
 }
 
@@ -93,14 +102,24 @@ void add_sweeps(const Machine& machine, const std::string& scene) {
             changed(machine, scene, [threads](mir::RenderSettings& s) { s.threads = threads; }));
 }
 
+/// Few VPLs and many: how many pairs there are for each triangle decides what `--accel auto` takes.
+void add_spheres(const Machine& machine) {
+    for (const std::uint32_t vpls : {usual_vpls, many_vpls})
+        for (const std::uint32_t triangles : sphere_triangles)
+            add(machine,
+                (vpls == usual_vpls ? "builtin:sphere" : "sphere, 4096 VPLs") +
+                    std::string("/triangles:") + std::to_string(triangles),
+                [machine, vpls, triangles](benchmark::State& state) {
+                    mir::RenderSettings settings = usual_settings(machine);
+                    settings.vpls = vpls;
+                    grow(state, machine, room_with_sphere(triangles), settings);
+                });
+}
+
 const int registered = [] {
     for (const Machine& machine : machines) {
         for (const std::string& scene : mirbench::scenes_of_run()) add_sweeps(machine, scene);
-        for (const std::uint32_t triangles : sphere_triangles)
-            add(machine, "builtin:sphere/triangles:" + std::to_string(triangles),
-                [machine, triangles](benchmark::State& state) {
-                    grow(state, machine, room_with_sphere(triangles), usual_settings(machine));
-                });
+        add_spheres(machine);
     }
     return 0;
 }();

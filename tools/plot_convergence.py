@@ -95,6 +95,8 @@ def mark(shape, x, y):
     if shape == "square":
         return f'<rect class="mark" x="{x - 3.7:.1f}" y="{y - 3.7:.1f}" width="7.4" height="7.4"/>'
     corners = [(x, y - 5), (x - 4.7, y + 3.7), (x + 4.7, y + 3.7)]
+    if shape == "diamond":
+        corners = [(x, y - 5.2), (x - 5.2, y), (x, y + 5.2), (x + 5.2, y)]
     return f'<polygon class="mark" points="{points(corners)}"/>'
 
 

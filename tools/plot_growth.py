@@ -13,7 +13,7 @@ from xml.sax.saxutils import escape
 from plot_convergence import Scale, mark
 from plot_micro_bias import GAP, HEIGHT, LEFT, LINES, TOP, WIDTH, draw_panel, style
 
-MACHINES = {"cuda": "GPU", "cpu": "processor"}
+MACHINES = {"cuda": "GPU", "kdtree": "GPU, kd-tree", "cpu": "processor", "embree": "Embree"}
 SWEEPS = {"vpls": "VPLs", "luxels": "luxels", "triangles": "triangles"}
 
 

@@ -15,7 +15,7 @@ from plot_convergence import DARK_STYLE, LIGHT_STYLE, Scale, decades, mark, poin
 
 # Colours of Okabe and Ito on light and on dark ground, and marks known to plot_convergence.mark().
 LINES = [("square", "#d55e00", "#f0a04b"), ("circle", "#0072b2", "#56b4e9"),
-         ("triangle", "#009e73", "#35c79a")]
+         ("triangle", "#009e73", "#35c79a"), ("diamond", "#a0467a", "#dd8fbd")]
 NEEDED = {"scene", "discs", "extent", "rays", "shape", "threshold", "bounce", "mean", "rms", "worst"}
 LEFT, TOP, WIDTH, HEIGHT, GAP = 62, 58, 290, 220, 34
 

@@ -67,15 +67,18 @@ void fill_page(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const 
     constexpr std::uint32_t most = PageSight<V>::most_vpls;
     for (VplIndex first = 0; first < vpls.size(); first += most) {
         const std::uint32_t count = std::min(most, vpls.size() - first);
+        std::uint32_t seen = 0;
         run_with(instructions,
-                 [&] { sight.look(vpls, first, count, [](const Vpl&) { return true; }); });
-        for (std::uint32_t b = 0; b < page.blocks(); ++b)
-            for (std::uint32_t k = 0; k < count; ++k) {
+                 [&] { seen = sight.look(vpls, first, count, [](const Vpl&) { return true; }); });
+        while (seen != 0) {
+            const std::uint32_t k = mir::detail::pop_lowest(seen);
+            for (std::uint32_t b = 0; b < page.blocks(); ++b) {
                 const BlockMask mask = sight.seen(b, k);
                 for (std::uint32_t g = 0; g < groups_per_block; ++g)
                     matrix.store(place.tile, page.block(b) * groups_per_block + g, first + k,
                                  mask.packet[g]);
             }
+        }
     }
 }
 
@@ -92,6 +95,7 @@ void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visib
     expects(matrix.tiles() == gbuffer.tiles().size() && matrix.vpls() == vpls.size(),
             "a visibility matrix was given luxels or VPLs that it was not made for (its bits would "
             "not fit); make it from the tiles of this G-buffer");
+    if (vpls.size() == 0) return;
     constexpr bool has_planes = requires { gbuffer.view(0).hits.planes; };
     const auto for_each = [&](auto places, const auto& append, const auto& fill) {
         for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t)

@@ -56,6 +56,20 @@ TEST_CASE("The processor chooses its structure by how many pairs a triangle serv
     CHECK(used(masked) == "embree");
 }
 
+TEST_CASE("A scene of more than a million triangles needs more pairs for each", "[extended]") {
+    mir::Scene scene = mir::builtin::make("sphere");
+    for (mir::Mesh& mesh : scene.meshes)
+        if (mesh.name == "sphere")
+            mesh = mir::builtin::sphere("sphere", mesh.material, {0, 1.4f, 0}, 1.0f, 1225, 613);
+    mir::RenderSettings s = mirtest::small_settings(140, 900);
+    s.luxels_per_pixel = 12;
+    const mir::RenderStatistics used = mirtest::render(scene, s).statistics;
+    REQUIRE(used.triangles > 1'400'000);
+    const double for_each = pairs(s) / static_cast<double>(used.triangles);
+    REQUIRE(for_each > 130);
+    CHECK(used.acceleration == "embree");
+}
+
 TEST_CASE("The kd-tree and the wide hierarchy with shafts draw the same bits", "[extended]") {
     for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {
         const auto scene = mirtest::load_scene(named.name, named.file);

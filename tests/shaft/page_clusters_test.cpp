@@ -20,16 +20,19 @@ using mirtest::LuxelPlanes;
 using mirtest::size_of_runs;
 using mirtest::stepped_plane;
 
+Hit luxel(const PageClusters& clusters, std::uint32_t i) {
+    return clusters.hits(i / BlockMask::luxels).load(i % BlockMask::luxels);
+}
+
 /// Checks that each luxel of a sorted page has one place, and that empty ones come last.
 void check_places(const LuxelPlanes& luxels, const mir::LuxelPage& page,
                   const PageClusters& clusters) {
     std::set<std::uint32_t> slots;
     bool empty_came = false;
-    REQUIRE(clusters.hits().stride == page.luxels());
     for (std::uint32_t i = 0; i < page.luxels(); ++i) {
         const std::uint32_t slot = clusters.slot(i);
         slots.insert(slot);
-        const Hit hit = clusters.hits().load(i);
+        const Hit hit = luxel(clusters, i);
         CHECK(hit.position == luxels.view().load(page.slot(slot)).position);
         CHECK(hit.normal == luxels.view().load(page.slot(slot)).normal);
         CHECK((is_empty(hit) || !empty_came));
@@ -54,10 +57,14 @@ PacketSizes sizes_of(const LuxelPlanes& luxels, const BlockedLayout& layout) {
         PageClusters clusters(luxels.view(), pages[i]);
         sizes.compact_pages += clusters.is_compact() ? 1 : 0;
         CHECK_FALSE(clusters.is_ordered());
+        for (std::uint32_t slot = 0; slot < pages[i].luxels(); ++slot)
+            CHECK(luxel(clusters, slot).position ==
+                  luxels.view().load(pages[i].slot(slot)).position);
         clusters.sort();
         CHECK(clusters.is_ordered());
         check_places(luxels, pages[i], clusters);
-        sizes.clusters += size_of_runs(clusters.hits(), 16);
+        for (std::uint32_t c = 0; c < pages[i].blocks(); ++c)
+            sizes.clusters += size_of_runs(clusters.hits(c), 16, BlockMask::luxels);
     }
     return sizes;
 }

@@ -38,16 +38,22 @@ inline LuxelPlanes stepped_plane(const mir::BlockedLayout& layout, std::uint32_t
     return luxels;
 }
 
-/// Sum of the diagonals of the boxes of all aligned runs of `run` luxels, metres.
-inline float size_of_runs(const mir::SoaView<const mir::Hit>& luxels, std::uint32_t run) {
+/// Sum of the diagonals of the boxes of all aligned runs of `run` among the first `count` luxels,
+/// metres.
+inline float size_of_runs(const mir::SoaView<const mir::Hit>& luxels, std::uint32_t run,
+                          std::size_t count) {
     float sum = 0.0f;
-    for (std::uint32_t first = 0; first < luxels.stride; first += run) {
+    for (std::uint32_t first = 0; first < count; first += run) {
         mir::Bounds box;
         for (std::uint32_t i = first; i < first + run; ++i)
             if (!is_empty(luxels.load(i))) box.add(luxels.load(i).position);
         if (!box.empty()) sum += glm::length(box.high - box.low);
     }
     return sum;
+}
+/// The same of all that there are.
+inline float size_of_runs(const mir::SoaView<const mir::Hit>& luxels, std::uint32_t run) {
+    return size_of_runs(luxels, run, luxels.stride);
 }
 
 }  // namespace mirtest

@@ -7,6 +7,8 @@
 #include "mir/runtime/check_scene.hpp"
 #include "mir/scene/scene_hash.hpp"
 
+#include <algorithm>
+
 namespace mir::cpu {
 
 extern template class HostEngineOf<EmbreeScene>;
@@ -28,9 +30,14 @@ RenderResult render_with(const HostRender& r, const HostEngine& engine) {
     return render_by_vpls<B>(r, engine);
 }
 
-/// Luxels times VPLs, for each triangle, from which shafts save more time than our hierarchy takes
-/// longer to build than Embree's (docs/performance.md, "A whole frame").
-constexpr double shafts_pay = 128;
+/// Luxels times VPLs from which shafts save more time than our hierarchy takes longer to build than
+/// Embree's: 128 for each triangle, more where triangles are so many that shafts decide less
+/// (docs/performance.md, "What auto costs"). The number of threads has no say, as in all that may
+/// change a bit.
+double pairs_that_pay(double triangles) {
+    constexpr double many = 1e6;
+    return 128 * triangles * std::max(1.0, triangles / many);
+}
 
 /// Paths and discs ask ray by ray, which Embree answers fastest; so do luxels where masks forbid
 /// shafts.
@@ -39,8 +46,8 @@ Acceleration structure_of(const HostRender& render) {
     if (s.acceleration != Acceleration::automatic) return s.acceleration;
     const double triangles = static_cast<double>(render.geometry.triangles().size());
     const bool asks_blocks = s.integrator == Integrator::vpl && !render.geometry.is_masked();
-    return asks_blocks && pairs(s) >= shafts_pay * triangles ? Acceleration::bvh
-                                                             : Acceleration::embree;
+    return asks_blocks && pairs(s) >= pairs_that_pay(triangles) ? Acceleration::bvh
+                                                                : Acceleration::embree;
 }
 
 class CpuRenderer : public Renderer {

@@ -186,9 +186,10 @@ void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
     for (VplIndex first = 0; first < in_.vpls.size(); first += most)
         run_with(scheduler_.instructions, [&](auto set) {
             const std::uint32_t count = std::min(most, in_.vpls.size() - first);
-            sight.look(in_.vpls, first, count, matters);
+            const std::uint32_t seen = sight.look(in_.vpls, first, count, matters);
             for (std::uint32_t b = 0; b < works.size(); ++b)
-                for (std::uint32_t k = 0; k < count; ++k) {
+                for (std::uint32_t rest = seen; rest != 0;) {
+                    const std::uint32_t k = mir::detail::pop_lowest(rest);
                     const Vpl vpl = in_.vpls[first + k];
                     if (is_out_of_reach(works[b].block, vpl)) continue;
                     const BlockMask lit = sight.seen(b, k);

@@ -15,15 +15,14 @@ namespace mir {
 
 /// The luxels of a page on the host, if wanted in an order in which packets and blocks lie close
 /// together, and masks of who of them sees some VPLs: these come in that order and leave in blocked
-/// order. It decides speed, never bits. For one thread.
+/// order. It decides speed, never bits. The tile must outlive it. For one thread.
 class PageClusters {
  public:
     static constexpr std::uint32_t most_vpls = 16;  ///< of which masks are kept
 
-    /// Copies the luxels of a page of `tile`, whose planes are in blocked order.
-    PageClusters(const SoaView<const Hit>& tile, const LuxelPage& page) : count_(page.luxels()) {
-        for (std::uint32_t k = 0; k < count_; ++k) planes().store(k, tile.load(page.slot(k)));
-    }
+    /// Of a page of `tile`, whose planes are in blocked order. They are copied by sort() alone.
+    PageClusters(const SoaView<const Hit>& tile, const LuxelPage& page)
+        : tile_(tile), page_(page), count_(page.luxels()) {}
 
     /// False when packets reach from one surface to another (RunSizes): sorting is worth its while.
     [[nodiscard]] bool is_compact() const {
@@ -31,7 +30,7 @@ class PageClusters {
         Box all;
         for (std::uint32_t first = 0; first < count_; first += width) {
             Box packet;
-            for (std::uint32_t k = first; k < first + width; ++k) packet.add(hits().load(k));
+            for (std::uint32_t k = first; k < first + width; ++k) packet.add(in_slot(k));
             sizes.add(packet.diagonal());
             all.low = glm::min(all.low, packet.low);
             all.high = glm::max(all.high, packet.high);
@@ -49,25 +48,30 @@ class PageClusters {
         if (used_count == 0) return;
         detail::PageCoordinates coordinates;
         for (std::uint32_t i = 0; i < used_count; ++i) {
-            const Vec3 p = hits().load(used[i]).position;
+            const Vec3 p = in_slot(used[i]).position;
             coordinates[0][i] = p.x;
             coordinates[1][i] = p.y;
             coordinates[2][i] = p.z;
         }
         const detail::PageSplitter splitter(coordinates, used_count);
         for (std::uint32_t i = 0; i < used_count; ++i) slots_[i] = used[splitter.order()[i]];
-        move();
+        copy();
         is_ordered_ = true;
     }
 
-    /// In their order.
-    [[nodiscard]] SoaView<const Hit> hits() const { return {words_.data(), count_}; }
-    /// Slot in the page of the luxel at place `i` of hits().
+    /// The 256 luxels of cluster `c` in their order: of the page's block `c` unless sorted.
+    [[nodiscard]] SoaView<const Hit> hits(std::uint32_t c) const {
+        if (!is_ordered_) return {tile_.planes + page_.slot(c * BlockMask::luxels), tile_.stride};
+        return {words_.data() + std::size_t{c} * BlockMask::luxels, count_};
+    }
+    /// Slot in the page of luxel i % 256 of cluster i / 256.
     [[nodiscard]] std::uint32_t slot(std::uint32_t i) const { return is_ordered_ ? slots_[i] : i; }
     /// False while every luxel is in its slot.
     [[nodiscard]] bool is_ordered() const { return is_ordered_; }
 
-    /// Notes who of cluster `c`, luxels 256 c and on of hits(), sees VPL `k` < most_vpls.
+    /// Nobody sees a VPL: to be told before masks are.
+    void clear() { std::fill(masks_.begin(), masks_.begin() + count_ / width, PacketMasks{}); }
+    /// Notes who of cluster `c` sees VPL `k` < most_vpls.
     void set(std::uint32_t c, std::uint32_t k, const BlockMask& mask) {
         for (std::uint32_t g = 0; g < BlockMask::packets; ++g)
             masks_[c * BlockMask::packets + g][k] = static_cast<std::uint16_t>(mask.packet[g]);
@@ -128,7 +132,7 @@ class PageClusters {
         }
     };
 
-    [[nodiscard]] SoaView<Hit> planes() { return {words_.data(), count_}; }
+    [[nodiscard]] Hit in_slot(std::uint32_t k) const { return tile_.load(page_.slot(k)); }
 
     /// Lists the slots of luxels that are not empty, and puts the others last; returns how many are
     /// listed.
@@ -136,7 +140,7 @@ class PageClusters {
         std::uint32_t used_count = 0;
         std::uint32_t last = count_ - 1;
         for (std::uint32_t k = 0; k < count_; ++k) {
-            const std::uint32_t is_used = is_empty(hits().load(k)) ? 0 : 1;
+            const std::uint32_t is_used = is_empty(in_slot(k)) ? 0 : 1;
             used[used_count] = slots_[last] = static_cast<std::uint16_t>(k);
             used_count += is_used;
             last -= 1 - is_used;
@@ -144,22 +148,23 @@ class PageClusters {
         return used_count;
     }
 
-    void move() {
-        const std::array<std::uint32_t, most_words> before = words_;
-        const SoaView<const Hit> from{before.data(), count_};
+    void copy() {
+        const SoaView<Hit> planes{words_.data(), count_};
         for (std::uint32_t i = 0; i < count_; ++i) {
-            planes().store(i, from.load(slots_[i]));
+            planes.store(i, in_slot(slots_[i]));
             places_[slots_[i]] = static_cast<std::uint16_t>(i);
         }
     }
 
-    // Without values where there is no luxel, or none changes its place.
+    SoaView<const Hit> tile_;
+    LuxelPage page_;
     std::uint32_t count_;
     bool is_ordered_ = false;
+    // Without values unless they are sorted.
     std::array<std::uint32_t, most_words> words_;  ///< planes of the luxels
     detail::PageNumbers slots_;                    ///< by place
     detail::PageNumbers places_;                   ///< by slot
-    Masks masks_;
+    Masks masks_;                                  ///< without values where there is no luxel
 };
 
 }  // namespace mir

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <deque>
+#include <optional>
 #include <vector>
 
 namespace mir::sched::detail {
@@ -27,19 +28,18 @@ inline void append_pages(std::vector<PlacedPage>& all, TileIndex index, const Ti
 /// Which luxels of a page count, face and see VPLs, by a BlockVisibility that is asked for 256
 /// luxels at a time: blocks of the image, or clusters where packets of the image reach across
 /// surfaces and once the page turned out to be worth sorting. The bits are those of the page's
-/// blocks, block by block.
+/// blocks, block by block. Nothing is prepared for VPLs that nobody faces.
 template <BlockVisibility V>
 class PageSight {
  public:
     static constexpr std::uint32_t most_vpls = PageClusters::most_vpls;  ///< at a time
 
     /// Of a page of a tile; the luxel in a slot of the page counts if it sees something and
-    /// `wanted(slot)`. `visibility` must outlive it.
+    /// `wanted(slot)`. `tile` and `visibility` must outlive it.
     template <class Wanted>
     PageSight(const SoaView<const Hit>& tile, const LuxelPage& page, const V& visibility,
               InstructionSet set, const Wanted& wanted)
         : visibility_(visibility), set_(set), clusters_(tile, page) {
-        if (!clusters_.is_compact()) clusters_.sort();
         meet_luxels(page.blocks(), wanted);
     }
     PageSight(const PageSight&) = delete;
@@ -47,24 +47,33 @@ class PageSight {
     ~PageSight() = default;
 
     /// Asks for VPLs first .. first + count - 1, at most `most_vpls`, of which those count that
-    /// `matters(vpl)`: nobody sees the others.
+    /// `matters(vpl)`: nobody sees the others. Returns which ones are seen by some luxel: bit k is
+    /// VPL first + k.
     template <VplSet P, class Matters>
-    [[gnu::always_inline]] void look(const P& vpls, VplIndex first, std::uint32_t count,
-                                     const Matters& matters) {
-        if (is_worth_sorting()) sort();
+    [[gnu::always_inline]] std::uint32_t look(const P& vpls, VplIndex first, std::uint32_t count,
+                                              const Matters& matters) {
+        if (!is_asked_ && !anyone_faces(vpls, first, count, matters)) return 0;
+        prepare();
+        std::uint32_t seen = 0;
         for (std::uint32_t k = 0; k < count; ++k) {
             const Vpl vpl = vpls[first + k];
-            const bool is_asked = matters(vpl);
+            if (!matters(vpl)) continue;
             std::uint32_t c = 0;
-            for (const Cluster& cluster : known_) {
-                const bool can_face = is_asked && !cluster.luxels.cannot_face(vpl);
-                clusters_.set(c++, k, can_face ? seen_of(cluster, vpl) : BlockMask{});
+            for (Cluster& cluster : known_) {
+                const std::uint32_t its = c++;
+                if (cluster.luxels.cannot_face(vpl)) continue;
+                const BlockMask lit = seen_of(cluster, vpl);
+                if (!lit.any()) continue;
+                clusters_.set(its, k, lit);
+                seen |= 1u << k;
             }
         }
-        clusters_.restore();
+        if (seen != 0) clusters_.restore();
+        return seen;
     }
 
-    /// Luxels of block `b` of the page that see the `k`-th of the VPLs that were asked for last.
+    /// Luxels of block `b` of the page that see the `k`-th of the VPLs that were asked for last,
+    /// if any does.
     [[nodiscard]] BlockMask seen(std::uint32_t b, std::uint32_t k) const {
         return clusters_.get(b, k);
     }
@@ -74,27 +83,46 @@ class PageSight {
     /// until then as sorting costs (docs/performance.md).
     static constexpr std::uint32_t parted_packets_of_sort = 64;
 
-    /// 256 luxels of the page, and what the visibility knows of them, which may refer to them: so
-    /// it neither copies nor moves.
+    /// 256 luxels of the page, and, once one of them faces a VPL, what the visibility knows of
+    /// them, which may refer to them: so it neither copies nor moves.
     struct Cluster {
         BoundedHitBlock luxels;
-        typename V::Block known;
+        std::optional<typename V::Block> known;
 
         template <class Wanted>
-        Cluster(const PageClusters& page, std::uint32_t c, const V& visibility, InstructionSet set,
-                const Wanted& wanted)
-            : luxels(page.hits(), Block{0, c},
-                     [&](std::uint32_t i) { return wanted(page.slot(c * BlockMask::luxels + i)); }),
-              known(visibility.block(luxels.hits, set)) {}
+        Cluster(const PageClusters& page, std::uint32_t c, const Wanted& wanted)
+            : luxels(page.hits(c), Block{}, [&](std::uint32_t i) {
+                  return wanted(page.slot(c * BlockMask::luxels + i));
+              }) {}
     };
 
     template <class Wanted>
     void meet_luxels(std::uint32_t count, const Wanted& wanted) {
         known_.clear();
-        for (std::uint32_t c = 0; c < count; ++c)
-            known_.emplace_back(clusters_, c, visibility_, set_, wanted);
+        for (std::uint32_t c = 0; c < count; ++c) known_.emplace_back(clusters_, c, wanted);
     }
 
+    template <VplSet P, class Matters>
+    [[nodiscard, gnu::always_inline]] bool anyone_faces(const P& vpls, VplIndex first,
+                                                        std::uint32_t count,
+                                                        const Matters& matters) const {
+        for (const Cluster& cluster : known_)
+            for (std::uint32_t k = 0; k < count; ++k) {
+                const Vpl vpl = vpls[first + k];
+                if (!cluster.luxels.cannot_face(vpl) && matters(vpl) &&
+                    facing_mask(cluster.luxels, vpl).any())
+                    return true;
+            }
+        return false;
+    }
+
+    /// Sorts the page if that is worth its while.
+    void prepare() {
+        const bool is_first = !is_asked_;
+        is_asked_ = true;
+        if (is_first ? !clusters_.is_compact() : is_worth_sorting()) sort();
+        clusters_.clear();
+    }
     [[nodiscard]] bool is_worth_sorting() const {
         return !clusters_.is_ordered() && parted_packets_ >= parted_packets_of_sort;
     }
@@ -111,19 +139,34 @@ class PageSight {
     }
 
     /// Luxels of a cluster that count, face and see a VPL.
-    [[nodiscard, gnu::always_inline]] BlockMask seen_of(const Cluster& cluster, const Vpl& vpl) {
+    [[nodiscard, gnu::always_inline]] BlockMask seen_of(Cluster& cluster, const Vpl& vpl) {
         const BlockMask faced = facing_mask(cluster.luxels, vpl);
+        if (!faced.any()) return faced;
+        if (!cluster.known) know(cluster);
         BlockMask lit = faced;
-        if (faced.any()) visibility_.visible_block(cluster.known, vpl.position, lit);
+        visibility_.visible_block(*cluster.known, vpl.position, lit);
         for (std::uint32_t g = 0; g < BlockMask::packets; ++g)
             parted_packets_ += lit.packet[g] != 0 && lit.packet[g] != faced.packet[g] ? 1 : 0;
         return lit;
+    }
+
+    // Not inlined: it happens once. Without assignment, which a Block need not have.
+    [[gnu::noinline]] void know(Cluster& cluster) const {
+        struct Made {
+            const PageSight& sight;
+            const Cluster& cluster;
+            operator typename V::Block() const {
+                return sight.visibility_.block(cluster.luxels.hits, sight.set_);
+            }
+        };
+        cluster.known.emplace(Made{*this, cluster});
     }
 
     const V& visibility_;
     InstructionSet set_;
     PageClusters clusters_;
     std::deque<Cluster> known_;
+    bool is_asked_ = false;             ///< some luxel faced a VPL
     std::uint32_t parted_packets_ = 0;  ///< so far, of a packet and a VPL each
 };
 
