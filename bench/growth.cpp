@@ -107,8 +107,9 @@ void add_spheres(const Machine& machine) {
     for (const std::uint32_t vpls : {usual_vpls, many_vpls})
         for (const std::uint32_t triangles : sphere_triangles)
             add(machine,
-                (vpls == usual_vpls ? "builtin:sphere" : "sphere, 4096 VPLs") +
-                    std::string("/triangles:") + std::to_string(triangles),
+                (vpls == usual_vpls ? "builtin:sphere"
+                                    : "sphere, " + std::to_string(vpls) + " VPLs") +
+                    "/triangles:" + std::to_string(triangles),
                 [machine, vpls, triangles](benchmark::State& state) {
                     mir::RenderSettings settings = usual_settings(machine);
                     settings.vpls = vpls;

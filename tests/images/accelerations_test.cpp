@@ -67,7 +67,10 @@ TEST_CASE("A scene of more than a million triangles needs more pairs for each", 
     REQUIRE(used.triangles > 1'400'000);
     const double for_each = pairs(s) / static_cast<double>(used.triangles);
     REQUIRE(for_each > 130);
+    REQUIRE(for_each < 150);
     CHECK(used.acceleration == "embree");
+    s.luxels_per_pixel = 14;  // 165 for each
+    CHECK(mirtest::render(scene, s).statistics.acceleration == "bvh");
 }
 
 TEST_CASE("The kd-tree and the wide hierarchy with shafts draw the same bits", "[extended]") {

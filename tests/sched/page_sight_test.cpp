@@ -138,6 +138,22 @@ TEST_CASE("Nothing is made of a page for VPLs that nobody faces") {
     CHECK(page.blocks == page.page().blocks());
 }
 
+TEST_CASE("VPLs that do not matter are not asked about") {
+    Page page;
+    mir::VplList vpls;
+    for (int k = 0; k < 16; ++k)
+        vpls.push_back({{-1, 0, k < 8 ? 2.0f : 3.0f}, {0, 0, -1}, {1, 1, 1}}, {});
+    const Strips visibility = page.visibility();
+    mir::sched::detail::PageSight<Strips> sight(std::as_const(page.luxels).view(), page.page(),
+                                                visibility, mir::InstructionSet::baseline,
+                                                is_wanted);
+    CHECK(sight.look(vpls.span(), 0, 16, [](const mir::Vpl&) { return false; }) == 0);
+    CHECK(page.blocks == 0);
+    const auto is_high = [](const mir::Vpl& vpl) { return vpl.position.z > 2.5f; };
+    CHECK(sight.look(vpls.span(), 0, 16, is_high) == 0xFF00u);
+    CHECK(page.blocks == page.page().blocks());
+}
+
 TEST_CASE("A page of several surfaces is sorted before anybody asks") {
     Page page;
     page.luxels = mirtest::stepped_plane(page.layout, 3);

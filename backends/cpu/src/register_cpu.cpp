@@ -8,6 +8,7 @@
 #include "mir/scene/scene_hash.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mir::cpu {
 
@@ -36,7 +37,7 @@ RenderResult render_with(const HostRender& r, const HostEngine& engine) {
 /// may change a bit.
 double pairs_that_pay(double triangles) {
     constexpr double many = 1e6;
-    return 128 * triangles * std::max(1.0, triangles / many);
+    return 128 * triangles * std::max(1.0, std::sqrt(triangles / many));
 }
 
 /// Paths and discs ask ray by ray, which Embree answers fastest; so do luxels where masks forbid

@@ -15,7 +15,7 @@ namespace mir {
 
 /// The luxels of a page on the host, if wanted in an order in which packets and blocks lie close
 /// together, and masks of who of them sees some VPLs: these come in that order and leave in blocked
-/// order. It decides speed, never bits. The tile must outlive it. For one thread.
+/// order. It decides speed, never bits. The planes of the tile must outlive it. For one thread.
 class PageClusters {
  public:
     static constexpr std::uint32_t most_vpls = 16;  ///< of which masks are kept
@@ -24,7 +24,8 @@ class PageClusters {
     PageClusters(const SoaView<const Hit>& tile, const LuxelPage& page)
         : tile_(tile), page_(page), count_(page.luxels()) {}
 
-    /// False when packets reach from one surface to another (RunSizes): sorting is worth its while.
+    /// Of the blocked order. False when packets reach from one surface to another (RunSizes):
+    /// sorting is worth its while.
     [[nodiscard]] bool is_compact() const {
         RunSizes sizes;
         Box all;
@@ -59,7 +60,8 @@ class PageClusters {
         is_ordered_ = true;
     }
 
-    /// The 256 luxels of cluster `c` in their order: of the page's block `c` unless sorted.
+    /// The 256 luxels of cluster `c` in their order: of the page's block `c` unless sorted. Valid
+    /// until sort(), and while this object stays where it is.
     [[nodiscard]] SoaView<const Hit> hits(std::uint32_t c) const {
         if (!is_ordered_) return {tile_.planes + page_.slot(c * BlockMask::luxels), tile_.stride};
         return {words_.data() + std::size_t{c} * BlockMask::luxels, count_};
@@ -69,7 +71,8 @@ class PageClusters {
     /// False while every luxel is in its slot.
     [[nodiscard]] bool is_ordered() const { return is_ordered_; }
 
-    /// Nobody sees a VPL: to be told before masks are.
+    /// Forgets all masks: nobody sees any VPL. To be called before set(), unless masks of all
+    /// clusters and VPLs are set.
     void clear() { std::fill(masks_.begin(), masks_.begin() + count_ / width, PacketMasks{}); }
     /// Notes who of cluster `c` sees VPL `k` < most_vpls.
     void set(std::uint32_t c, std::uint32_t k, const BlockMask& mask) {

@@ -33,9 +33,10 @@ template <BlockVisibility V>
 class PageSight {
  public:
     static constexpr std::uint32_t most_vpls = PageClusters::most_vpls;  ///< at a time
+    static_assert(most_vpls <= 32, "a word has a bit for each");
 
     /// Of a page of a tile; the luxel in a slot of the page counts if it sees something and
-    /// `wanted(slot)`. `tile` and `visibility` must outlive it.
+    /// `wanted(slot)`. The planes of `tile` and `visibility` must outlive it.
     template <class Wanted>
     PageSight(const SoaView<const Hit>& tile, const LuxelPage& page, const V& visibility,
               InstructionSet set, const Wanted& wanted)
@@ -72,8 +73,8 @@ class PageSight {
         return seen;
     }
 
-    /// Luxels of block `b` of the page that see the `k`-th of the VPLs that were asked for last,
-    /// if any does.
+    /// Luxels of block `b` of the page that see the `k`-th of the VPLs that were asked for last.
+    /// Only for those that look() returned a bit of: others may have no value.
     [[nodiscard]] BlockMask seen(std::uint32_t b, std::uint32_t k) const {
         return clusters_.get(b, k);
     }
@@ -116,8 +117,8 @@ class PageSight {
         return false;
     }
 
-    /// Sorts the page if that is worth its while.
-    void prepare() {
+    /// Sorts the page if that is worth its while. Not inlined: as sort().
+    [[gnu::noinline]] void prepare() {
         const bool is_first = !is_asked_;
         is_asked_ = true;
         if (is_first ? !clusters_.is_compact() : is_worth_sorting()) sort();
@@ -150,7 +151,8 @@ class PageSight {
         return lit;
     }
 
-    // Not inlined: it happens once. Without assignment, which a Block need not have.
+    // Not inlined: it happens once. A Block need not move, so that it is made in its place, by a
+    // conversion whose result is elided (CWG 2327, as compilers have it).
     [[gnu::noinline]] void know(Cluster& cluster) const {
         struct Made {
             const PageSight& sight;
