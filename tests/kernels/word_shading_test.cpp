@@ -95,7 +95,8 @@ class LitLuxels {
         const mir::WordShading kernel{PlainLuxels{hits_.data(), surfaces_.data(), size()},
                                       mir::span_of(vpls_), words_.data(), shade, radiance};
         typename decltype(kernel)::Workspace space;
-        for (auto& row : space.positions) row.lit = ~0u;  // as if left by a group before
+        for (std::uint32_t at = 0; at < 32; ++at)
+            space.vpls.keep({}, ~0u, 0, at);  // of a group before
         for (std::uint32_t i = 0; i < size() / 32; ++i) kernel(mir::LaneGroup{}, i, space);
         std::vector<Rgb> found;
         for (std::uint32_t i = 0; i < size(); ++i) found.push_back(radiance.load(i));

@@ -6,89 +6,166 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/visibility_words.hpp"
+#include "mir/kernels/vpl_rows.hpp"
 #include "mir/normalise/image_response.hpp"
+#include "mir/shading/prepared_luxel.hpp"
 
 namespace mir {
 
-/// What VPLs of unit intensity do to one block of 16 x 16 luxels each: kernel over pairs of a block
-/// of some rows of blocks of a tile and a VPL. Neighbouring indices are neighbouring VPLs of one
-/// block, so that threads read neighbouring words and the same luxels. Sums lanes of sixteen luxels
-/// in single and the lanes in double precision, exactly as ResponseSum does.
+/// What VPLs of unit intensity do to one block of 16 x 16 luxels each: kernel for groups, over
+/// pairs of a block of some rows of blocks of a tile and 32 VPLs. Sixteen luxels side by side are
+/// prepared at a time, for both halves of the group, which take one VPL each of those that any of
+/// them sees. Sums lanes of sixteen luxels in single and the lanes in double precision, exactly as
+/// ResponseSum does.
 template <GBuffer G, VplSet P, Shading F>
 struct BlockResponse {
+    static constexpr std::uint32_t lanes = 16;  ///< of single precision, a column of luxels each
+
+    /// What a group works in.
+    struct Workspace {
+        VplRows vpls;  ///< those that some of sixteen luxels see come first
+        /// By colour, VPL and lane. One too long, so that all VPLs' sums of a lane lie in different
+        /// banks of the device's memory.
+        float sums[3][LaneGroup::width][lanes + 1];
+    };
+
     G luxels;                        ///< of the tile
     P vpls;                          ///< whose intensities are not read
     VisibilityWords<G::space> seen;  ///< of the tile: which luxels face and see which VPL
     F shade;  ///< luxels that it says to reflect nothing are not counted as lit
     std::uint32_t first_block = 0;  ///< of the tile
     std::uint32_t blocks_x = 0;     ///< of the tile
-    VplIndex first_vpl = 0;         ///< that index 0 stands for
+    VplIndex first_vpl = 0;         ///< of all
     std::uint32_t count = 0;        ///< VPLs
     ImageResponse* sums = nullptr;  ///< of the tile's first column of blocks
     std::uint32_t columns = 0;      ///< blocks side by side in the whole image
 
-    /// Block first_block + i / count and VPL first_vpl + i % count. Writes their sum to element
-    /// i % count of the `count` of that block; blocks lie in rows of `columns`.
-    MIR_HD void operator()(std::uint32_t i) const {
-        const std::uint32_t block = i / count;
-        const std::uint32_t j = i % count;
+    /// Groups for a block.
+    [[nodiscard]] MIR_HD static std::uint32_t groups_per_block(std::uint32_t vpls) {
+        return vpls / LaneGroup::width + (vpls % LaneGroup::width != 0 ? 1 : 0);
+    }
+
+    /// Block first_block + i / n and the 32 VPLs from first_vpl + 32 (i % n) on, n being the groups
+    /// of a block. Writes the sum of VPL first_vpl + j to element j of the `count` of that block;
+    /// blocks lie in rows of `columns`.
+    MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
+        const std::uint32_t groups = groups_per_block(count);
+        const std::uint32_t block = i / groups;
+        const std::uint32_t first = i % groups * LaneGroup::width;
+        LaneGroup::PerLane<Vpl> own_vpls;
+        PerLaneBits lit_luxels;
+        group.each([&](std::uint32_t lane) {
+            own_vpls[lane] = first + lane < count ? vpls[first_vpl + first + lane] : Vpl{};
+            lit_luxels[lane] = 0;
+            for (auto& colour : space.sums)
+                for (std::uint32_t k = 0; k < lanes; ++k) colour[lane][k] = 0.0f;
+        });
+        add_block(group, first_block + block, first, own_vpls, lit_luxels, space);
         const std::size_t place = std::size_t{block / blocks_x} * columns + block % blocks_x;
-        sums[place * count + j] = of(first_block + block, first_vpl + j);
+        group.each([&](std::uint32_t lane) {
+            if (first + lane < count)
+                sums[place * count + first + lane] = sum_of_lanes(lane, lit_luxels[lane], space);
+        });
     }
 
  private:
-    static constexpr std::uint32_t lanes = 16;
+    using PerLaneBits = LaneGroup::PerLane<std::uint32_t>;
+    using PerLaneVpls = LaneGroup::PerLane<Vpl>;
+    using PerLaneLuxels = LaneGroup::PerLane<PreparedLuxel<F>>;
     static constexpr std::uint32_t words =
         BlockedLayout::block_size / VisibilityWords<G::space>::width;
 
-    /// The luxels of a block that see a VPL.
-    struct Lit {
-        std::uint32_t word[words];
-
-        [[nodiscard]] MIR_HD bool any() const {
-            std::uint32_t some = 0;
-            for (std::uint32_t q = 0; q < words; ++q) some |= word[q];
-            return some != 0;
+    /// Adds all luxels of a block, in their order.
+    MIR_HD void add_block(const LaneGroup& group, std::uint32_t block, std::uint32_t first,
+                          const PerLaneVpls& own_vpls, PerLaneBits& lit_luxels,
+                          Workspace& space) const {
+        const std::uint32_t* const of_block =
+            seen.words + std::size_t{block} * words * seen.vpls + first_vpl + first;
+        PerLaneBits own, next;
+        const auto fetch = [&](std::uint32_t q, PerLaneBits& into) {
+            group.each_apart([&](std::uint32_t lane) {
+                const bool is_there = q < words && first + lane < count;
+                into[lane] = is_there ? of_block[std::size_t{q} * seen.vpls + lane] : 0u;
+            });
+        };
+        fetch(0, own);
+        for (std::uint32_t q = 0; q < words; ++q) {
+            fetch(q + 1, next);
+            const LuxelIndex luxel = block * BlockedLayout::block_size + q * 2 * lanes;
+            PerLaneBits half;
+            group.each_apart([&](std::uint32_t lane) { half[lane] = own[lane] & 0xFFFFu; });
+            add_row(group, luxel, own_vpls, half, lit_luxels, space);
+            group.each_apart([&](std::uint32_t lane) { half[lane] = own[lane] >> lanes; });
+            add_row(group, luxel + lanes, own_vpls, half, lit_luxels, space);
+            group.each_apart([&](std::uint32_t lane) { own[lane] = next[lane]; });
         }
-        /// Bit g: luxel 16 g + k.
-        [[nodiscard]] MIR_HD std::uint32_t lane(std::uint32_t k) const {
-            std::uint32_t groups = 0;
-            for (std::uint32_t q = 0; q < words; ++q)
-                groups |= (word[q] >> k & 1u) << 2 * q | (word[q] >> (lanes + k) & 1u)
-                                                             << (2 * q + 1);
-            return groups;
-        }
-    };
-
-    [[nodiscard]] MIR_HD ImageResponse of(std::uint32_t block, VplIndex j) const {
-        Lit lit;
-        for (std::uint32_t q = 0; q < words; ++q)
-            lit.word[q] = seen.words[(std::size_t{block} * words + q) * seen.vpls + j];
-        ImageResponse sum;
-        if (!lit.any()) return sum;
-        Vpl unit = vpls[j];
-        unit.intensity = {1.0f, 1.0f, 1.0f};
-        for (std::uint32_t k = 0; k < lanes; ++k)
-            add_lane(block * BlockedLayout::block_size + k, lit.lane(k), unit, sum);
-        return sum;
     }
 
-    /// Adds every sixteenth luxel from `first` on, where the bit is set.
-    MIR_HD void add_lane(LuxelIndex first, std::uint32_t groups, const Vpl& unit,
-                         ImageResponse& sum) const {
-        Rgb lane;
-        for (std::uint32_t g = 0; g < BlockedLayout::block_size / lanes; ++g) {
-            if ((groups >> g & 1u) == 0) continue;
-            const LuxelIndex i = first + lanes * g;
+    /// Adds sixteen luxels from `first` on to their lanes; `own_lit` has a bit for each that sees
+    /// the VPL of a lane of the group.
+    MIR_HD void add_row(const LaneGroup& group, LuxelIndex first, const PerLaneVpls& own_vpls,
+                        const PerLaneBits& own_lit, PerLaneBits& lit_luxels,
+                        Workspace& space) const {
+        const std::uint32_t seen_vpls =
+            group.ballot([&](std::uint32_t lane) { return own_lit[lane] != 0; });
+        if (seen_vpls == 0) return;
+        PerLaneLuxels prepared;
+        const std::uint32_t reflecting = prepare(group, first, prepared);
+        const std::uint32_t n = LaneGroup::count(seen_vpls);
+        group.each([&](std::uint32_t lane) {
+            const std::uint32_t lit = own_lit[lane] & reflecting;
+            lit_luxels[lane] += LaneGroup::count(lit);
+            const std::uint32_t at = own_lit[lane] != 0
+                                         ? LaneGroup::count_before(seen_vpls, lane)
+                                         : n + LaneGroup::count_before(~seen_vpls, lane);
+            space.vpls.keep(own_vpls[lane], lit, lane, at);
+        });
+        // Where they are an odd number, one more, which no luxel sees.
+        for (std::uint32_t at = 0; at < n; at += 2) add_pair(group, prepared, at, space);
+        // No lane may add to a sum, or change a VPL, that the other half has to do with.
+        group.each([](std::uint32_t) {});
+    }
+
+    /// Makes both halves of a group ready; returns which luxels reflect anything.
+    [[nodiscard]] MIR_HD std::uint32_t prepare(const LaneGroup& group, LuxelIndex first,
+                                               PerLaneLuxels& prepared) const {
+        return group.ballot([&](std::uint32_t lane) {
+            const LuxelIndex i = first + lane % lanes;
             const auto surface = luxels.surface(i);
-            if constexpr (SurfaceSelectiveShading<F>)
-                if (!shade.reflects(surface)) continue;
-            lane += shade(luxels.hit(i), surface, unit);
-            ++sum.lit_luxels;
+            prepared[lane] = PreparedLuxel<F>::of(shade, luxels.hit(i), surface);
+            if constexpr (SurfaceSelectiveShading<F>) return shade.reflects(surface);
+            return true;
+        });
+    }
+
+    /// Adds the VPLs in places `at` and `at` + 1 of the workspace, one to each half of the group.
+    MIR_HD void add_pair(const LaneGroup& group, const PerLaneLuxels& prepared, std::uint32_t at,
+                         Workspace& space) const {
+        group.each_apart([&](std::uint32_t lane) {
+            const VplRows::Row row = space.vpls[at + lane / lanes];
+            const std::uint32_t k = lane % lanes;
+            const bool is_lit = (row.lit >> k & 1u) != 0;
+            // As in WordShading, a lane of a warp would save nothing by leaving.
+            if (!LaneGroup::is_warp && !is_lit) return;
+            const Vpl unit{row.position, row.normal, {1.0f, 1.0f, 1.0f}};
+            const Rgb c = prepared[lane].lit_by(unit, shade);
+            if (!is_lit) return;
+            space.sums[0][row.number][k] += c.r;
+            space.sums[1][row.number][k] += c.g;
+            space.sums[2][row.number][k] += c.b;
+        });
+    }
+
+    [[nodiscard]] MIR_HD static ImageResponse sum_of_lanes(std::uint32_t vpl, std::uint32_t lit,
+                                                           const Workspace& space) {
+        ImageResponse sum;
+        for (std::uint32_t k = 0; k < lanes; ++k) {
+            sum.r += static_cast<double>(space.sums[0][vpl][k]);
+            sum.g += static_cast<double>(space.sums[1][vpl][k]);
+            sum.b += static_cast<double>(space.sums[2][vpl][k]);
         }
-        sum.r += static_cast<double>(lane.r);
-        sum.g += static_cast<double>(lane.g);
-        sum.b += static_cast<double>(lane.b);
+        sum.lit_luxels = lit;
+        return sum;
     }
 };
 

@@ -6,6 +6,7 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/core/lane_group.hpp"
 #include "mir/data/soa.hpp"
+#include "mir/kernels/vpl_rows.hpp"
 #include "mir/shading/prepared_luxel.hpp"
 
 namespace mir {
@@ -16,17 +17,15 @@ namespace mir {
 template <GBuffer G, VplSet P, Shading F>
 struct WordShading {
     /// Aligned so that the device fetches it as one word.
-    struct alignas(16) Row {
-        float x = 0.0f;         ///< or red
-        float y = 0.0f;         ///< or green
-        float z = 0.0f;         ///< or blue
-        std::uint32_t lit = 0;  ///< with positions, luxels that see the VPL
+    struct alignas(16) Intensity {
+        float r = 0.0f;  ///< W sr^-1
+        float g = 0.0f;  ///< W sr^-1
+        float b = 0.0f;  ///< W sr^-1
     };
     /// What a group works in: 32 VPLs, which all lanes read one after the other.
     struct Workspace {
-        Row positions[LaneGroup::width];    ///< metres
-        Row normals[LaneGroup::width];      ///< unit
-        Row intensities[LaneGroup::width];  ///< W sr^-1
+        VplRows vpls;                             ///< and which luxels of a word see them
+        Intensity intensities[LaneGroup::width];  ///< theirs
     };
 
     G luxels;                              ///< of the tile, whole groups of 32
@@ -80,12 +79,11 @@ struct WordShading {
     /// Adds the light of the VPL in place `at` of the workspace.
     MIR_HD void add(const LaneGroup& group, const LaneGroup::PerLane<PreparedLuxel<F>>& own_luxels,
                     std::uint32_t at, const Workspace& space, LaneGroup::PerLane<Rgb>& sums) const {
-        const Row p = space.positions[at];
-        const Row n = space.normals[at];
-        const Row j = space.intensities[at];
-        const Vpl vpl{{p.x, p.y, p.z}, {n.x, n.y, n.z}, {j.x, j.y, j.z}};
+        const VplRows::Row row = space.vpls[at];
+        const Intensity j = space.intensities[at];
+        const Vpl vpl{row.position, row.normal, {j.r, j.g, j.b}};
         group.each_apart([&](std::uint32_t lane) {
-            const bool is_lit = (p.lit >> lane & 1u) != 0;
+            const bool is_lit = (row.lit >> lane & 1u) != 0;
             // A lane of a warp would save nothing by leaving, and the branch costs all of them.
             if (!LaneGroup::is_warp && !is_lit) return;
             const Rgb c = own_luxels[lane].lit_by(vpl, shade);
@@ -96,9 +94,8 @@ struct WordShading {
     }
 
     MIR_HD static void keep(const Vpl& vpl, std::uint32_t lit, std::uint32_t at, Workspace& space) {
-        space.positions[at] = {vpl.position.x, vpl.position.y, vpl.position.z, lit};
-        space.normals[at] = {vpl.normal.x, vpl.normal.y, vpl.normal.z, 0};
-        space.intensities[at] = {vpl.intensity.r, vpl.intensity.g, vpl.intensity.b, 0};
+        space.vpls.keep(vpl, lit, 0, at);
+        space.intensities[at] = {vpl.intensity.r, vpl.intensity.g, vpl.intensity.b};
     }
 };
 template <class G, class P, class F>

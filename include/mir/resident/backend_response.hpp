@@ -125,10 +125,10 @@ void BackendResponse<B>::add_part(Queue& queue, const G& gbuffer, P vpls,
         const Tile tile = gbuffer.tiles()[t];
         const std::uint32_t across = BlockedLayout::of(tile).blocks_x;
         ImageResponse* column = partial_.data() + std::size_t{tile.x / BlockedLayout::side} * n;
-        queue.for_each(
-            part.rows * across * n,
-            BlockResponse{gbuffer.view(t), vpls, seen.tile(t), shading, part.first_row * across,
-                          across, part.first_vpl, n, column, chunk_.columns});
+        const BlockResponse blocks{
+            gbuffer.view(t), vpls, seen.tile(t), shading,       part.first_row * across, across,
+            part.first_vpl,  n,    column,       chunk_.columns};
+        queue.for_each_group(part.rows * across * blocks.groups_per_block(n), blocks);
     }
     queue.for_each(part.rows * n, SumBlockRow{partial_.data(), chunk_.columns, n});
     queue.for_each(n, AddBlockRows{partial_.data(), part.rows, std::size_t{chunk_.columns} * n,
