@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "cuda/device_rows.hpp"
 #include "cuda/reconstruct.hpp"
 #include "mir/cuda/backend.cuh"
 #include "mir/reshade.hpp"
-#include "mir/resident/uploaded_array.hpp"
 #include "mir/sched/reconstruct.hpp"
 #include "mir/sched/reconstruct_visibility_parallel.hpp"
 #include "mir/sched/shading_only.hpp"
@@ -14,16 +14,6 @@ namespace {
 
 using mir::cuda::Backend;
 using HostSight = BruteForceView<mir::Space::host>;
-using DeviceSight = BruteForceView<mir::Space::device>;
-using DeviceRows = mir::UploadedArray<Backend, mir::TriangleRows>;
-
-DeviceRows upload(const Backend& backend, HostSight sight) {
-    auto queue = backend.queue();
-    return DeviceRows(backend, queue, {sight.rows, sight.count});
-}
-DeviceSight sight_of(const DeviceRows& rows) {
-    return {rows.data(), static_cast<std::uint32_t>(rows.size())};
-}
 
 }  // namespace
 
@@ -36,12 +26,12 @@ mir::Image<mir::Rgb> reconstruct_on(const Backend& backend, Algorithm algorithm,
     if (algorithm == Algorithm::os)
         return reconstruct(mir::sched::ShadingOnly{backend, executor}, gbuffer, vpls, visibility,
                            shading);
-    const DeviceRows rows = upload(backend, visibility);
+    const DeviceRows rows(backend, visibility);
     if (algorithm == Algorithm::rc)
-        return reconstruct(mir::sched::Reconstruct{backend}, gbuffer, vpls, sight_of(rows),
+        return reconstruct(mir::sched::Reconstruct{backend}, gbuffer, vpls, rows.visibility(),
                            shading);
     return reconstruct(mir::sched::ReconstructVisibilityParallel{backend}, gbuffer, vpls,
-                       sight_of(rows), shading);
+                       rows.visibility(), shading);
 }
 
 template <mir::Shading F>
@@ -63,9 +53,9 @@ mir::Image<mir::Rgb> reconstruct_pinned_on(
         gbuffer,
     mir::VplSpan<mir::Space::host> vpls, HostSight visibility,
     mir::VplShading<mir::Lambert> shading) {
-    const DeviceRows rows = upload(backend, visibility);
+    const DeviceRows rows(backend, visibility);
     return reconstruct(mir::sched::ReconstructVisibilityParallel{backend}, gbuffer, vpls,
-                       sight_of(rows), shading);
+                       rows.visibility(), shading);
 }
 
 using Diffuse = mir::VplShading<mir::Lambert>;

@@ -6,6 +6,7 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/visibility_words.hpp"
+#include "mir/kernels/lane_sums.hpp"
 #include "mir/kernels/vpl_rows.hpp"
 #include "mir/normalise/image_response.hpp"
 #include "mir/shading/prepared_luxel.hpp"
@@ -19,14 +20,10 @@ namespace mir {
 /// ResponseSum does.
 template <GBuffer G, VplSet P, Shading F>
 struct BlockResponse {
-    static constexpr std::uint32_t lanes = 16;  ///< of single precision, a column of luxels each
-
     /// What a group works in.
     struct Workspace {
-        VplRows vpls;  ///< those that some of sixteen luxels see come first
-        /// By colour, VPL and lane. One too long, so that all VPLs' sums of a lane lie in different
-        /// banks of the device's memory.
-        float sums[3][LaneGroup::width][lanes + 1];
+        VplRows vpls;   ///< those that some of sixteen luxels see come first
+        LaneSums sums;  ///< of all
     };
 
     G luxels;                        ///< of the tile
@@ -57,14 +54,15 @@ struct BlockResponse {
         group.each([&](std::uint32_t lane) {
             own_vpls[lane] = first + lane < count ? vpls[first_vpl + first + lane] : Vpl{};
             lit_luxels[lane] = 0;
-            for (auto& colour : space.sums)
-                for (std::uint32_t k = 0; k < lanes; ++k) colour[lane][k] = 0.0f;
+            for (std::uint32_t k = 0; k < lanes; ++k)
+                space.sums.put(LaneSums::column(LaneSums::row(lane), k), {});
         });
         add_block(group, first_block + block, first, own_vpls, lit_luxels, space);
         const std::size_t place = std::size_t{block / blocks_x} * columns + block % blocks_x;
         group.each([&](std::uint32_t lane) {
             if (first + lane < count)
-                sums[place * count + first + lane] = sum_of_lanes(lane, lit_luxels[lane], space);
+                sums[place * count + first + lane] =
+                    sum_of_lanes(lane, lit_luxels[lane], space.sums);
         });
     }
 
@@ -72,6 +70,7 @@ struct BlockResponse {
     using PerLaneBits = LaneGroup::PerLane<std::uint32_t>;
     using PerLaneVpls = LaneGroup::PerLane<Vpl>;
     using PerLaneLuxels = LaneGroup::PerLane<PreparedLuxel<F>>;
+    static constexpr std::uint32_t lanes = LaneSums::columns;  ///< of single precision
     static constexpr std::uint32_t words =
         BlockedLayout::block_size / VisibilityWords<G::space>::width;
 
@@ -118,7 +117,7 @@ struct BlockResponse {
             const std::uint32_t at = own_lit[lane] != 0
                                          ? LaneGroup::count_before(seen_vpls, lane)
                                          : n + LaneGroup::count_before(~seen_vpls, lane);
-            space.vpls.keep(own_vpls[lane], lit, lane, at);
+            space.vpls.keep(own_vpls[lane], lit, LaneSums::row(lane), at);
         });
         // Where they are an odd number, one more, which no luxel sees.
         for (std::uint32_t at = 0; at < n; at += 2) add_pair(group, prepared, at, space);
@@ -149,20 +148,21 @@ struct BlockResponse {
             if (!LaneGroup::is_warp && !is_lit) return;
             const Vpl unit{row.position, row.normal, {1.0f, 1.0f, 1.0f}};
             const Rgb c = prepared[lane].lit_by(unit, shade);
-            if (!is_lit) return;
-            space.sums[0][row.number][k] += c.r;
-            space.sums[1][row.number][k] += c.g;
-            space.sums[2][row.number][k] += c.b;
+            const std::uint32_t place = LaneSums::column(row.number, k);
+            const Rgb sum = space.sums[place];
+            space.sums.put(place, {is_lit ? sum.r + c.r : sum.r, is_lit ? sum.g + c.g : sum.g,
+                                   is_lit ? sum.b + c.b : sum.b});
         });
     }
 
     [[nodiscard]] MIR_HD static ImageResponse sum_of_lanes(std::uint32_t vpl, std::uint32_t lit,
-                                                           const Workspace& space) {
+                                                           const LaneSums& sums) {
         ImageResponse sum;
         for (std::uint32_t k = 0; k < lanes; ++k) {
-            sum.r += static_cast<double>(space.sums[0][vpl][k]);
-            sum.g += static_cast<double>(space.sums[1][vpl][k]);
-            sum.b += static_cast<double>(space.sums[2][vpl][k]);
+            const Rgb lane = sums[LaneSums::column(LaneSums::row(vpl), k)];
+            sum.r += static_cast<double>(lane.r);
+            sum.g += static_cast<double>(lane.g);
+            sum.b += static_cast<double>(lane.b);
         }
         sum.lit_luxels = lit;
         return sum;
