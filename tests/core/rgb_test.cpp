@@ -21,6 +21,8 @@ TEST_CASE("What is not kept is black, whatever it was") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK(mir::kept_if(true, {1, 2, 3}) == Rgb{1, 2, 3});
     CHECK(mir::kept_if(false, {1, nan, -3}) == Rgb{});
+    CHECK(mir::sum_if(true, {1, 2, 3}, {4, 5, 6}) == Rgb{5, 7, 9});
+    CHECK(mir::sum_if(false, {1, 2, 3}, {4, nan, 6}) == Rgb{1, 2, 3});
 }
 
 TEST_CASE("Luminance has the weights of Rec. 709, which add up to one") {

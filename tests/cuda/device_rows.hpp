@@ -13,7 +13,7 @@ class DeviceRows {
     DeviceRows(const mir::cuda::Backend& backend, BruteForceView<mir::Space::host> sight)
         : rows_(uploaded(backend, sight)) {}
 
-    /// For as long as the rows.
+    /// Valid as long as this.
     [[nodiscard]] BruteForceView<mir::Space::device> visibility() const {
         return {rows_.data(), static_cast<std::uint32_t>(rows_.size())};
     }

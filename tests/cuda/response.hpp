@@ -11,7 +11,7 @@
 #include "mir/shading/vpl_shading.hpp"
 #include "support/brute_force_view.hpp"
 
-#include <limits>
+#include <cmath>
 #include <vector>
 
 // What the tests start on the GPU: declared for files with assertions, defined in response.cu.
@@ -27,8 +27,7 @@ struct NoNumberBehind {
     [[nodiscard]] MIR_HD mir::Rgb operator()(const mir::Hit& hit, const Surface& surface,
                                              const mir::Vpl& vpl) const {
         const bool is_behind = glm::dot(vpl.normal, hit.position - vpl.position) < -1e-3f;
-        const float none = std::numeric_limits<float>::quiet_NaN();
-        return is_behind ? mir::Rgb{none, none, none} : shading(hit, surface, vpl);
+        return is_behind ? mir::Rgb{NAN, NAN, NAN} : shading(hit, surface, vpl);
     }
 };
 

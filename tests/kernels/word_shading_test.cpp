@@ -96,7 +96,7 @@ class LitLuxels {
                                       mir::span_of(vpls_), words_.data(), shade, radiance};
         typename decltype(kernel)::Workspace space;
         for (std::uint32_t at = 0; at < 32; ++at)
-            space.vpls.keep({}, ~0u, 0, at);  // of a group before
+            space.vpls.keep({}, ~0u, 0, at);  // as if left by a group before
         for (std::uint32_t i = 0; i < size() / 32; ++i) kernel(mir::LaneGroup{}, i, space);
         std::vector<Rgb> found;
         for (std::uint32_t i = 0; i < size(); ++i) found.push_back(radiance.load(i));

@@ -4,6 +4,7 @@
 #include "mir/normalise/image_response.hpp"
 
 #include <bit>
+#include <cstdint>
 #include <vector>
 
 namespace mirtest {

@@ -14,8 +14,8 @@ namespace mir {
 ///
 /// Axioms (validation/shading.hpp): finite, not negative, zero below either horizon, linear in the
 /// channels of the VPL's intensity (so black ones may be skipped), repeatable, traces no ray. It is
-/// also asked of luxels that do not see the VPL, empty ones among them, beside others that do: it
-/// must not fail there, and its result is thrown away.
+/// also asked of luxels that do not see the VPL, empty ones among them, as of VPLs that none sees:
+/// it must not fail there, and its result is thrown away.
 template <class F>
 concept Shading = DeviceCopyable<F> &&
     requires(const F f, const Hit& h, const typename F::Surface& s, const Vpl& v) {

@@ -64,8 +64,8 @@ class LaneGroup {
 #endif
     }
 
-    /// each() of what writes to nothing but a PerLane: no lane waits for another. Memory that lanes
-    /// read in it may be written after a later each() alone.
+    /// each() in which no lane waits for another. What a lane writes, no other may read or write
+    /// between the each() before and the one after; what it reads, no other may write.
     template <class F>
     MIR_HD void each_apart(const F& f) const {
 #if defined(__CUDA_ARCH__)

@@ -51,6 +51,11 @@ MIR_HD constexpr Rgb kept_if(bool on, Rgb c) {
     return {on ? c.r : 0.0f, on ? c.g : 0.0f, on ? c.b : 0.0f};
 }
 
+/// `sum` + `c` where `on` is true, `sum` elsewhere, whatever `c` is. No branches.
+MIR_HD constexpr Rgb sum_if(bool on, Rgb sum, Rgb c) {
+    return {on ? sum.r + c.r : sum.r, on ? sum.g + c.g : sum.g, on ? sum.b + c.b : sum.b};
+}
+
 /// True when every channel is exactly zero. No branches: loops over lanes ask it.
 MIR_HD constexpr bool is_black(Rgb c) {
     return (static_cast<int>(c.r == 0.0f) & static_cast<int>(c.g == 0.0f) &

@@ -7,15 +7,15 @@
 namespace mir {
 
 /// Sums in single precision in the fast memory of a group of lanes: of as many VPLs as there are
-/// lanes, in sixteen columns of luxels each. A lane may change a sum that no other lane asks for
-/// before the next LaneGroup::each().
+/// lanes, in sixteen columns of luxels each. A sum that a lane changes no other may touch
+/// between one LaneGroup::each() and the next.
 class LaneSums {
  public:
     static constexpr std::uint32_t columns = 16;  ///< of a VPL
 
     /// Where the sums of a VPL, 0 to 31, begin: what column() wants. The device's memory lies in 32
     /// banks, one word of each at a time. All columns of two VPLs side by side are in different
-    /// banks, and so is one column of all VPLs.
+    /// banks, and so are those of one column of all VPLs.
     [[nodiscard]] MIR_HD static std::uint32_t row(std::uint32_t vpl) {
         return columns * vpl | vpl / 2;
     }

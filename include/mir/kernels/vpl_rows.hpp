@@ -6,9 +6,9 @@
 
 namespace mir {
 
-/// VPLs in the fast memory of a group of lanes, which reads one after the other, and which of some
-/// luxels see each: one in each of as many places as there are lanes. Without intensities. A lane
-/// may change a place where no other lane reads it before the next LaneGroup::each().
+/// VPLs, without intensities, in the fast memory of a group of lanes: a place for each lane, with a
+/// word of the luxels that see the VPL. A place that a lane changes no other may touch between one
+/// LaneGroup::each() and the next.
 class VplRows {
  public:
     /// What is in a place.

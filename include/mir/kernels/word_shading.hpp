@@ -87,9 +87,7 @@ struct WordShading {
             // A lane of a warp would save nothing by leaving, and the branch costs all of them.
             if (!LaneGroup::is_warp && !is_lit) return;
             const Rgb c = own_luxels[lane].lit_by(vpl, shade);
-            Rgb& sum = sums[lane];
-            sum = {is_lit ? sum.r + c.r : sum.r, is_lit ? sum.g + c.g : sum.g,
-                   is_lit ? sum.b + c.b : sum.b};
+            sums[lane] = sum_if(is_lit, sums[lane], c);
         });
     }
 

@@ -128,7 +128,7 @@ void BackendResponse<B>::add_part(Queue& queue, const G& gbuffer, P vpls,
         const BlockResponse blocks{
             gbuffer.view(t), vpls, seen.tile(t), shading,       part.first_row * across, across,
             part.first_vpl,  n,    column,       chunk_.columns};
-        queue.for_each_group(part.rows * across * blocks.groups_per_block(n), blocks);
+        queue.for_each_group(blocks.groups(part.rows * across), blocks);
     }
     queue.for_each(part.rows * n, SumBlockRow{partial_.data(), chunk_.columns, n});
     queue.for_each(n, AddBlockRows{partial_.data(), part.rows, std::size_t{chunk_.columns} * n,
