@@ -76,7 +76,8 @@ TEMPLATE_TEST_CASE("Responses on the GPU are the host's in every bit", "", mir::
         for (const float bound : {2.0f, 1e30f}) {
             const mir::VplShading<TestType> shading{bound};
             const Responses wanted = on_host(stage.gbuffer(), stage, shading);
-            CHECK(lit_luxels(wanted) > 100);
+            // The first VPL alone is seen by no luxel.
+            CHECK((lit_luxels(wanted) > 100) == (vpls > 1));
             CHECK(mirtest::same_bits(on_gpu(stage.gbuffer(), stage, shading), wanted));
             // Seven blocks side by side: 32 VPLs of one row of blocks at a time.
             CHECK(mirtest::same_bits(on_gpu(stage.gbuffer(), stage, shading, 0), wanted));

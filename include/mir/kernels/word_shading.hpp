@@ -16,11 +16,12 @@ namespace mir {
 /// together. Writes W m^-2 sr^-1, VPLs summed in their order: the bits of ShadingPass.
 template <GBuffer G, VplSet P, Shading F>
 struct WordShading {
-    /// Aligned so that the device fetches it as one word.
+    /// Four words, so that the device stores and fetches them as one: padding it stores by bytes.
     struct alignas(16) Intensity {
-        float r = 0.0f;  ///< W sr^-1
-        float g = 0.0f;  ///< W sr^-1
-        float b = 0.0f;  ///< W sr^-1
+        float r = 0.0f;       ///< W sr^-1
+        float g = 0.0f;       ///< W sr^-1
+        float b = 0.0f;       ///< W sr^-1
+        float unused = 0.0f;  ///< not read
     };
     /// What a group works in: 32 VPLs, which all lanes read one after the other.
     struct Workspace {
@@ -93,7 +94,7 @@ struct WordShading {
 
     MIR_HD static void keep(const Vpl& vpl, std::uint32_t lit, std::uint32_t at, Workspace& space) {
         space.vpls.keep(vpl, lit, 0, at);
-        space.intensities[at] = {vpl.intensity.r, vpl.intensity.g, vpl.intensity.b};
+        space.intensities[at] = {vpl.intensity.r, vpl.intensity.g, vpl.intensity.b, 0.0f};
     }
 };
 template <class G, class P, class F>
