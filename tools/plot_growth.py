@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Draws what the program `bench_growth` measured: nanoseconds for a contribution against VPLs,
-luxels and triangles, a row of panels for each machine and each way to ask, a line for each scene. Axes are logarithmic.
-Reads its JSON (--benchmark_format=json), writes one SVG.
+luxels and triangles, a row of panels for each machine and each way to ask, a line for each scene.
+Axes are logarithmic. Reads its JSON (--benchmark_format=json), writes one SVG.
 """
 import argparse
 import json

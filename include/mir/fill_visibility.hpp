@@ -84,11 +84,11 @@ void fill_page(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const 
 
 }  // namespace detail
 
-/// Fills an empty `matrix` of the same tiles and VPLs: bit = faces() and visible(), of which not
-/// all zeros are written. Packets and
-/// blocks are used where the visibility has them and the G-buffer has planes; then the bits are
-/// those of visible() as far as the visibility keeps the axioms of those faces. Black VPLs and
-/// surfaces are traced like others. The bits do not depend on `executor` or `instructions`.
+/// Fills an empty `matrix` of the same tiles and VPLs: bit = faces() and visible(). What stays zero
+/// need not be written. Packets and blocks are used where the visibility has them and the G-buffer
+/// has planes; then the bits are those of visible() as far as the visibility keeps the axioms of
+/// those faces. Black VPLs and surfaces are traced like others. The bits do not depend on
+/// `executor` or `instructions`.
 /// @throws Error(invalid_argument) when the matrix belongs to other tiles or VPLs.
 template <TiledGBuffer G, VplSet P, Visibility V, Executor E>
 void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visibility, E& executor,
