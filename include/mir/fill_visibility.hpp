@@ -67,9 +67,7 @@ void fill_page(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const 
     constexpr std::uint32_t most = PageSight<V>::most_vpls;
     for (VplIndex first = 0; first < vpls.size(); first += most) {
         const std::uint32_t count = std::min(most, vpls.size() - first);
-        std::uint32_t seen = 0;
-        run_with(instructions,
-                 [&] { seen = sight.look(vpls, first, count, [](const Vpl&) { return true; }); });
+        std::uint32_t seen = sight.look(vpls, first, count, [](const Vpl&) { return true; });
         while (seen != 0) {
             const std::uint32_t k = mir::detail::pop_lowest(seen);
             for (std::uint32_t b = 0; b < page.blocks(); ++b) {
@@ -106,7 +104,9 @@ void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visib
     if constexpr (BlockVisibility<V> && has_planes)
         for_each(std::vector<sched::detail::PlacedPage>{}, sched::detail::append_pages,
                  [&](const sched::detail::PlacedPage& page) {
-                     detail::fill_page(matrix, gbuffer, vpls, visibility, instructions, page);
+                     run_with(instructions, [&] {
+                         detail::fill_page(matrix, gbuffer, vpls, visibility, instructions, page);
+                     });
                  });
     else
         for_each(std::vector<sched::detail::Block>{}, sched::detail::append_blocks,

@@ -177,3 +177,62 @@ TEST_CASE("A block's bounds never reject a VPL that faces one of its luxels") {
     CHECK(turned_away > 1000);
     CHECK(rejected_wrongly == 0);
 }
+
+TEST_CASE("A block's bounds reject VPLs that lie in the plane of its luxels") {
+    mir::Random random = mirtest::test_random(62);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f}) {
+            INFO("axis " << axis << ", side " << side);
+            mir::Vec3 normal{0.0f};
+            normal[axis] = side;
+            const auto in_plane = [&] {
+                mir::Vec3 p = 7.0f * mirtest::point_in_cube(random);
+                p[axis] = 0.3f;
+                return p;
+            };
+            std::vector<mir::Hit> luxels(mir::BlockMask::luxels);
+            for (mir::Hit& hit : luxels) hit = {in_plane(), normal};
+            const mirtest::HitRun run(luxels);
+            const mir::sched::detail::BoundedHitBlock block(run.view(), {},
+                                                            [](std::uint32_t) { return true; });
+            // In the plane of the luxels, whatever it faces; and with them in its own.
+            CHECK(block.bounds.turned_away_from(in_plane()));
+            CHECK(block.bounds.behind({in_plane(), normal, {}}));
+            mir::Vec3 before = in_plane();
+            before[axis] += 0x1p-20f * side;
+            CHECK_FALSE(block.bounds.turned_away_from(before));
+            CHECK_FALSE(block.bounds.behind({before, -normal, {}}));
+        }
+}
+
+TEST_CASE("A block's bounds are as exact as the dot products of facing") {
+    mir::Random random = mirtest::test_random(63);
+    std::size_t rejected = 0;
+    std::size_t differ_of_one_luxel = 0;
+    std::size_t rejected_wrongly = 0;
+    // VPLs in the luxels' plane, but for rounding, which decides then. At the largest scale some
+    // differences are no numbers any more.
+    for (const float scale : {1.0f, 1e6f, 0x1p66f, 2e38f})
+        for (int i = 0; i < 5000; ++i) {
+            const mir::Vec3 normal = mirtest::direction(random);
+            const auto in_plane = [&] {
+                return scale * glm::cross(normal, mirtest::point_in_cube(random));
+            };
+            std::vector<mir::Hit> luxels(mir::BlockMask::luxels);
+            const std::size_t count = i % 2 == 0 ? 1 : 3;
+            for (std::size_t k = 0; k < count; ++k) luxels[77 * k] = {in_plane(), normal};
+            const mirtest::HitRun run(luxels);
+            const mir::sched::detail::BoundedHitBlock block(run.view(), {},
+                                                            [](std::uint32_t) { return true; });
+            const mir::Vpl vpl{in_plane(), i % 4 < 2 ? mirtest::direction(random) : normal, {}};
+            const bool is_faced = std::ranges::any_of(
+                luxels, [&](const mir::Hit& hit) { return !is_empty(hit) && faces(hit, vpl); });
+            const bool cannot_face = block.cannot_face(vpl);
+            rejected += cannot_face ? 1 : 0;
+            rejected_wrongly += cannot_face && is_faced ? 1 : 0;
+            if (count == 1 && scale < 1e38f) differ_of_one_luxel += cannot_face == is_faced ? 1 : 0;
+        }
+    CHECK(rejected > 5000);
+    CHECK(rejected_wrongly == 0);
+    CHECK(differ_of_one_luxel == 0);
+}

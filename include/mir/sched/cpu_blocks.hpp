@@ -76,6 +76,8 @@ struct CpuBlocks {
         void run(detail::Block b) const;
         void run(const detail::PlacedPage& page) const;
         template <InstructionSet Set>
+        void run_page(const detail::PlacedPage& page) const;
+        template <InstructionSet Set>
         void shade(Work& work) const {
             work.batch.template shade<Set>(work.block, in_.shading, work.sums);
         }
@@ -168,37 +170,43 @@ auto CpuBlocks<E>::Pipeline<In>::start(const detail::PlacedPage& page) const -> 
     return works;
 }
 
-/// Some VPLs at a time find out who of the page sees them, then block by block is shaded.
 template <Executor E>
 template <class In>
 void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
+    run_with(scheduler_.instructions, [&](auto set) { run_page<set()>(page); });
+}
+
+/// Some VPLs at a time find out who of the page sees them, then block by block is shaded.
+template <Executor E>
+template <class In>
+template <InstructionSet Set>
+void CpuBlocks<E>::Pipeline<In>::run_page(const detail::PlacedPage& page) const {
     std::vector<Work> works = start(page);
-    detail::PageSight<V> sight(in_.gbuffer.view(page.tile).hits, page.page, in_.visibility,
-                               scheduler_.instructions, [&](std::uint32_t slot) {
-                                   return works[slot / BlockedLayout::block_size].block.counts(
-                                       slot % BlockedLayout::block_size);
-                               });
+    detail::PageSight<V> sight(
+        in_.gbuffer.view(page.tile).hits, page.page, in_.visibility, Set, [&](std::uint32_t slot) {
+            return works[slot / BlockedLayout::block_size].block.counts(slot %
+                                                                        BlockedLayout::block_size);
+        });
     constexpr std::uint32_t most = detail::PageSight<V>::most_vpls;
     const auto matters = [&](const Vpl& vpl) {
         return std::any_of(works.begin(), works.end(),
                            [&](const Work& w) { return !is_out_of_reach(w.block, vpl); });
     };
-    for (VplIndex first = 0; first < in_.vpls.size(); first += most)
-        run_with(scheduler_.instructions, [&](auto set) {
-            const std::uint32_t count = std::min(most, in_.vpls.size() - first);
-            const std::uint32_t seen = sight.look(in_.vpls, first, count, matters);
-            for (std::uint32_t b = 0; b < works.size(); ++b)
-                for (std::uint32_t rest = seen; rest != 0;) {
-                    const std::uint32_t k = mir::detail::pop_lowest(rest);
-                    const Vpl vpl = in_.vpls[first + k];
-                    if (is_out_of_reach(works[b].block, vpl)) continue;
-                    const BlockMask lit = sight.seen(b, k);
-                    if (lit.any()) works[b].batch.add(vpl, lit);
-                    if (works[b].batch.is_full()) shade<set()>(works[b]);
-                }
-        });
+    for (VplIndex first = 0; first < in_.vpls.size(); first += most) {
+        const std::uint32_t count = std::min(most, in_.vpls.size() - first);
+        const std::uint32_t seen = sight.look(in_.vpls, first, count, matters);
+        for (std::uint32_t b = 0; b < works.size(); ++b)
+            for (std::uint32_t rest = seen; rest != 0;) {
+                const std::uint32_t k = mir::detail::pop_lowest(rest);
+                const Vpl vpl = in_.vpls[first + k];
+                if (is_out_of_reach(works[b].block, vpl)) continue;
+                const BlockMask lit = sight.seen(b, k);
+                if (lit.any()) works[b].batch.add(vpl, lit);
+                if (works[b].batch.is_full()) shade<Set>(works[b]);
+            }
+    }
     for (Work& work : works) {
-        run_with(scheduler_.instructions, [&](auto set) { shade<set()>(work); });
+        shade<Set>(work);
         store(work.place, work.sums);
     }
 }

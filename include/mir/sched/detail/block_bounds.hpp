@@ -13,7 +13,10 @@
 namespace mir::sched::detail {
 
 /// What the luxels of a block have in common, for tests that throw whole blocks away. Every test is
-/// lossless: it is true only if faces() is false for every luxel of the block.
+/// lossless: it is true only if faces() is false for every luxel of the block. No margin is needed:
+/// bounds of the dot products of faces() are found by the same operations in the same order, and
+/// rounding never turns the order of two numbers round, so that a bound that is rounded is one of
+/// what faces() rounds. Walls along the axes are thrown away for VPLs on themselves, then.
 struct BlockBounds {
     Vec3 low{std::numeric_limits<float>::max()};  ///< corners of a box around the positions
     Vec3 high{std::numeric_limits<float>::lowest()};
@@ -22,14 +25,12 @@ struct BlockBounds {
 
     /// True when every luxel lies behind the VPL's tangent plane.
     [[nodiscard]] bool behind(const Vpl& vpl) const {
-        return largest_dot(low - vpl.position, high - vpl.position, vpl.normal, vpl.normal) <
-               -rounding(vpl.position);
+        return largest_dot(low - vpl.position, high - vpl.position, vpl.normal, vpl.normal) <= 0.0f;
     }
 
     /// True when the VPL lies behind every luxel's tangent plane.
     [[nodiscard]] bool turned_away_from(Vec3 position) const {
-        return largest_dot(position - high, position - low, normal_low, normal_high) <
-               -rounding(position);
+        return largest_dot(position - high, position - low, normal_low, normal_high) <= 0.0f;
     }
 
     /// Squared distance from a point to the box.
@@ -38,18 +39,11 @@ struct BlockBounds {
     }
 
  private:
-    /// Upper bound of a dot product of two vectors that lie in boxes, by interval arithmetic.
+    /// Upper bound of a dot product, as faces() rounds it, of two vectors that lie in boxes.
     static float largest_dot(Vec3 a_low, Vec3 a_high, Vec3 b_low, Vec3 b_high) {
         const Vec3 largest = glm::max(glm::max(a_low * b_low, a_low * b_high),
                                       glm::max(a_high * b_low, a_high * b_high));
         return largest.x + largest.y + largest.z;
-    }
-
-    /// More than the rounding of the bound above and of the dot products in faces() together: both
-    /// are sums of three products of differences, each off by a few units of the coordinates' last
-    /// place.
-    [[nodiscard]] float rounding(Vec3 position) const {
-        return 64.0f * 0x1p-24f * (max_abs(low) + max_abs(high) + max_abs(position));
     }
 };
 
