@@ -13,10 +13,11 @@
 namespace mir::sched::detail {
 
 /// What the luxels of a block have in common, for tests that throw whole blocks away. Every test is
-/// lossless: it is true only if faces() is false for every luxel of the block. No margin is needed:
-/// bounds of the dot products of faces() are found by the same operations in the same order, and
-/// rounding never turns the order of two numbers round, so that a bound that is rounded is one of
-/// what faces() rounds. Walls along the axes are thrown away for VPLs on themselves, then.
+/// lossless: it is true only if faces() is false for every luxel of the block. That needs no
+/// margin: rounding to the nearest keeps the order of numbers and is the same for both signs, so
+/// that the operations of faces() in their order, done to the ends of intervals, bound what faces()
+/// finds, provided that neither is compiled with fused products and sums (-ffp-contract=off). So a
+/// wall along an axis is thrown away for VPLs on itself.
 struct BlockBounds {
     Vec3 low{std::numeric_limits<float>::max()};  ///< corners of a box around the positions
     Vec3 high{std::numeric_limits<float>::lowest()};
@@ -39,11 +40,13 @@ struct BlockBounds {
     }
 
  private:
-    /// Upper bound of a dot product, as faces() rounds it, of two vectors that lie in boxes.
+    /// Upper bound of a dot product, as glm::dot() rounds it, of two vectors that lie in boxes. Of
+    /// each two products that comes first which may be infinite where the other is no number,
+    /// because differences overflowed: glm::max() forgets a second argument that is no number.
     static float largest_dot(Vec3 a_low, Vec3 a_high, Vec3 b_low, Vec3 b_high) {
         const Vec3 largest = glm::max(glm::max(a_low * b_low, a_low * b_high),
-                                      glm::max(a_high * b_low, a_high * b_high));
-        return largest.x + largest.y + largest.z;
+                                      glm::max(a_high * b_high, a_high * b_low));
+        return glm::dot(largest, Vec3(1.0f));
     }
 };
 
