@@ -87,10 +87,10 @@ template <mir::InstructionSet Set>
 std::uint32_t count_different(const std::vector<Drawn>& drawn) {
     std::uint32_t different = 0;
     for (const Drawn& d : drawn) {
-        const std::uint32_t pair =
-            mir::detail::hit_lanes_of<Set, 2>(d.rows, d.from, d.points, d.open);
+        const mir::detail::SharedEnd end = mir::detail::shared_end(d.from, d.points, d.open);
+        const std::uint32_t pair = mir::detail::hit_lanes_of<Set, 2>(d.rows, end, d.points, d.open);
         const std::uint32_t alone = mir::detail::hit_lanes<Set>(
-            d.rows, mir::detail::origin_rows(d.rows, d.from), d.points[0], d.open & 0xFFFFu);
+            d.rows, mir::detail::origin_rows(d.rows, d.from), end, d.points[0], d.open & 0xFFFFu);
         different += pair != d.hit || alone != (d.hit & 0xFFFFu) ? 1u : 0u;
     }
     return different;

@@ -15,9 +15,10 @@ namespace mirtest {
     };
     const float s_from = at(rows.s, from);
     const float s_to = at(rows.s, to);
-    return mir::detail::opposite(s_from, s_to) &&
-           mir::detail::is_inside(mir::detail::crossing(at(rows.u, from), at(rows.v, from), s_from,
-                                                        at(rows.u, to), at(rows.v, to), s_to));
+    if (!mir::detail::opposite(s_from, s_to)) return false;
+    const mir::detail::RowsAtEnds ends{at(rows.u, from), at(rows.v, from), s_from,
+                                       at(rows.u, to),   at(rows.v, to),   s_to};
+    return mir::detail::is_crossed(rows, from, to, ends, mir::detail::crossing(ends));
 }
 
 /// A kd-tree's visibility by hits_fused(). Ends must be within the tree's reach.

@@ -17,21 +17,24 @@ namespace mir {
 // reach() = 1.5 M, e = 2^-24, g_u = |gradient of u|_1, g_v likewise, G = g_u + g_v.
 //
 // Lemma. If hits_segment() is true there is a point X on the segment with
-//   |s(X)| <= 17 e M, u(X) >= -13 e M g_u, v(X) >= -13 e M g_v, w(X) >= -(18 e M G + 2 e).
+//   |s(X)| <= 41 e M, u(X) >= -28 e M g_u, v(X) >= -28 e M g_v, w(X) >= -(28 e M G + 10 e).
 // Proof. A row with gradient g is computed with an error of at most e times: g 1.5 M (products),
 // g (1.5 + 1.5 + 2.5) M (sums), g (1.5 + 1) M (storing gradient and offset) = 9.5 e g M; below
-// 9.5 sqrt(3) e M < 17 e M for s. Let s_p, s_q be the computed values, D = |s_p| + |s_q| and X the
-// point that divides the segment in the ratio |s_p| : |s_q|. There s, u, v differ from the same
-// mean of the computed values, which is 0 for s, by no more than that error. U / D is that mean of
-// u, and sign(U) is wrong only below e (|u_p| |s_q| + |u_q| |s_p|) / D <= 2.5 e M g_u. W takes two
-// more subtractions and d: 2 e + 2.5 e M (3 g_u + 2 g_v) in all. Underflow adds below 2^-75, since
+// 9.5 sqrt(3) e M < 17 e M for s. At the place that keeps_edges() found the mean of the computed
+// values keeps 16, 12, 12 and 12 G + 8 e, in units of e times 1.5 M, and so the true values those
+// plus that error; its own rounding is a few e of these, and 2 e of w. A segment that is_inside()
+// alone accepted is such a one, too: let X be the point that divides it in the ratio of its
+// computed distances |s_p| : |s_q|, D their sum. The mean of s is 0 there. U / D is that of u, and
+// sign(U) is wrong only below e (|u_p| |s_q| + |u_q| |s_p|) / D <= 2.5 e M g_u. W takes two more
+// subtractions and d: 2 e + 2.5 e M (3 g_u + 2 g_v) in all. Underflow adds below 2^-75, since
 // opposite() keeps D > 2^-74.
 //
-// Contract. sigma() = 32 e M leaves 14 e M in every direction, and a traversal may use them up:
-// walking with rounded plane distances it may find X up to 14 e M outside of a cell that it visits
-// (kd_traverse.hpp). In return it needs no slack of its own, provided that each leaf lists every
-// triangle whose accept_box() shares a point with the leaf's closed cell. A builder that clips
-// triangles may leave those out that stay farther than overshoot() from the cell in some axis.
+// Contract. accept_margin_of() = 64 e M leaves 14 e M in every direction, and a traversal may use
+// them up: walking with rounded plane distances it may find X up to 14 e M outside of a cell that
+// it visits (kd_traverse.hpp). In return it needs no slack of its own, provided that each leaf
+// lists every triangle whose accept_box() shares a point with the leaf's closed cell. A builder
+// that clips triangles may leave those out that stay farther than overshoot() from the cell in some
+// axis.
 
 /// Largest |coordinate| in a box, metres: the M of the error bounds. Zero for an empty box.
 [[nodiscard]] inline float magnitude_of(const Bounds& box) {
@@ -42,10 +45,16 @@ namespace mir {
 /// segments are cut to that cube first (reach.hpp).
 [[nodiscard]] MIR_HD inline float reach_of(float magnitude) { return 1.5f * magnitude; }
 
-/// Largest distance in metres, per axis, between a segment that is taken to cross a triangle's
-/// plane and the plane, the rounding of traversal included.
+/// Unit of the margins of shafts, metres: more than twice what rounding displaces a point of a
+/// segment, or a triangle's plane, per axis.
 [[nodiscard]] MIR_HD inline double sigma_of(float magnitude) {
     return 32.0 * 0x1p-24 * static_cast<double>(magnitude);
+}
+
+/// Largest distance in metres, per axis, between a segment that is taken to cross a triangle and
+/// the triangle's plane, or an edge in the plane, the rounding of traversal included.
+[[nodiscard]] MIR_HD inline double accept_margin_of(float magnitude) {
+    return 2.0 * sigma_of(magnitude);
 }
 
 /// sigma_of() a scene that is known by its reach_of() alone, up to rounding.
@@ -62,10 +71,10 @@ struct AcceptTriangle {
     Double3 c{0};
 };
 
-MIR_HD inline AcceptTriangle accept_triangle(const TriangleFrame& f, double sigma) {
-    const double e_u = strict::mul(sigma, l1_norm(f.gradient_u));
-    const double e_v = strict::mul(sigma, l1_norm(f.gradient_v));
-    const double e_w = strict::add(strict::add(e_u, e_v), 0x1p-22);
+MIR_HD inline AcceptTriangle accept_triangle(const TriangleFrame& f, double margin) {
+    const double e_u = strict::mul(margin, l1_norm(f.gradient_u));
+    const double e_v = strict::mul(margin, l1_norm(f.gradient_v));
+    const double e_w = strict::add(strict::add(e_u, e_v), 0x1p-20);
     const double far_u = strict::add(strict::add(1.0, e_v), e_w);
     const double far_v = strict::add(strict::add(1.0, e_u), e_w);
     AcceptTriangle t;
@@ -77,7 +86,7 @@ MIR_HD inline AcceptTriangle accept_triangle(const TriangleFrame& f, double sigm
 
 /// Triangles that are never crossed have no frame; their corners will do.
 MIR_HD inline AcceptTriangle accept_triangle(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
-    const AcceptTriangle t = accept_triangle(triangle_frame(a, b, c), sigma_of(magnitude));
+    const AcceptTriangle t = accept_triangle(triangle_frame(a, b, c), accept_margin_of(magnitude));
     const double all = strict::add(strict::add(l1_norm(t.a), l1_norm(t.b)), l1_norm(t.c));
     return is_finite(all) ? t : AcceptTriangle{Double3(a), Double3(b), Double3(c)};
 }
@@ -101,12 +110,12 @@ MIR_HD inline Bounds rounded_outwards(Double3 low, Double3 high) {
 /// segments: needles would have boxes without end. The same bits on host and device.
 [[nodiscard]] MIR_HD inline Bounds accept_box(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
     const detail::AcceptTriangle t = detail::accept_triangle(a, b, c, magnitude);
-    const detail::Double3 sigma(sigma_of(magnitude));
+    const detail::Double3 margin(accept_margin_of(magnitude));
     const detail::Double3 reach(static_cast<double>(reach_of(magnitude)));
     const detail::Double3 low = detail::smaller_axes(t.a, detail::smaller_axes(t.b, t.c));
     const detail::Double3 high = detail::larger_axes(t.a, detail::larger_axes(t.b, t.c));
-    return detail::rounded_outwards(strict::sub(detail::larger_axes(low, -reach), sigma),
-                                    strict::add(detail::smaller_axes(high, reach), sigma));
+    return detail::rounded_outwards(strict::sub(detail::larger_axes(low, -reach), margin),
+                                    strict::add(detail::smaller_axes(high, reach), margin));
 }
 
 /// Largest distance, per axis and in metres, of a point of the region that accept_box() surrounds
@@ -119,7 +128,7 @@ MIR_HD inline Bounds rounded_outwards(Double3 low, Double3 high) {
     const double moved =
         std::max(largest(t.a - detail::Double3(a)),
                  std::max(largest(t.b - detail::Double3(b)), largest(t.c - detail::Double3(c))));
-    return detail::rounded_up(moved + sigma_of(magnitude));
+    return detail::rounded_up(moved + accept_margin_of(magnitude));
 }
 
 }  // namespace mir

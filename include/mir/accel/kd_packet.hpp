@@ -30,7 +30,12 @@ class PacketWalk {
  public:
     PacketWalk(const KdTreeView<Space::host>& tree, Vec3 origin, const PointPacket& points,
                std::uint32_t active, const AlphaMaskView<Space::host>& mask)
-        : tree_(tree), mask_(mask), origin_(origin), points_(points), open_(active) {
+        : tree_(tree),
+          mask_(mask),
+          origin_(origin),
+          end_(shared_end(origin, &points, active)),
+          points_(points),
+          open_(active) {
         const float shortest = shortest_step(tree.reach);
         for (std::uint32_t k = 0; k < lane_count; ++k) {
             inverse_[0].at[k] = inverse_step(points.x[k] - origin.x, shortest);
@@ -49,6 +54,7 @@ class PacketWalk {
     const KdTreeView<Space::host>& tree_;
     const AlphaMaskView<Space::host>& mask_;
     Vec3 origin_;
+    SharedEnd end_;
     const PointPacket& points_;
     std::uint32_t open_;  ///< lanes that still ask
     LaneFloats inverse_[3];
@@ -92,7 +98,8 @@ void PacketWalk<Set>::test_leaf(KdNode leaf) {
     const std::uint32_t* reference = tree_.references + leaf.first();
     for (const std::uint32_t* end = reference + leaf.count(); reference != end; ++reference) {
         const TriangleRows& rows = tree_.triangles[*reference];
-        const std::uint32_t hit = hit_lanes<Set>(rows, origin_rows(rows, origin_), points_, open_);
+        const std::uint32_t hit =
+            hit_lanes<Set>(rows, origin_rows(rows, origin_), end_, points_, open_);
         if (hit != 0) open_ &= ~solid_lanes(rows, *reference, origin_, points_, hit, mask_);
     }
 }

@@ -18,8 +18,8 @@ namespace mir {
 // segment passes a plane that is displaced by at most
 //   |t d - (split - origin)| <= 3 e |split - origin| + e |split| + e |origin| <= 12 e M  (host)
 //                            <= 4 e |split - origin| + e |origin|             <= 14 e M  (device),
-// because X, and so the plane, lies within 1.5 M; that is what sigma() leaves over. It needs no
-// case for segments along an axis, in a plane or from a plane: a component of zero becomes
+// because X, and so the plane, lies within 1.5 M; that is what accept_margin_of() leaves over. It
+// needs no case for segments along an axis, in a plane or from a plane: a component of zero becomes
 // shortest_step(), far below those errors, whose t compare like infinities. Intervals are closed, a
 // tie may go either way.
 
@@ -111,8 +111,10 @@ MIR_HD bool any_hides(const KdTreeView<S>& tree, KdNode leaf, Vec3 from, Vec3 to
         const float s_from = row_at(rows.s, from);
         const float s_to = row_at(rows.s, to);
         if (!opposite(s_from, s_to)) continue;
-        const PlaneCrossing c = crossing(rows, from, to, s_from, s_to);
-        if (is_inside(c) && is_solid(mask, triangle, c)) return true;
+        const RowsAtEnds at = rows_at_ends(rows, from, to, s_from, s_to);
+        const PlaneCrossing c = crossing(at);
+        if (is_crossed(rows, from, to, at, c) && is_solid(rows, from, to, at, c, triangle, mask))
+            return true;
     }
     return false;
 }

@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/affine_row.hpp"
 #include "mir/accel/detail/double3.hpp"
+#include "mir/accel/detail/thick_triangle.hpp"
 #include "mir/accel/triangle_mask.hpp"
 
 namespace mir {
-
-/// An affine function of a point p in metres: x p.x + y p.y + z p.z + w. Aligned so that the device
-/// fetches it as one word.
-struct alignas(16) AffineRow {
-    float x = 0.0f;  ///< factor of p.x, the value's unit per metre
-    float y = 0.0f;  ///< of p.y
-    float z = 0.0f;  ///< of p.z
-    float w = 0.0f;  ///< value at the origin
-};
-
-/// A triangle in the form in which segments are tested: three affine functions of a point. u and v
-/// are the barycentric coordinates of the second and third corner along the normal, s is the signed
-/// distance from the plane in metres, positive in front.
-/// Source: Baldwin and Weber, "Fast ray-triangle intersections by coordinate transformation",
-/// JCGT 5(3), 2016.
-struct TriangleRows {
-    AffineRow u;  ///< weight of the second corner
-    AffineRow v;  ///< weight of the third corner
-    AffineRow s;  ///< distance from the plane, metres
-};
 
 namespace detail {
 
@@ -82,72 +64,29 @@ MIR_HD inline bool is_finite_row(AffineRow r) {
     return usable ? rows : uncrossable_rows();
 }
 
-/// Value of an affine row at a point, in the one order of operations that all tests share.
-[[nodiscard]] MIR_HD inline float row_at(AffineRow row, Vec3 p) {
-    const float xy = strict::add(strict::mul(row.x, p.x), strict::mul(row.y, p.y));
-    return strict::add(strict::add(xy, strict::mul(row.z, p.z)), row.w);
-}
-
-namespace detail {
-
-/// Where a segment crosses a triangle's plane, all multiplied by d: U and V are the barycentric
-/// coordinates u and v times d. They change sign, and nothing else, when the ends change places.
-struct PlaneCrossing {
-    float d = 0.0f;
-    float u = 0.0f;
-    float v = 0.0f;
-};
-
-MIR_HD inline bool is_inside(PlaneCrossing c) {
-    const float w = strict::sub(strict::sub(c.d, c.u), c.v);
-    return c.d > 0.0f ? c.u >= 0.0f && c.v >= 0.0f && w >= 0.0f
-                      : c.u <= 0.0f && c.v <= 0.0f && w <= 0.0f;
-}
-
-/// The ends lie strictly on opposite sides. By the product, which also refuses segments so short
-/// that it vanishes: what follows would have no digits left.
-MIR_HD inline bool opposite(float s_from, float s_to) { return strict::mul(s_from, s_to) < 0.0f; }
-
-MIR_HD inline PlaneCrossing crossing(float u_from, float v_from, float s_from, float u_to,
-                                     float v_to, float s_to) {
-    PlaneCrossing c;
-    c.d = strict::sub(s_to, s_from);
-    c.u = strict::sub(strict::mul(u_from, s_to), strict::mul(u_to, s_from));
-    c.v = strict::sub(strict::mul(v_from, s_to), strict::mul(v_to, s_from));
-    return c;
-}
-
-MIR_HD inline PlaneCrossing crossing(const TriangleRows& rows, Vec3 from, Vec3 to, float s_from,
-                                     float s_to) {
-    return crossing(row_at(rows.u, from), row_at(rows.v, from), s_from, row_at(rows.u, to),
-                    row_at(rows.v, to), s_to);
-}
-
-}  // namespace detail
-
-/// True when the segment crosses the triangle: its ends lie strictly on opposite sides of the plane
-/// and the crossing lies inside the three closed edges, all as computed in single precision. No
-/// division; the bit is the same when the ends change places, on every processor and in every
-/// compilation. An "or" of this over all triangles is what visibility means; every structure has to
-/// give that bit. A coordinate that is not a number crosses nothing.
+/// True when the segment crosses the triangle: its ends lie strictly on opposite sides of the
+/// plane, and it passes inside the three edges, or outside of them by no more than rounding can
+/// hide (detail/thick_triangle.hpp). All as computed in single precision: the bit is the same when
+/// the ends change places, on every processor and in every compilation. An "or" of this over all
+/// triangles is what visibility means; every structure has to give that bit. It is watertight: of
+/// triangles that share an edge or a vertex at least one is crossed by every segment that passes
+/// there. A coordinate that is not a number crosses nothing.
 [[nodiscard]] MIR_HD inline bool hits_segment(const TriangleRows& rows, Vec3 from, Vec3 to) {
     const float s_from = row_at(rows.s, from);
     const float s_to = row_at(rows.s, to);
-    return detail::opposite(s_from, s_to) &&
-           detail::is_inside(detail::crossing(rows, from, to, s_from, s_to));
+    if (!detail::opposite(s_from, s_to)) return false;
+    const detail::RowsAtEnds at = detail::rows_at_ends(rows, from, to, s_from, s_to);
+    return detail::is_crossed(rows, from, to, at, detail::crossing(at));
 }
 
 namespace detail {
 
-/// Barycentrics of the second and third corner; the same when the ends change places.
-MIR_HD inline Vec2 barycentrics_of(PlaneCrossing c) {
-    return {strict::div(c.u, c.d), strict::div(c.v, c.d)};
-}
-
-/// True when triangle number `triangle` is there where it is crossed.
+/// True when triangle number `triangle` is there where the segment crosses it.
 template <class Mask>
-MIR_HD bool is_solid(const Mask& mask, std::uint32_t triangle, PlaneCrossing c) {
-    return !mask.exists() || mask.is_solid(triangle, barycentrics_of(c));
+MIR_HD bool is_solid(const TriangleRows& rows, Vec3 from, Vec3 to, const RowsAtEnds& at,
+                     PlaneCrossing c, std::uint32_t triangle, const Mask& mask) {
+    return !mask.exists() ||
+           mask.is_solid(triangle, meeting_place(rows, from, to, at, c).barycentrics);
 }
 
 }  // namespace detail
@@ -162,8 +101,10 @@ template <class Mask>
     const float s_from = row_at(rows.s, from);
     const float s_to = row_at(rows.s, to);
     if (!detail::opposite(s_from, s_to)) return false;
-    const detail::PlaneCrossing c = detail::crossing(rows, from, to, s_from, s_to);
-    return detail::is_inside(c) && detail::is_solid(mask, triangle, c);
+    const detail::RowsAtEnds at = detail::rows_at_ends(rows, from, to, s_from, s_to);
+    const detail::PlaneCrossing c = detail::crossing(at);
+    return detail::is_crossed(rows, from, to, at, c) &&
+           detail::is_solid(rows, from, to, at, c, triangle, mask);
 }
 
 /// What a ray met.
@@ -175,6 +116,18 @@ struct TriangleHit {
     std::uint32_t triangle = none;  ///< index, or `none`
 };
 
+namespace detail {
+
+/// True when the segment meets the triangle behind the share `t`, wherever in its thin piece.
+MIR_HD inline bool crosses_behind(Vec3 from, Vec3 to, float s_from, float s_to, float t) {
+    const float d = strict::sub(s_from, s_to);
+    const float behind = strict::sub(strict::div(s_from, d), t);
+    const float size = larger(max_abs(from), max_abs(to));
+    return strict::mul(behind, fabsf(d)) > strict::mul(0x1p-19f, size);
+}
+
+}  // namespace detail
+
 /// Replaces `best` when the segment crosses triangle number `triangle` before it, or at the same
 /// computed place and with a smaller number: the first crossing then does not depend on the order
 /// in which triangles are asked. Crosses exactly when hits_segment() with the same mask says so.
@@ -184,13 +137,14 @@ MIR_HD void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std::uint3
     const float s_from = row_at(rows.s, from);
     const float s_to = row_at(rows.s, to);
     if (!detail::opposite(s_from, s_to)) return;
-    const float t = strict::div(s_from, strict::sub(s_from, s_to));
-    if (t > best.t || (t == best.t && triangle >= best.triangle)) return;
-    const detail::PlaneCrossing c = detail::crossing(rows, from, to, s_from, s_to);
-    if (!detail::is_inside(c)) return;
-    const Vec2 barycentrics = detail::barycentrics_of(c);
-    if (mask.exists() && !mask.is_solid(triangle, barycentrics)) return;
-    best = {t, barycentrics, triangle};
+    if (detail::crosses_behind(from, to, s_from, s_to, best.t)) return;
+    const detail::RowsAtEnds at = detail::rows_at_ends(rows, from, to, s_from, s_to);
+    const detail::PlaneCrossing c = detail::crossing(at);
+    if (!detail::is_crossed(rows, from, to, at, c)) return;
+    const detail::MeetingPlace place = detail::meeting_place(rows, from, to, at, c);
+    if (place.t > best.t || (place.t == best.t && triangle >= best.triangle)) return;
+    if (mask.exists() && !mask.is_solid(triangle, place.barycentrics)) return;
+    best = {place.t, place.barycentrics, triangle};
 }
 
 }  // namespace mir

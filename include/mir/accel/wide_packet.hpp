@@ -126,7 +126,12 @@ class WidePacketWalk {
     WidePacketWalk(const WideBvhView<Space::host>& bvh, const Hull& hull, Vec3 origin,
                    const PointPacket* points, std::uint32_t active,
                    const AlphaMaskView<Space::host>* mask = nullptr)
-        : bvh_(bvh), hull_(hull), mask_(mask), origin_(origin), points_(points), open_(active) {
+        : bvh_(bvh),
+          hull_(hull),
+          mask_(mask),
+          end_(shared_end(origin, points, active)),
+          points_(points),
+          open_(active) {
         for (std::uint32_t p = 0; p < Packets; ++p)
             slabs_[p].set(origin, points[p], lanes_of_packet(active, p), bvh.reach);
     }
@@ -246,7 +251,7 @@ class WidePacketWalk {
         for (std::uint32_t i = 0; i < round.triangle_count; ++i) {
             const std::uint32_t t = round.triangles[i];
             const TriangleRows& rows = bvh_.triangles[t];
-            std::uint32_t hit = hit_lanes_of<Set, Packets>(rows, origin_, points_, open_);
+            std::uint32_t hit = hit_lanes_of<Set, Packets>(rows, end_, points_, open_);
             if (mask_ != nullptr && hit != 0) hit = solid(rows, t, hit);
             blocker_ = hit != 0 ? t : blocker_;
             open_ &= ~hit;
@@ -258,7 +263,7 @@ class WidePacketWalk {
                                       std::uint32_t hit) const {
         std::uint32_t there = 0;
         for (std::uint32_t p = 0; p < Packets; ++p)
-            there |= solid_lanes(rows, bvh_.indices[t], origin_, points_[p],
+            there |= solid_lanes(rows, bvh_.indices[t], end_.origin, points_[p],
                                  lanes_of_packet(hit, p), *mask_)
                      << p * lane_count;
         return there;
@@ -276,7 +281,7 @@ class WidePacketWalk {
         {reinterpret_cast<const char*>(bvh_.nodes), sizeof(WideNode)}};  ///< leaves, nodes
     const Hull& hull_;
     const AlphaMaskView<Space::host>* mask_;
-    Vec3 origin_;
+    SharedEnd end_;
     const PointPacket* points_;
     PacketSlabs<Set> slabs_[Packets];
     std::uint32_t open_;  ///< lanes that still ask

@@ -25,8 +25,11 @@ namespace mir {
 // coordinates are so small that no product of two distances differs from zero.) Nothing here is
 // infinite or no number, unless an end is none; such a segment crosses nothing.
 //
-// Why it may stop early. keep_closer() computes t = t_x (1 + 2 e) at most, so a child that begins
-// behind best.t (1 + 2^-20) holds no triangle that comes before the best, or beside it.
+// Why it may stop early. keep_closer() computes t_x with an error of 3 e of itself or of the
+// crossing of the plane, whichever is larger. A child that begins behind best.t (1 + 2^-20) holds
+// no triangle that comes before the best, or beside it: where the crossing is more than twice t_x,
+// the start lies within 32 e M of the plane, and the error moves X by less than e M, of the 9 e M
+// that the lemma leaves beyond what slabs need.
 
 namespace detail {
 

@@ -99,7 +99,7 @@ class WorldGeometry {
     /// Distance by which points are lifted off surfaces, metres: 2^-16 of the largest coordinate,
     /// eight times the sigma of accept_box.hpp, so that shafts see that a surface does not hide its
     /// own points (docs/shafts.md). Less where that would show, in scenes that lie far from the
-    /// origin, but never less than 2^-20 of the largest coordinate: that covers the rounding of hit
+    /// origin, but never less than 2^-19 of the largest coordinate: that covers the rounding of hit
     /// points and of traversal at any scale and distance.
     [[nodiscard]] float ray_offset() const { return ray_offset_; }
 
@@ -150,7 +150,7 @@ inline float ray_offset_of(const Bounds& bounds) {
     if (bounds.empty()) return 0.0f;
     const float magnitude = larger(max_abs(bounds.low), max_abs(bounds.high));
     const float unseen = max_abs(bounds.high - bounds.low) * 0x1p-14f;
-    return larger(magnitude * 0x1p-20f, smaller(magnitude * 0x1p-16f, unseen));
+    return larger(magnitude * 0x1p-19f, smaller(magnitude * 0x1p-16f, unseen));
 }
 
 /// Elements that are placed together: enough to hide what a thread costs.

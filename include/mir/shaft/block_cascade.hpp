@@ -87,12 +87,14 @@ class BlockCascade {
     /// Lanes of packet `g` that see the VPL past the chosen triangles.
     [[nodiscard]] std::uint32_t seen_past(const detail::LaneChoice& chosen, std::uint32_t g,
                                           std::uint32_t open) const {
+        const ClusterRecord& packet = block_.packet[g].record;
+        const detail::SharedEnd end = detail::shared_end(apex_, packet.low, packet.high);
         for (std::uint32_t b = 0; b < search_.batches; ++b) {
             const detail::CandidateLanes& batch = search_.batch[b];
             for (std::uint32_t rest = chosen.lanes[b]; rest != 0;) {
                 const std::uint32_t k = detail::pop_lowest(rest);
                 open &= ~detail::hit_lanes<Set>(triangles_[batch.group].rows(k), batch.origin(k),
-                                                block_.points[g], open);
+                                                end, block_.points[g], open);
                 if (open == 0) return 0;
             }
         }
@@ -104,10 +106,12 @@ class BlockCascade {
     template <std::uint32_t Packets>
     [[nodiscard]] std::uint32_t walk(const BlockRecords::Cluster& cluster, std::uint32_t g,
                                      std::uint32_t open) {
+        const detail::SharedEnd end =
+            detail::shared_end(apex_, cluster.record.low, cluster.record.high);
         for (const std::uint32_t t : blockers_) {
             if (open == 0 || t == detail::no_triangle) continue;
             const TriangleRows& rows = bvh_.triangles[t];
-            open &= ~detail::hit_lanes_of<Set, Packets>(rows, apex_, block_.points + g, open);
+            open &= ~detail::hit_lanes_of<Set, Packets>(rows, end, block_.points + g, open);
         }
         if (open == 0) return 0;
         const SlotShaft shaft(make_shaft(cluster.record, apex_, block_.sigma));

@@ -60,8 +60,8 @@ struct CandidateLanes {
 };
 
 /// Margin of U, V and W of lanes in units of sigma (1 + |u| + |v| at the apex + gradients times
-/// lengths): docs/shafts.md derives 2.9.
-inline constexpr float lane_margin = 4.0f;
+/// lengths): docs/shafts.md derives 4.2.
+inline constexpr float lane_margin = 4.5f;
 
 /// Makes sixteen triangles ready. No point of a cluster that will be asked about is farther from
 /// the VPL at `apex` than `spread` in a coordinate, metres.

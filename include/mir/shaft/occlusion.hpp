@@ -66,10 +66,10 @@ struct alignas(16) Pyramid {
 
 /// How far from 0 a bound must be for hits_segment() to compute numbers of its sign: of the
 /// distance from the plane in units of sigma, of the edges in those of edge_margins().
-/// docs/shafts.md derives 1.8 and 0.93 of them.
+/// docs/shafts.md derives 1.3 and 2.49 of them.
 struct OcclusionMargins {
     static constexpr float plane = 2.0f;  ///< of the distance from the plane
-    static constexpr float edge = 1.0f;   ///< of U, V and W
+    static constexpr float edge = 2.5f;   ///< of U, V and W
 };
 
 namespace detail {
@@ -120,10 +120,6 @@ struct SureSign {
 MIR_HD inline SureSign sure_sign(const AffineForm& f, Vec3 half, float margin) {
     const float extent = f.extent(half);
     return {strict::add(f.value, extent) < -margin, strict::sub(f.value, extent) > margin};
-}
-
-MIR_HD inline float l1_of_gradient(AffineRow row) {
-    return strict::add(strict::add(fabsf(row.x), fabsf(row.y)), fabsf(row.z));
 }
 
 /// The VPL as a triangle's rows see it.

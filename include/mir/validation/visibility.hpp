@@ -6,6 +6,7 @@
 #include "mir/validation/report.hpp"
 #include "mir/validation/worlds.hpp"
 
+#include <algorithm>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,8 +19,17 @@ struct Segment {
     Vec3 b{0};  ///< the other end, metres
 };
 
-/// Barycentric margin below which single precision may see a segment either way.
-inline constexpr double doubtful_margin = 1e-4;
+/// Barycentric margin below which single precision may see a segment either way, in units of 1e-4:
+/// how many times its own size the scene lies from the origin, at least 1. Triangles that overlap
+/// by rounding do so by its unit there.
+inline double doubt_of(const WorldGeometry& geometry) {
+    const Bounds& box = geometry.bounds();
+    const float farthest = larger(max_abs(box.low), max_abs(box.high));
+    return std::max(1.0, static_cast<double>(farthest / max_abs(box.high - box.low)));
+}
+
+/// That margin.
+inline double doubtful_margin(const WorldGeometry& geometry) { return 1e-4 * doubt_of(geometry); }
 
 /// Segments whose ends are uniform in the bounds of the triangles.
 inline std::vector<Segment> random_segments(const WorldGeometry& geometry, std::size_t count,
@@ -46,20 +56,22 @@ inline bool expect_triangles(const WorldGeometry& geometry, Report& report) {
 
 /// Segments of which two answers differ.
 struct Disagreements {
+    double doubt;  ///< doubt_of() the geometry
     std::size_t all = 0;
     std::size_t sure = 0;  ///< of them, those that the referee does not doubt
 
     void add(const Referee::Verdict& verdict) {
         ++all;
-        sure += verdict.doubtful(doubtful_margin) ? 0 : 1;
+        sure += verdict.doubtful(1e-4 * doubt) ? 0 : 1;
     }
 
-    /// None may be sure, and one in a thousand of all `asked` in doubt.
+    /// None may be sure, and one in a thousand of all `asked` in doubt, more by the same factor.
     void expect_few(std::size_t asked, const std::string& axiom, const std::string& how,
                     Report& report) const {
         const std::string of = " of " + std::to_string(asked) + " segments are judged " + how;
         report.expect(sure == 0, axiom, std::to_string(sure) + of);
-        report.expect(all <= asked / 1000, axiom + " at edges", std::to_string(all) + of);
+        report.expect(static_cast<double>(all) <= doubt * static_cast<double>(asked) / 1000.0,
+                      axiom + " at edges", std::to_string(all) + of);
     }
 };
 
@@ -67,7 +79,7 @@ struct Disagreements {
 
 /// Axiom 4 of Visibility: agrees with brute force over the triangles of `geometry`. Wherever the
 /// referee is sure the answers are equal; where it is not, at most one segment in a thousand
-/// differs.
+/// differs, or as many times more as the scene lies from the origin in its own sizes.
 template <Visibility V>
 Report check_visibility_by_brute_force(const V& visibility, const WorldGeometry& geometry,
                                        std::size_t count = 20000) {
@@ -75,7 +87,7 @@ Report check_visibility_by_brute_force(const V& visibility, const WorldGeometry&
     if (!detail::expect_triangles(geometry, report)) return report;
     const Referee referee(geometry);
     std::size_t open = 0;
-    detail::Disagreements wrong;
+    detail::Disagreements wrong{doubt_of(geometry)};
     for (const Segment& s : random_segments(geometry, count, 2)) {
         const Referee::Verdict verdict = referee.segment(s.a, s.b);
         open += verdict.visible() ? 1 : 0;
@@ -96,7 +108,7 @@ Report check_visibility_symmetry(const V& visibility, const WorldGeometry& geome
     Report report;
     if (!detail::expect_triangles(geometry, report)) return report;
     const Referee referee(geometry);
-    detail::Disagreements turned;
+    detail::Disagreements turned{doubt_of(geometry)};
     for (const Segment& s : random_segments(geometry, count, 4)) {
         if (visibility.visible(s.a, s.b) == visibility.visible(s.b, s.a)) continue;
         turned.add(referee.segment(s.a, s.b));
@@ -127,7 +139,7 @@ Report check_lifted_points(const V& visibility, const WorldGeometry& geometry,
         if (!facing) continue;
         // Neighbours that come within the lift of a segment may rightly hide it.
         const auto others = referee.segment(a, b, p.triangle, q.triangle);
-        if (!others.visible() || others.doubtful(doubtful_margin)) continue;
+        if (!others.visible() || others.doubtful(doubtful_margin(geometry))) continue;
         ++asked;
         hidden += visibility.visible(a, b) ? 0 : 1;
     }

@@ -59,20 +59,20 @@ struct KdItem {
     KdFragment fragment;
 };
 
-// What boxes grow by, e = 2^-24, M the magnitude: sigma = 32 e M, in whose range accepted points
-// lie around the accept triangle; 24 e M for rounding corners (1.5), planes (1.5), crossings (7
-// times 1.5), the sum (1.5) and the cleared last bit (3); and 40 e times the triangle's extent on
-// the axis for the 7 crossings, 5 e each. Clipping cells grow by the same, so that clipping rounded
-// polygons loses nothing: (P + d) n H lies in (P n (H + d)) + d.
+// What boxes grow by, e = 2^-24, M the magnitude: the accept margin, 64 e M, in whose range
+// accepted points lie around the accept triangle; 24 e M for rounding corners (1.5), planes (1.5),
+// crossings (7 times 1.5), the sum (1.5) and the cleared last bit (3); and 40 e times the
+// triangle's extent on the axis for the 7 crossings, 5 e each. Clipping cells grow by the same, so
+// that clipping rounded polygons loses nothing: (P + d) n H lies in (P n (H + d)) + d.
 inline Double3 clip_margin(Double3 extent, float magnitude) {
     const double eps = 0x1p-24;
-    return 56.0 * eps * static_cast<double>(magnitude) + 40.0 * eps * extent;
+    return 88.0 * eps * static_cast<double>(magnitude) + 40.0 * eps * extent;
 }
 
 inline KdItem make_item(Vec3 a, Vec3 b, Vec3 c, std::uint32_t index, float magnitude) {
     const AcceptTriangle t = accept_triangle(a, b, c, magnitude);
     const Double3 reach(static_cast<double>(reach_of(magnitude)));
-    const Double3 most = reach + sigma_of(magnitude);
+    const Double3 most = reach + accept_margin_of(magnitude);
     const Double3 low = glm::min(t.a, glm::min(t.b, t.c));
     const Double3 high = glm::max(t.a, glm::max(t.b, t.c));
     const bool wild = glm::any(glm::lessThan(low, -reach)) || glm::any(glm::lessThan(reach, high));

@@ -32,7 +32,8 @@ struct MakeBoxes {
         const MakeBoxes& self = *this;
         cut_into_parts(whole_triangle(geometry, i, plan.magnitude), count, plan.planes,
                        [&self, at, i](std::uint32_t k, const PartBox& part) {
-                           self.write(at + k, i, grown(part, sigma_of(self.plan.magnitude)));
+                           self.write(at + k, i,
+                                      grown(part, accept_margin_of(self.plan.magnitude)));
                        });
     }
 

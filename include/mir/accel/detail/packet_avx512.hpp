@@ -58,15 +58,25 @@ struct Origin512 {
     __m512 s;
 };
 
-/// Lanes whose segments the triangle hits: hits_segment(), bit for bit. Where s is not negative at
-/// the origin its values at both ends change their sign, and with them, exactly, all that is asked
-/// for its sign: d is positive then wherever ends lie on opposite sides, and is_inside() has one
-/// side. Zeros may have either sign, which no comparison sees.
-MIR_AVX512 [[gnu::always_inline]] inline std::uint32_t hit_lanes_512(const TriangleRows& rows,
-                                                                     const Origin512& from,
-                                                                     const Points512& to) {
+/// Lanes of `among` where none of the three lies below the bound.
+MIR_AVX512 [[gnu::always_inline]] inline std::uint32_t lanes_above_512(__mmask16 among, __m512 u,
+                                                                       __m512 v, __m512 w,
+                                                                       __m512 bound) {
+    __mmask16 all = _mm512_mask_cmp_ps_mask(among, u, bound, _CMP_GE_OQ);
+    all = _mm512_mask_cmp_ps_mask(all, v, bound, _CMP_GE_OQ);
+    return _mm512_mask_cmp_ps_mask(all, w, bound, _CMP_GE_OQ);
+}
+
+/// sort_lanes() of sixteen points, bit for bit. Where s is not negative at the origin its values at
+/// both ends change their sign, and with them, exactly, all that is asked for its sign: d is
+/// positive then wherever ends lie on opposite sides, and is_inside() has one side. Zeros may have
+/// either sign, which no comparison sees.
+MIR_AVX512 [[gnu::always_inline]] inline LaneHits sort_lanes_512(const TriangleRows& rows,
+                                                                 const Origin512& from,
+                                                                 const Points512& to, float doubt) {
     const __m512 sign = _mm512_set1_ps(-0.0f);
     const __m512 zero = _mm512_setzero_ps();
+    const __m512 least = _mm512_set1_ps(-doubt);
     const __m512 s_from = _mm512_or_ps(from.s, sign);
     const __m512 s_to = _mm512_xor_ps(row_at_512(rows.s, to), _mm512_andnot_ps(from.s, sign));
     const __m512 u =
@@ -74,31 +84,31 @@ MIR_AVX512 [[gnu::always_inline]] inline std::uint32_t hit_lanes_512(const Trian
     const __m512 v =
         _mm512_sub_ps(_mm512_mul_ps(from.v, s_to), _mm512_mul_ps(row_at_512(rows.v, to), s_from));
     const __m512 w = _mm512_sub_ps(_mm512_sub_ps(_mm512_sub_ps(s_to, s_from), u), v);
-    __mmask16 hit = _mm512_cmp_ps_mask(_mm512_mul_ps(s_from, s_to), zero, _CMP_LT_OQ);
-    hit = _mm512_mask_cmp_ps_mask(hit, u, zero, _CMP_GE_OQ);
-    hit = _mm512_mask_cmp_ps_mask(hit, v, zero, _CMP_GE_OQ);
-    return _mm512_mask_cmp_ps_mask(hit, w, zero, _CMP_GE_OQ);
+    const __mmask16 apart = _mm512_cmp_ps_mask(_mm512_mul_ps(s_from, s_to), zero, _CMP_LT_OQ);
+    return {lanes_above_512(apart, u, v, w, zero), lanes_above_512(apart, u, v, w, least)};
 }
 
-/// hit_lanes_512() of a packet, the triangle's rows at the origin being known.
-MIR_AVX512 inline std::uint32_t hit_lanes_by_avx512(const TriangleRows& rows,
-                                                    const OriginRows& from,
-                                                    const PointPacket& points) {
+/// sort_lanes() of a packet, the triangle's rows at the origin being known.
+MIR_AVX512 inline LaneHits sort_lanes_by_avx512(const TriangleRows& rows, const OriginRows& from,
+                                                const PointPacket& points, float doubt) {
     const Origin512 origin{_mm512_set1_ps(from.u), _mm512_set1_ps(from.v), _mm512_set1_ps(from.s)};
-    return hit_lanes_512(rows, origin, load_512(points));
+    return sort_lanes_512(rows, origin, load_512(points), doubt);
 }
 /// The same of `Packets` packets, a bit for each lane, packet after packet. The rows at the origin
 /// are found in all lanes: that takes no longer than in one, and spreads nothing.
 template <std::uint32_t Packets>
-MIR_AVX512 inline std::uint32_t hit_lanes_by_avx512(const TriangleRows& rows, Vec3 origin,
-                                                    const PointPacket* points) {
+MIR_AVX512 inline LaneHits sort_lanes_by_avx512(const TriangleRows& rows, Vec3 origin,
+                                                const PointPacket* points, float doubt) {
     static_assert(Packets * PointPacket::width <= 32, "a word has a bit for each lane");
     const Points512 at = spread_512(origin);
     const Origin512 from{row_at_512(rows.u, at), row_at_512(rows.v, at), row_at_512(rows.s, at)};
-    std::uint32_t hit = 0;
-    for (std::uint32_t p = 0; p < Packets; ++p)
-        hit |= hit_lanes_512(rows, from, load_512(points[p])) << p * PointPacket::width;
-    return hit;
+    LaneHits all;
+    for (std::uint32_t p = 0; p < Packets; ++p) {
+        const LaneHits lanes = sort_lanes_512(rows, from, load_512(points[p]), doubt);
+        all.hit |= lanes.hit << p * PointPacket::width;
+        all.doubtful |= lanes.doubtful << p * PointPacket::width;
+    }
+    return all;
 }
 
 /// Lanes whose segments meet a box of which `near` and `far` are the corners where they enter and

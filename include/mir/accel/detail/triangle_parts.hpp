@@ -8,12 +8,12 @@
 namespace mir::detail {
 
 // Why boxes of parts hold what the accept box holds. By the lemma of accept_box.hpp a segment that
-// is accepted has a point X within 17 e M, per axis, of a point Y of the accept triangle: the foot
+// is accepted has a point X within 41 e M, per axis, of a point Y of the accept triangle: the foot
 // of X. Planes cut the accept triangle into parts that together are all of it, and the box of each
 // is found in double precision, whose rounding moves it by less than 2^-48 M. So Y lies in one of
-// these boxes up to that, and X in the same box grown by sigma, 32 e M, by 14 e M and more: what
-// traversal needs of one of the boxes that lead to the triangle. Accept triangles that leave the
-// reach are not cut, because that bound on rounding does not hold for them.
+// these boxes up to that, and X in the same box grown by the accept margin, 64 e M, by 14 e M and
+// more: what traversal needs of one of the boxes that lead to the triangle. Accept triangles that
+// leave the reach are not cut, because that bound on rounding does not hold for them.
 
 /// Box around a part of an accept triangle, metres.
 struct PartBox {
