@@ -18,8 +18,7 @@ MicroLuxels luxels_of(const BenchScene& scene, const mir::LuxelGrid& grid) {
     mir::cpu::TbbExecutor executor;
     const mir::SurfaceTable<mir::Lambert> surfaces(scene.scene);
     const mir::CameraRays rays{scene.scene.cameras.front(), grid, 0};
-    mir::fill_gbuffer<mir::Lambert>(luxels, 0, rays, scene.engine.ray_caster(), surfaces,
-                                    scene.geometry.ray_offset(), executor);
+    mir::fill_gbuffer<mir::Lambert>(luxels, 0, rays, scene.engine.ray_caster(), surfaces, executor);
     return luxels;
 }
 

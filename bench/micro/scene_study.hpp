@@ -24,8 +24,7 @@ inline constexpr std::uint8_t last_bounce = 4;
 
 struct SceneStudy {
     explicit SceneStudy(const std::string& name) : scene(mirtool::load_scene(name).scene) {
-        fill_gbuffer<mir::Lambert>(gbuffer, 0, rays, engine.ray_caster(), surfaces,
-                                   geometry.ray_offset(), executor);
+        fill_gbuffer<mir::Lambert>(gbuffer, 0, rays, engine.ray_caster(), surfaces, executor);
     }
 
     mir::Scene scene;

@@ -65,8 +65,7 @@ float PaperScene::aspect() const {
 }
 
 void PaperScene::fill_luxels(Executor& executor) {
-    mir::fill_gbuffer<Bsdf>(luxels_, 0, camera_rays(), caster(), surfaces_, geometry_.ray_offset(),
-                            executor);
+    mir::fill_gbuffer<Bsdf>(luxels_, 0, camera_rays(), caster(), surfaces_, executor);
 }
 
 mir::VplList PaperScene::sample(std::uint32_t states) const {

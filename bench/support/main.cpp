@@ -31,8 +31,7 @@ GBuffer BenchScene::gbuffer(mir::Extent image, mir::Extent tile) const {
     GBuffer gbuffer(image, tile);
     mir::cpu::TbbExecutor executor;
     const mir::CameraRays rays{scene.cameras.front(), mir::luxel_grid(image, 1), 0};
-    mir::fill_gbuffer<Bsdf>(gbuffer, 0, rays, engine.ray_caster(), surfaces, geometry.ray_offset(),
-                            executor);
+    mir::fill_gbuffer<Bsdf>(gbuffer, 0, rays, engine.ray_caster(), surfaces, executor);
     return gbuffer;
 }
 

@@ -112,8 +112,7 @@ TEST_CASE("The stages of the documentation run on a foreign executor") {
     const mir::LuxelGrid grid = mir::luxel_grid({64, 48}, 4);
     const mir::CameraRays rays{scene.cameras[0], grid, 1};
     mir::BlockedGBuffer<Bsdf::Params> gbuffer(grid.luxels(), {256, 256});
-    mir::fill_gbuffer(gbuffer, 0, rays, engine.ray_caster(), surfaces, geometry.ray_offset(),
-                      threads);
+    mir::fill_gbuffer(gbuffer, 0, rays, engine.ray_caster(), surfaces, threads);
 
     const mir::InstantRadiositySampler<Bsdf, mir::cpu::EmbreeRayCaster> sampler(
         {geometry, lights, surfaces, engine.ray_caster()}, {.vpls = 128, .seed = 1});

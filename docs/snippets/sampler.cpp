@@ -13,9 +13,8 @@ class LampSampler {
  public:
     static constexpr mir::Normalisation normalisation = mir::Normalisation::none;
 
-    LampSampler(const mir::LightTable& lights, float ray_offset, std::uint32_t vpls,
-                std::uint64_t seed)
-        : lights_(lights), ray_offset_(ray_offset), vpls_(vpls), seed_(seed) {}
+    LampSampler(const mir::LightTable& lights, std::uint32_t vpls, std::uint64_t seed)
+        : lights_(lights), vpls_(vpls), seed_(seed) {}
 
     template <mir::Executor E>
     [[nodiscard]] mir::VplRecords sample(E& executor) const {
@@ -26,7 +25,7 @@ class LampSampler {
         std::vector<mir::Emission> starts(vpls_);
         executor.for_each(starts.size(), [&](std::size_t i) {
             mir::PathNumbers numbers(mir::Sequence::random, seed_, mir::Stream::light_path, i);
-            starts[i] = mir::sample_emission(lights_, ray_offset_, numbers);
+            starts[i] = mir::sample_emission(lights_, numbers);
         });
         for (const mir::Emission& e : starts) {
             if (!e.emitter) continue;  // a light without extent
@@ -43,7 +42,6 @@ class LampSampler {
 
  private:
     const mir::LightTable& lights_;
-    float ray_offset_;
     std::uint32_t vpls_;
     std::uint64_t seed_;
 };
@@ -55,9 +53,7 @@ TEST_CASE("The sampler of the documentation keeps the axioms of Sampler", "[stat
     // region: axioms
     const mir::validation::KnownLight room = mir::validation::known_squares();
     const mir::LightTable lights(room.scene(), room.geometry());
-    const auto make = [&](std::uint64_t seed) {
-        return LampSampler(lights, room.geometry().ray_offset(), 256, seed);
-    };
+    const auto make = [&](std::uint64_t seed) { return LampSampler(lights, 256, seed); };
     mir::archetype::Executor backwards{mir::archetype::make};
     // Direct light is all that it brings: bounces 1 to 1.
     const auto report = mir::validation::check_sampler(make, room, {1, 1}, backwards);
@@ -71,10 +67,7 @@ TEST_CASE("The sampler of the documentation brings a furnace its direct light, a
     const mir::LightTable lights(room.scene(), room.geometry());
     const auto check = [&](std::uint8_t last) {
         return mir::validation::check_sampler_light(
-            [&](std::uint64_t seed) {
-                return LampSampler(lights, room.geometry().ray_offset(), 512, seed);
-            },
-            room, {1, last});
+            [&](std::uint64_t seed) { return LampSampler(lights, 512, seed); }, room, {1, last});
     };
     const auto direct = check(1);
     INFO(direct.text());

@@ -165,8 +165,7 @@ mir::Image<mir::Rgb> by_mir_alone(const Light& light, const mir::VplList& vpls,
     const auto rays = [&](std::uint32_t x, std::uint32_t y) {
         return mir::Ray{camera.eye, glm::normalize(through_pixel(camera, image, x, y))};
     };
-    fill_gbuffer(luxels, 0, rays, light.tree.ray_caster(), light.surfaces,
-                 light.geometry.ray_offset(), executor);
+    fill_gbuffer(luxels, 0, rays, light.tree.ray_caster(), light.surfaces, executor);
     return reconstruct(mir::sched::Cpu{executor}, luxels, vpls.span(), light.tree.visibility(),
                        shading);
 }

@@ -36,7 +36,7 @@ Picture render(const mir::Scene& scene, E& executor, mir::Monitor* monitor) {
 
     const mir::CameraRays rays{scene.cameras[0], {{96, 96}}};
     mir::BlockedGBuffer<Bsdf::Params> luxels(rays.grid.luxels(), {32, 32});
-    fill_gbuffer(luxels, 0, rays, tree.ray_caster(), surfaces, geometry.ray_offset(), executor);
+    fill_gbuffer(luxels, 0, rays, tree.ray_caster(), surfaces, executor);
 
     const mir::VplShading<Bsdf> shading{.bound = 20.0f};
     const mir::PathWorld world{geometry,          lights,      surfaces, tree.ray_caster(),

@@ -16,7 +16,7 @@ int main() {
     // What the camera sees: one luxel per pixel.
     const mir::CameraRays rays{scene.cameras[0], {{320, 240}}};
     mir::BlockedGBuffer<Bsdf::Params> luxels(rays.grid.luxels(), {256, 256});
-    fill_gbuffer(luxels, 0, rays, embree.ray_caster(), surfaces, geometry.ray_offset(), cores);
+    fill_gbuffer(luxels, 0, rays, embree.ray_caster(), surfaces, cores);
 
     // What lights it: virtual point lights, on the lamps too, all of equal weight in the image.
     const mir::VplShading<Bsdf> shading{.bound = 1.0f};

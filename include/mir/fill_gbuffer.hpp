@@ -27,11 +27,10 @@ struct CameraRays {
 
 /// First phase: traces the camera ray of every luxel of `gbuffer`, which holds the rows from
 /// `first_row` on of the luxel image. `rays(x, y)` is the ray of a luxel, as in CameraRays. Points
-/// are lifted by `ray_offset` metres.
+/// are lifted.
 template <Bsdf B, class Rays, RayCaster R, Executor E>
 void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t first_row,
-                  const Rays& rays, const R& caster, const SurfaceTable<B>& surfaces,
-                  float ray_offset, E& executor) {
+                  const Rays& rays, const R& caster, const SurfaceTable<B>& surfaces, E& executor) {
     struct Row {
         TileIndex tile;
         std::uint32_t y;
@@ -48,8 +47,7 @@ void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t fir
             const Ray ray = rays(tile.x + x, first_row + tile.y + row.y);
             const auto point = caster.closest_hit(ray);
             if (!point) continue;
-            const Vec3 n = point->geometric_normal;
-            gbuffer.store(row.tile, layout(x, row.y), {lift(point->position, n, ray_offset), n},
+            gbuffer.store(row.tile, layout(x, row.y), {lift(*point), point->geometric_normal},
                           surfaces.surface(*point, -ray.direction));
         }
     });

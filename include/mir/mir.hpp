@@ -5,6 +5,8 @@
 // included by itself: mir/cpu/ (Embree), mir/io/ (files). The compiled renderers, chosen by name,
 // are reached through mir/runtime/renderer.hpp.
 #include "mir/accel/accept_box.hpp"
+#include "mir/accel/affine_row.hpp"
+#include "mir/accel/find_surface.hpp"
 #include "mir/accel/finder_ray_caster.hpp"
 #include "mir/accel/kd_build.hpp"
 #include "mir/accel/kd_node.hpp"

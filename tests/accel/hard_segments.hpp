@@ -99,7 +99,7 @@ class HardSegments {
     }
     mir::Vec3 lifted() {
         const mir::SurfacePoint p = random_surface_point(places_.geometry(), random_);
-        return mir::lift(p.position, p.geometric_normal, places_.geometry().ray_offset());
+        return mir::lift(p);
     }
     /// Passes an edge at some units in the last place, within its triangle's plane or almost.
     HardSegment nearly_on_edge() {

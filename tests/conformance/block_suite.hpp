@@ -69,8 +69,7 @@ void block_suite(int blocks = 20) {
                 const auto block = visibility.block(run.view(), set);
                 for (int j = 0; j < 20; ++j) {
                     const mir::SurfacePoint p = random_surface_point(world.geometry, random);
-                    const mir::Vec3 origin =
-                        mir::lift(p.position, p.geometric_normal, world.geometry.ray_offset());
+                    const mir::Vec3 origin = mir::lift(p);
                     const mir::BlockMask asked = random_mask(luxels, random);
                     mir::BlockMask found = asked;
                     visibility.visible_block(block, origin, found);

@@ -41,13 +41,12 @@ class Stage {
         rays.grid.pixels = extent;
         mir::InlineExecutor executor;
         mir::fill_gbuffer<B>(gbuffer_, 0, rays, engine_.ray_caster(),
-                             mir::SurfaceTable<B>(world_.scene), world_.geometry.ray_offset(),
-                             executor);
+                             mir::SurfaceTable<B>(world_.scene), executor);
         mir::Random random = test_random(51);
         for (std::uint32_t j = 0; j < vpls; ++j) {
             const mir::SurfacePoint p = random_surface_point(world_.geometry, random);
             const mir::Vec3 n = p.geometric_normal;
-            const mir::Vec3 at = mir::lift(p.position, n, world_.geometry.ray_offset());
+            const mir::Vec3 at = mir::lift(p);
             vpls_.push_back({at, n, {random.next(), random.next(), 1.0f}}, {});
         }
     }

@@ -33,8 +33,7 @@ struct Stage {
           embree(geometry),
           gbuffer(size, size) {
         const mir::CameraRays rays{scene.cameras.front(), mir::luxel_grid(size, 1), 0};
-        mir::fill_gbuffer<Bsdf>(gbuffer, 0, rays, tree.ray_caster(), surfaces,
-                                geometry.ray_offset(), executor);
+        mir::fill_gbuffer<Bsdf>(gbuffer, 0, rays, tree.ray_caster(), surfaces, executor);
         mir::InstantRadiosityOptions options;
         options.vpls = 128;
         options.emitter_vpls = true;

@@ -39,8 +39,7 @@ std::vector<mir::ImageResponse> responses(const Studio<B>& studio,
     const mir::Extent luxels = rays.grid.luxels();
     mir::BlockedGBuffer<typename B::Params> gbuffer(luxels, luxels);
     mir::cpu::TbbExecutor executor;
-    mir::fill_gbuffer<B>(gbuffer, 0, rays, studio.engine.ray_caster(), studio.surfaces,
-                         studio.geometry.ray_offset(), executor);
+    mir::fill_gbuffer<B>(gbuffer, 0, rays, studio.engine.ray_caster(), studio.surfaces, executor);
     mir::VisibilityMatrix matrix(gbuffer.tiles(), vpls.size());
     mir::fill_visibility(matrix, gbuffer, vpls.span(), visibility, executor);
     return mir::response(gbuffer, vpls.span(), matrix, mir::VplShading<B>{bound}, executor);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/find_surface.hpp"
 #include "mir/accel/reach.hpp"
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/concepts/ray_finder.hpp"
@@ -26,12 +27,19 @@ struct BruteFinder {
     std::uint32_t count = 0;
     float reach = 0.0f;
 
-    [[nodiscard]] mir::TriangleHit closest(const mir::Ray& ray) const {
+    [[nodiscard]] mir::TriangleHit closest(const mir::Ray& ray, float after = -1.0f) const {
         mir::TriangleHit best;
         const mir::CutSegment cut = cut_to_reach(ray, reach);
+        const float share = share_behind(cut, after);
         for (std::uint32_t t = 0; t < count && !cut.empty; ++t)
-            keep_closer(rows[t], cut.from, cut.to, t, best);
+            keep_closer(rows[t], cut.from, cut.to, t, best, mir::Opaque{}, share);
+        if (best.triangle != mir::TriangleHit::none) best.t = cut.t_from + best.t * cut.t_length;
         return best;
+    }
+    [[nodiscard]] bool hides(mir::Vec3 from, mir::Vec3 to) const {
+        for (std::uint32_t t = 0; t < count; ++t)
+            if (hits_segment(rows[t], from, to)) return true;
+        return false;
     }
 };
 static_assert(mir::RayFinder<BruteFinder>);
@@ -42,9 +50,9 @@ struct BruteFinderCaster {
     BruteFinder finder;
 
     [[nodiscard]] std::optional<mir::SurfacePoint> closest_hit(mir::Ray ray) const {
-        const mir::TriangleHit hit = finder.closest(ray);
-        if (hit.triangle == mir::TriangleHit::none) return std::nullopt;
-        return geometry->surface_point(hit.triangle, hit.barycentrics, ray.direction);
+        mir::SurfacePoint point;
+        if (!find_surface(finder, geometry->view(), ray, point)) return std::nullopt;
+        return point;
     }
 };
 static_assert(mir::RayCaster<BruteFinderCaster>);

@@ -42,7 +42,7 @@ class Camera {
         Host g(extent, tile);
         mir::InlineExecutor executor;
         mir::fill_gbuffer<F>(g, first_row, rays, mirtest::BruteFinderCaster{&geometry_, finder()},
-                             surfaces_, geometry_.ray_offset(), executor);
+                             surfaces_, executor);
         return g;
     }
 

@@ -63,7 +63,7 @@ TEST_CASE("samplers that look at the image bring a known furnace its light", "[s
 
     const mir::ImageProbe<Lambert, mir::cpu::EmbreeVisibility> probe(
         {lab.scene.cameras.front(), 1.0f, 64, 1}, lab.engine.ray_caster(), lab.surfaces,
-        lab.geometry.ray_offset(), lab.engine.visibility());
+        lab.engine.visibility());
     mir::BidirectionalOptions resampling;
     resampling.vpls = 256;
     resampling.candidates = 8;

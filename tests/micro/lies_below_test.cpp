@@ -41,7 +41,7 @@ TEST_CASE("A wall lies below all points that are lifted from it, as a whole and 
     for (int k = 0; k < 200; ++k) {
         const mir::SurfacePoint p = random_surface_point(world.geometry, random);
         const Vec3 n = p.geometric_normal;
-        const Vec3 origin = mir::lift(p.position, n, world.geometry.ray_offset());
+        const Vec3 origin = mir::lift(p);
         for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)
             missed += is_below(tree, i, origin, n) ? 0 : 1;
     }
@@ -58,7 +58,7 @@ TEST_CASE("Nothing that reaches above a plane lies below it") {
         for (int k = 0; k < 50; ++k) {
             const mir::SurfacePoint p = random_surface_point(world.geometry, random);
             const Vec3 n = k % 2 == 0 ? p.geometric_normal : direction(random);
-            const Vec3 origin = mir::lift(p.position, n, world.geometry.ray_offset());
+            const Vec3 origin = mir::lift(p.position, n, p.offset);
             for (std::uint32_t i = 0; i < tree.nodes().size(); ++i) {
                 if (!is_below(tree, i, origin, n)) continue;
                 ++below;

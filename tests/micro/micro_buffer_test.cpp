@@ -40,9 +40,7 @@ struct Lookout {
 /// A point of a surface, others next to it as luxels are, whose normals may differ, and one
 /// anywhere.
 std::vector<Lookout> lookouts(const World& world, std::uint32_t count, mir::Random& random) {
-    const auto lifted = [&](const mir::SurfacePoint& p) {
-        return mir::lift(p.position, p.geometric_normal, world.geometry.ray_offset());
-    };
+    const auto lifted = [&](const mir::SurfacePoint& p) { return mir::lift(p); };
     const mir::SurfacePoint first = random_surface_point(world.geometry, random);
     const mir::SurfacePoint other = random_surface_point(world.geometry, random);
     std::vector<Lookout> points{{lifted(first), first.geometric_normal}};
@@ -166,7 +164,7 @@ TEST_CASE("Buffers with a lobe of their own gather the same light as others, wit
     surface.normal = n;
     surface.wo = wo;
     surface.bsdf = {{0.2f, 0.2f, 0.2f}, {0.6f, 0.6f, 0.6f}, 1.0f, 0.1f};
-    const mir::Hit hit{mir::lift(p.position, n, world.geometry.ray_offset()), n};
+    const mir::Hit hit{mir::lift(p.position, n, p.offset), n};
     struct Spread {
         double mean = 0.0;
         double square = 0.0;
@@ -206,7 +204,7 @@ TEST_CASE(
     for (std::uint64_t i = 0; i < 20; ++i) {
         const mir::SurfacePoint p = random_surface_point(world.geometry, random);
         const Vec3 n = world.geometry.front_normal(p.triangle);
-        const mir::SurfelFace at = luxel(mir::lift(p.position, n, world.geometry.ray_offset()), n);
+        const mir::SurfelFace at = luxel(mir::lift(p.position, n, p.offset), n);
         const Gather gather{tree.view(), radiance.data(), options};
         CHECK(double(gather(at.hit, at.surface, test_random(i)).g) == Approx(1.0).epsilon(1e-5));
     }

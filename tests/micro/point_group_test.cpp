@@ -28,7 +28,7 @@ Fate fate_of(const SurfelNode& node, const Point& p, float share) {
 /// `tilt`.
 std::vector<Point> some_points(const World& world, float spread, float tilt, mir::Random& random) {
     const mir::SurfacePoint p = random_surface_point(world.geometry, random);
-    const Vec3 origin = mir::lift(p.position, p.geometric_normal, world.geometry.ray_offset());
+    const Vec3 origin = mir::lift(p);
     std::vector<Point> points;
     for (int k = 0; k < 4; ++k) {
         const Vec3 n =

@@ -39,7 +39,7 @@ TEST_CASE(
     for (std::uint64_t i = 0; i < 50; ++i) {
         const mir::SurfacePoint p = random_surface_point(world.geometry, random);
         const Vec3 n = world.geometry.front_normal(p.triangle);
-        const Vec3 lifted = mir::lift(p.position, n, world.geometry.ray_offset());
+        const Vec3 lifted = mir::lift(p.position, n, p.offset);
         const float seen = gathered(tree, radiance, options, luxel(lifted, n), i);
         CHECK(double(seen) == Approx(1.0).epsilon(1e-5));
     }

@@ -37,7 +37,7 @@ SurfelRay random_ray(const World& world, mir::Random& random) {
     const Vec3 n = p.geometric_normal;
     Vec3 d = direction(random);
     if (glm::dot(d, n) < 0.0f) d = -d;
-    return {mir::lift(p.position, n, world.geometry.ray_offset()), d, n};
+    return {mir::lift(p), d, n};
 }
 
 /// True when all discs below a node show the same side to a point, seen in double precision.
@@ -185,7 +185,7 @@ TEST_CASE("No ray that leaves a convex body meets it again, at any scale and pla
         const Vec3 n = world.geometry.front_normal(p.triangle);
         Vec3 d = direction(random);
         if (glm::dot(d, n) < 0.0f) d = -d;
-        SurfelRay ray{mir::lift(p.position, n, world.geometry.ray_offset()), d, n};
+        SurfelRay ray{mir::lift(p.position, n, p.offset), d, n};
         met += mir::closest_surfel(tree.view(), ray).node != SurfelHit::none ? 1 : 0;
         ray.normal = {0, 0, 0};
         rims += mir::closest_surfel(tree.view(), ray).node != SurfelHit::none ? 1 : 0;

@@ -39,7 +39,7 @@ struct LitBox {
         rays.grid.pixels = image;
         mir::InlineExecutor executor;
         mir::fill_gbuffer<B>(g, first, rays, engine.ray_caster(), mir::SurfaceTable<B>(world.scene),
-                             world.geometry.ray_offset(), executor);
+                             executor);
         return g;
     }
 

@@ -46,7 +46,7 @@ class RandomRecords {
         const mir::Vec3 n = p.geometric_normal;
         const float power = 0.001f + 100.0f * random.next() * random.next();
         const mir::Rgb colour{random.next(), random.next() * random.next(), random.next()};
-        r.vpl = {mir::lift(p.position, n, geometry_->ray_offset()), n, colour * power};
+        r.vpl = {mir::lift(p), n, colour * power};
         r.origin = {mir::VplKind::reflective, p.triangle, p.barycentrics};
         r.bounce = static_cast<std::uint8_t>(2 + (i + k) % 4);
         r.light_group = static_cast<std::uint16_t>(k % 2);

@@ -33,7 +33,7 @@ class Luxels {
     explicit Luxels(const Studio<Lambert>& studio)
         : studio_(studio), rays_(studio.rays(side, seed)), gbuffer_({side, side}, {side, side}) {
         mir::fill_gbuffer<Lambert>(gbuffer_, 0, rays_, studio.engine.ray_caster(), studio.surfaces,
-                                   studio.geometry.ray_offset(), executor_);
+                                   executor_);
     }
 
     /// Direct light of `runs` seeds.

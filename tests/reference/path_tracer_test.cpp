@@ -45,8 +45,7 @@ template <mir::Bsdf B>
 mir::BlockedGBuffer<typename B::Params> luxels(const Studio<B>& studio, const mir::CameraRays& r) {
     mir::BlockedGBuffer<typename B::Params> g(r.grid.luxels(), {16, 16});
     mir::InlineExecutor executor;
-    mir::fill_gbuffer<B>(g, 0, r, studio.engine.ray_caster(), studio.surfaces,
-                         studio.geometry.ray_offset(), executor);
+    mir::fill_gbuffer<B>(g, 0, r, studio.engine.ray_caster(), studio.surfaces, executor);
     return g;
 }
 

@@ -58,16 +58,15 @@ struct Stage {
 
     template <mir::Visibility V>
     [[nodiscard]] ImageProbe<Lambert, V> probe(std::uint64_t seed, V visibility) const {
-        return {{camera, 1.0f, 256, seed}, embree.ray_caster(), surfaces,
-                geometry.ray_offset(),     visibility,          {.bound = 4.0f}};
+        return {
+            {camera, 1.0f, 256, seed}, embree.ray_caster(), surfaces, visibility, {.bound = 4.0f}};
     }
     /// Mean radiance of an image of 48 x 48 pixels, of 4 luxels each, by the library's first phase.
     [[nodiscard]] double full_response(const Vpl& vpl, std::uint64_t seed) const {
         const mir::CameraRays rays{camera, mir::luxel_grid({48, 48}, 4), seed};
         mir::BlockedGBuffer<Lambert::Params> gbuffer(rays.grid.luxels(), {96, 96});
         mir::InlineExecutor executor;
-        mir::fill_gbuffer<Lambert>(gbuffer, 0, rays, embree.ray_caster(), surfaces,
-                                   geometry.ray_offset(), executor);
+        mir::fill_gbuffer<Lambert>(gbuffer, 0, rays, embree.ray_caster(), surfaces, executor);
         const auto view = gbuffer.view(0);
         const auto layout = mir::BlockedLayout::of(gbuffer.tiles()[0]);
         const mir::VplShading<Lambert> shading{.bound = 4.0f};
@@ -118,8 +117,7 @@ TEST_CASE("inside a sphere every place has the response rho / (4 pi R^2)") {
     const Ball ball;
     const auto surfaces = one_material({0.6f, 0.3f, 0.0f});
     const Camera camera = Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.2f);
-    const ImageProbe<Lambert, mirtest::FreeSight> probe({camera, 1.5f, 200, 3}, ball, surfaces,
-                                                        0.0f, {});
+    const ImageProbe<Lambert, mirtest::FreeSight> probe({camera, 1.5f, 200, 3}, ball, surfaces, {});
     CHECK(probe.luxels() == 216);
     const double unit = 1.0 / (mirtest::pi * 4 * 2.0 * 2.0);
     mir::Random random(1, mir::Stream::test, 0);
@@ -128,11 +126,11 @@ TEST_CASE("inside a sphere every place has the response rho / (4 pi R^2)") {
         Vpl vpl = ball.vpl(random.next_2d());
         if (vpl.position.z < 0.0f) continue;
         const Rgb r = probe.response(vpl);
-        CHECK(r.r == Approx(0.6 * unit).epsilon(1e-5));
-        CHECK(r.g == Approx(0.3 * unit).epsilon(1e-5));
+        CHECK(r.r == Approx(0.6 * unit).epsilon(2e-5));
+        CHECK(r.g == Approx(0.3 * unit).epsilon(2e-5));
         CHECK(r.b == 0.0f);
         CHECK(probe.flux(vpl, {2, 3, 4}) ==
-              Approx((0.2126 * 0.6 * 2 + 0.7152 * 0.3 * 3) * unit).epsilon(1e-5));
+              Approx((0.2126 * 0.6 * 2 + 0.7152 * 0.3 * 3) * unit).epsilon(2e-5));
     }
 }
 
@@ -141,10 +139,10 @@ TEST_CASE("luxels that see nothing count as luxels") {
     const Camera camera = Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.2f);
     const Ball half{.right_half_only = true};
     const ProbeRays rays{camera, 1.0f, 256, 3};
-    const ImageProbe<Lambert, mirtest::FreeSight> probe(rays, half, surfaces, 0.0f, {});
+    const ImageProbe<Lambert, mirtest::FreeSight> probe(rays, half, surfaces, {});
     const double whole = 0.6 / (mirtest::pi * 16);
     CHECK(probe.luxels() == 256);
-    CHECK(probe.response(half.vpl({0.25f, 0.75f})).g == Approx(whole / 2).epsilon(1e-5));
+    CHECK(probe.response(half.vpl({0.25f, 0.75f})).g == Approx(whole / 2).epsilon(2e-5));
 }
 
 // H0: over seeds, a probe's response to a place has the mean that an image of 9216 luxels has.
@@ -194,8 +192,8 @@ TEST_CASE("the bound of the shading holds in a probe") {
     const Ball ball;
     const auto surfaces = one_material({0.5f, 0.5f, 0.5f});
     const Camera camera = Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.2f);
-    const ImageProbe<Lambert, mirtest::FreeSight> probe({camera, 1.0f, 64, 1}, ball, surfaces, 0.0f,
-                                                        {}, {.bound = 0.01f});
+    const ImageProbe<Lambert, mirtest::FreeSight> probe({camera, 1.0f, 64, 1}, ball, surfaces, {},
+                                                        {.bound = 0.01f});
     CHECK(probe.response(ball.vpl({0.25f, 0.75f})).r == Approx(0.5 / mirtest::pi * 0.01));
 }
 
@@ -204,7 +202,7 @@ TEST_CASE("any Bsdf is probed") {
     const mir::SurfaceTable<mir::CookTorrance> surfaces(stage.scene);
     const ImageProbe<mir::CookTorrance, mir::cpu::EmbreeVisibility> probe(
         {stage.camera, 1.0f, 256, 5}, stage.embree.ray_caster(), surfaces,
-        stage.geometry.ray_offset(), stage.embree.visibility(), {.bound = 4.0f});
+        stage.embree.visibility(), {.bound = 4.0f});
     const auto lambert = stage.probe(5, stage.embree.visibility());
     for (const Vpl& vpl : places)
         CHECK(probe.response(vpl).g == Approx(lambert.response(vpl).g).epsilon(1e-5));
@@ -214,7 +212,7 @@ TEST_CASE("probes of no luxel or of no aspect are refused") {
     const auto surfaces = one_material({0.5f, 0.5f, 0.5f});
     const auto make = [&](float aspect, std::uint32_t luxels) {
         return ImageProbe<Lambert, mirtest::FreeSight>({Camera{}, aspect, luxels, 0}, Ball{},
-                                                       surfaces, 0.0f, {});
+                                                       surfaces, {});
     };
     CHECK_THROWS_AS(make(1.0f, 0), mir::Error);
     CHECK_THROWS_AS(make(1.0f, 65537), mir::Error);

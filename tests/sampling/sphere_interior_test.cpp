@@ -75,8 +75,7 @@ GBuffer luxels(const Sphere& sphere) {
                 const mir::Vec2 u = (mir::Vec2(tile.x + x, tile.y + y) + 0.5f) / 8.0f;
                 const mir::SurfacePoint p = sphere.caster().point(mir::square_to_sphere(u));
                 const Vec3 n = p.geometric_normal;
-                g.store(t, layout(x, y),
-                        {mir::lift(p.position, n, sphere.geometry.ray_offset()), n},
+                g.store(t, layout(x, y), {mir::lift(p), n},
                         {n, n, {}, sphere.surfaces.params(p.material)});
             }
     }
@@ -195,7 +194,7 @@ TEST_CASE("the furnace: where every wall emits L and reflects rho, radiance is L
         const mir::Vec2 u((static_cast<float>(i) + 0.5f) / count, static_cast<float>(i % 8) / 8.0f);
         const auto p = sphere.caster().point(mir::square_to_sphere(u));
         const auto j = static_cast<float>(power / mirtest::pi / count);
-        const Vec3 at = mir::lift(p.position, p.geometric_normal, sphere.geometry.ray_offset());
+        const Vec3 at = mir::lift(p);
         walls.push_back({at, p.geometric_normal, {j, j, j}}, {});
     }
     const VplList vpls = sphere.vpls(options(Termination::levels));

@@ -72,7 +72,7 @@ std::array<Moments, 6> weights(const PathLab<B>& lab, std::uint32_t shortest, st
     const auto w = lab.world();
     using Generator = mir::VplGenerator<std::remove_const_t<decltype(w)>, Density>;
     const typename Generator::Probe probe({lab.scene.cameras[0], 1.0f, 64, 3}, w.caster,
-                                          lab.surfaces, lab.geometry.ray_offset(), w.visibility);
+                                          lab.surfaces, w.visibility);
     const Generator generator(w, probe, shortest, 5, 0.01);
     std::array<Moments, 6> moments;
     mir::InlineExecutor one;
@@ -142,7 +142,7 @@ TEST_CASE("a probe that sees nothing leaves light paths") {
     const auto w = lab.world();
     using Generator = mir::VplGenerator<std::remove_const_t<decltype(w)>>;
     const Generator::Probe probe({lab.scene.cameras[0], 1.0f, 64, 3}, w.caster, lab.surfaces,
-                                 lab.geometry.ray_offset(), w.visibility);
+                                 w.visibility);
     REQUIRE(probe.receivers() == 0);
     const Generator generator(w, probe, 2, 5, 1.0);
     WeightedPath p;

@@ -51,7 +51,6 @@ struct Stage {
         return {{scene.cameras[0], 1.0f, luxels, seed},
                 embree.ray_caster(),
                 surfaces,
-                geometry.ray_offset(),
                 embree.visibility(),
                 shading};
     }
@@ -79,7 +78,7 @@ void Stage::each_contribution(const VplRecords& from, const Add& add) const {
         const auto point = embree.ray_caster().closest_hit(ray);
         if (!point) continue;
         const mir::Vec3 n = point->geometric_normal;
-        const mir::Hit hit{mir::lift(point->position, n, geometry.ray_offset()), n};
+        const mir::Hit hit{mir::lift(*point), n};
         const auto surface = surfaces.surface(*point, -ray.direction);
         for (const VplRecord& r : from.records)
             add(i, r,

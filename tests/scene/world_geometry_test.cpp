@@ -97,7 +97,7 @@ TEST_CASE("normals are carried by the inverse transpose, mirrored or not") {
     const Mesh mesh = ball();
     for (std::uint32_t t = 0; t < g.triangles().size(); t += 7) {
         const SurfacePoint p = g.surface_point(t, {0, 0}, -g.front_normal(t));
-        const Vec3 n = glm::inverse(a) * p.position;
+        const Vec3 n = glm::inverse(a) * g.corner(t, 0);
         const Vec3 expected = glm::normalize(glm::transpose(glm::inverse(a)) * n);
         if (p.shading_normal == p.geometric_normal) continue;
         CHECK(glm::length(p.shading_normal - expected) < 1e-5f);
@@ -214,14 +214,15 @@ TEST_CASE("the ray offset grows with the scene and with its distance from the or
         CHECK(scaled.ray_offset() == Approx(s * one));
     }
     const WorldGeometry far(with(ball(), columns({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -999, 0})));
-    CHECK(far.ray_offset() == Approx(1000 * 0x1p-19));
+    CHECK(far.ray_offset() == Approx(2 * 0x1p-14));
     const WorldGeometry near(with(ball(), columns({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -9, 0})));
     CHECK(near.ray_offset() == Approx(2 * 0x1p-14));
     // Lifting moves a point off its surface even where coordinates are largest.
     for (std::uint32_t t = 0; t < far.triangles().size(); ++t) {
         const SurfacePoint p = middle(far, t);
-        const Vec3 up = mir::lift(p.position, p.geometric_normal, far.ray_offset());
+        const Vec3 up = mir::lift(p);
         CHECK(glm::dot(up - far.corner(t, 0), p.geometric_normal) > 0.0f);
+        CHECK(glm::length(up - p.position) == Approx(mir::least_offset(p.position)).epsilon(0.05));
     }
 }
 

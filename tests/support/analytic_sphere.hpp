@@ -38,6 +38,7 @@ struct AnalyticSphere {
         mir::SurfacePoint p;
         const mir::Vec3 outward = glm::normalize(place);
         p.position = radius * outward;
+        p.offset = 0x1p-16f * radius;
         p.geometric_normal = p.shading_normal = -outward;
         p.material = place.y > 0.0f ? upper : lower;
         // No triangle exists: the coordinates alone tell points apart.

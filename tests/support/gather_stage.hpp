@@ -44,8 +44,7 @@ struct GatherStage {
 
     GatherStage() {
         const mir::CameraRays rays{scene.cameras.front(), band.grid, 0};
-        fill_gbuffer<B>(luxels, 0, rays, engine.ray_caster(), surfaces, geometry.ray_offset(),
-                        executor);
+        fill_gbuffer<B>(luxels, 0, rays, engine.ray_caster(), surfaces, executor);
     }
 };
 

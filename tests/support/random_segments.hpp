@@ -125,8 +125,7 @@ class RandomSegments {
         const std::uint32_t t = by_area_.sample(random.next());
         const auto p =
             geometry.surface_point(t, mir::square_to_triangle(random.next_2d()), towards);
-        return {mir::lift(p.position, p.geometric_normal, geometry.ray_offset()),
-                p.geometric_normal, t};
+        return {mir::lift(p), p.geometric_normal, t};
     }
 
     /// On a surface in front of the origin's surface and turned to it, if one of eight tries is.

@@ -36,8 +36,7 @@ class SamplerLight {
         const mir::CameraRays rays{lab.scene.cameras.front(), mir::luxel_grid({luxels, luxels}, 1),
                                    77};
         mir::InlineExecutor one;
-        mir::fill_gbuffer<B>(gbuffer, 0, rays, world.caster, lab.surfaces,
-                             lab.geometry.ray_offset(), one);
+        mir::fill_gbuffer<B>(gbuffer, 0, rays, world.caster, lab.surfaces, one);
         std::vector<double> values(moments.size());
         for (std::uint32_t b = 1; b <= bounces; ++b)
             add_picture(picture<B>(gbuffer, world.visibility, records, b), b, values);
@@ -101,7 +100,6 @@ ProbeOf<B> probe_of(const PathLab<B>& lab, std::uint32_t luxels = 64) {
     return {{lab.scene.cameras.front(), 1.0f, luxels, 5},
             lab.engine.ray_caster(),
             lab.surfaces,
-            lab.geometry.ray_offset(),
             lab.engine.visibility(),
             {}};
 }

@@ -30,8 +30,7 @@ struct Placed {
         const mir::SurfaceTable<Lambert> surfaces(box.scene);
         const mir::LightTable lights(box.scene, box.geometry);
         const mir::CameraRays rays{box.scene.cameras[0], {{24, 24}}};
-        mir::fill_gbuffer(luxels, 0, rays, engine.ray_caster(), surfaces, box.geometry.ray_offset(),
-                          executor);
+        mir::fill_gbuffer(luxels, 0, rays, engine.ray_caster(), surfaces, executor);
         const mir::PathWorld world{box.geometry,        lights,      surfaces, engine.ray_caster(),
                                    engine.visibility(), rays.camera, 1.0f,     shading.bound};
         mir::MetropolisOptions options;

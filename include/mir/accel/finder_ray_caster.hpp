@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/find_surface.hpp"
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/concepts/ray_finder.hpp"
 #include "mir/scene/world_geometry.hpp"
@@ -27,10 +28,7 @@ class FinderRayCaster {
 
     /// Writes the first surface along the ray to `point`; false when there is none.
     [[nodiscard]] MIR_HD bool find_point(const Ray& ray, SurfacePoint& point) const {
-        const TriangleHit hit = finder_.closest(ray);
-        if (hit.triangle == TriangleHit::none) return false;
-        point = geometry_.surface_point(hit.triangle, hit.barycentrics, ray.direction);
-        return true;
+        return find_surface(finder_, geometry_, ray, point);
     }
     /// The first surface along the ray; none when it leaves the scene. The bits of find_point().
     [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const

@@ -14,7 +14,12 @@ struct Ray {
 /// Where a ray met the scene. Both normals have unit length and lie on the side the ray came from;
 /// `front` says whether that is the side on which the triangle's vertices turn counter-clockwise.
 struct SurfacePoint {
-    Vec3 position{0};                ///< world space, metres; on the surface, not lifted
+    /// World space, metres: on the surface, not lifted, and off the triangle's edges by four times
+    /// `offset` where the triangle is wide enough (GeometryView::place()).
+    Vec3 position{0};
+    /// Distance by which segments that leave it are lifted, metres; lift() takes at least
+    /// least_offset().
+    float offset = 0.0f;
     Vec3 geometric_normal{0, 0, 1};  ///< of the triangle
     Vec3 shading_normal{0, 0, 1};    ///< interpolated from the vertices; normal maps are not in it
     Vec2 barycentrics{0};            ///< weights of the triangle's second and third vertex
@@ -29,10 +34,19 @@ struct SurfacePoint {
 };
 
 /// Lifts a point off its surface by `offset` metres along the unit normal of the side it is seen
-/// from, so that segments leaving it do not meet the surface again. `offset` comes from
-/// WorldGeometry::ray_offset, which scales with the scene and its distance from the origin.
+/// from, so that segments leaving it do not meet the surface again. `offset` is that of the point:
+/// GeometryView::offset_at().
 MIR_HD inline Vec3 lift(Vec3 position, Vec3 normal, float offset) {
     return position + offset * normal;
+}
+
+/// Least distance, metres, by which a point at `position` may be lifted: more than twice what
+/// rounding displaces a plane and a point there (accel/detail/thick_triangle.hpp).
+MIR_HD inline float least_offset(Vec3 position) { return 0x1p-19f * max_abs(position); }
+
+/// A surface point where segments leave it.
+MIR_HD inline Vec3 lift(const SurfacePoint& p) {
+    return lift(p.position, p.geometric_normal, larger(p.offset, least_offset(p.position)));
 }
 
 }  // namespace mir

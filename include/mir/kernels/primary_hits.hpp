@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/ray_finder.hpp"
+#include "mir/accel/find_surface.hpp"
 #include "mir/data/gbuffer_words.hpp"
 #include "mir/scene/geometry_view.hpp"
 #include "mir/shading/surface_table_view.hpp"
@@ -26,24 +26,22 @@ struct PrimaryHits {
         const LuxelIndex luxel = i - out.tiles.first_block(t) * BlockedLayout::block_size;
         const Tile tile = out.tiles[t];
         const LuxelPlace at = BlockedLayout::of(tile).place(luxel);
-        TriangleHit found;
+        SurfacePoint p;
         Ray ray;
+        bool is_found = false;
         if (at.x < tile.width && at.y < tile.height) {
             ray = rays(tile.x + at.x, first_row + tile.y + at.y);
-            found = finder.closest(ray);
+            is_found = find_surface(finder, geometry, ray, p);
         }
-        if (found.triangle == TriangleHit::none)
-            clear(t, luxel);
+        if (is_found)
+            store(t, luxel, ray, p);
         else
-            store(t, luxel, ray, found);
+            clear(t, luxel);
     }
 
  private:
-    MIR_HD void store(TileIndex t, LuxelIndex i, const Ray& ray, const TriangleHit& found) const {
-        const SurfacePoint p =
-            geometry.surface_point(found.triangle, found.barycentrics, ray.direction);
-        const Vec3 n = p.geometric_normal;
-        out.hits(t).store(i, {lift(p.position, n, geometry.ray_offset), n});
+    MIR_HD void store(TileIndex t, LuxelIndex i, const Ray& ray, const SurfacePoint& p) const {
+        out.hits(t).store(i, {lift(p), p.geometric_normal});
         out.surfaces(t).store(i, surfaces.surface(p, -ray.direction));
     }
 

@@ -35,7 +35,8 @@ template <Space S>
                                             bool front, float ray_offset) {
     const SurfelNode& node = tree.nodes[index];
     const Vec3 normal = front ? node.axis : -node.axis;
-    return {{lift(node.centre, normal, ray_offset), normal},
+    const float offset = larger(least_offset(node.centre), ray_offset);
+    return {{lift(node.centre, normal, offset), normal},
             {normal, normal, {}, {tree.albedo[index]}}};
 }
 

@@ -19,10 +19,10 @@ namespace detail {
 
 template <class Lights>
 MIR_HD PlacedLightEnd area_end(const Lights& lights, std::uint32_t light, const EmitterSample& s,
-                               bool back, float ray_offset) {
+                               bool back) {
     PlacedLightEnd placed;
     const Vec3 n = back ? -s.normal : s.normal;
-    placed.vertex = {lift(s.position, n, ray_offset), n, n, s.barycentrics, s.triangle, 0};
+    placed.vertex = {lift(s.position, n, s.offset), n, n, s.barycentrics, s.triangle, 0};
     const double density =
         static_cast<double>(lights.light_probability(light)) * static_cast<double>(s.pdf_area);
     placed.end = {LightEndKind::area, s.light_group, light,
@@ -77,7 +77,7 @@ MIR_HD PlacedLightEnd sample_light_end(const World& world, float pick, Vec2 uv, 
     if (!lights.is_triangle(light)) return detail::other_end(lights, light, uv);
     const EmitterSample s = lights.point_on(world.geometry, light, uv);
     const bool back = s.both_sides && glm::dot(from - s.position, s.normal) < 0.0f;
-    return detail::area_end(lights, light, s, back, world.geometry.ray_offset);
+    return detail::area_end(lights, light, s, back);
 }
 
 /// Light end for a light path, the light chosen by power. `side` picks the side of a lamp that
@@ -88,8 +88,7 @@ MIR_HD PlacedLightEnd sample_light_start(const World& world, float pick, Vec2 uv
     const std::uint32_t light = lights.sample_light(pick);
     if (!lights.is_triangle(light)) return detail::other_end(lights, light, uv);
     const EmitterSample s = lights.point_on(world.geometry, light, uv);
-    return detail::area_end(lights, light, s, s.both_sides && side >= 0.5f,
-                            world.geometry.ray_offset);
+    return detail::area_end(lights, light, s, s.both_sides && side >= 0.5f);
 }
 
 /// Writes the light end of a path that ran into the surface `at`; false when its side that was hit
@@ -103,7 +102,7 @@ MIR_HD bool light_end_at(const World& world, const PathVertex& at, LightEnd& end
     s.radiance = lights.radiance_at(world.geometry, at.triangle, at.barycentrics);
     const bool back = glm::dot(at.normal, s.normal) < 0.0f;
     if (back && !s.both_sides) return false;
-    end = detail::area_end(lights, light, s, back, world.geometry.ray_offset).end;
+    end = detail::area_end(lights, light, s, back).end;
     return true;
 }
 

@@ -71,12 +71,8 @@ struct PathWorld {
     [[nodiscard]] MIR_HD bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find(ray, p)) return false;
-        vertex = {lift(p.position, p.geometric_normal, geometry.ray_offset),
-                  p.geometric_normal,
-                  surfaces.shading_normal(p, -ray.direction),
-                  p.barycentrics,
-                  p.triangle,
-                  p.material};
+        vertex = {lift(p),        p.geometric_normal, surfaces.shading_normal(p, -ray.direction),
+                  p.barycentrics, p.triangle,         p.material};
         return true;
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.

@@ -142,9 +142,7 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 auto PathTracer<B, R, V, Rules>::vertex(const SurfacePoint& p, Vec3 direction) const -> Vertex {
-    const Vec3 n = p.geometric_normal;
-    return {{lift(p.position, n, world_.geometry.ray_offset()), n},
-            world_.surfaces.surface(p, -direction)};
+    return {{lift(p), p.geometric_normal}, world_.surfaces.surface(p, -direction)};
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
@@ -177,8 +175,8 @@ std::optional<SurfacePoint> PathTracer<B, R, V, Rules>::next_point(const Walk& w
         if (walk.bounce == 1) {
             // A little farther, because points are lifted once they are met.
             const float reach = split_.reach(glm::dot(direction, walk.at.surface.normal));
-            return world_.caster.closest_hit(ray,
-                                             1.001f * reach + 4.0f * world_.geometry.ray_offset());
+            const float lifted = world_.geometry.view().offset_at(ray.origin);
+            return world_.caster.closest_hit(ray, 1.001f * reach + 16.0f * lifted);
         }
     return world_.caster.closest_hit(ray);
 }
@@ -262,7 +260,7 @@ Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint8_t boun
     const Vec3 eye = at.hit.position;
     const bool from_back = e.both_sides && glm::dot(eye - e.position, e.normal) < 0.0f;
     const Vec3 normal = from_back ? -e.normal : e.normal;
-    const Vec3 target = lift(e.position, normal, world_.geometry.ray_offset());
+    const Vec3 target = lift(e.position, normal, e.offset);
     const Vec3 d = target - eye;
     const float d2 = length_squared(d);
     const Vec3 wi = d * (1.0f / std::sqrt(d2));

@@ -128,7 +128,7 @@ auto ImageBands<B, Engine, E>::make(std::uint32_t i) const -> Band {
     } else {
         Band band{first_row, BlockedGBuffer<typename B::Params>(extent, tile_), {}};
         fill_gbuffer<B>(band.gbuffer, first_row, context_.rays, context_.engine.ray_caster(),
-                        context_.surfaces, context_.geometry.ray_offset(), context_.executor);
+                        context_.surfaces, context_.executor);
         return band;
     }
 }

@@ -102,7 +102,7 @@ auto NormalisationPass<B, Engine, E, F>::probe_luxels() const -> Band {
     const Extent cells = rays.cells();
     BlockedGBuffer<typename B::Params> gbuffer(cells, whole_blocks(cells));
     fill_gbuffer<B>(gbuffer, 0, rays, context_.engine.ray_caster(), context_.surfaces,
-                    context_.geometry.ray_offset(), context_.executor);
+                    context_.executor);
     if constexpr (BandEngine<Engine>)
         return {0, context_.engine.upload(gbuffer)};
     else

@@ -35,8 +35,7 @@ template <Bsdf B, class Engine, Executor E>
 auto image_probe(const RenderContext<B, Engine, E>& c, float bound) {
     const ProbeRays rays{c.rays.camera, c.aspect(), 256, c.settings.seed};
     return ImageProbe<B, decltype(c.engine.visibility())>(
-        rays, c.engine.ray_caster(), c.surfaces, c.geometry.ray_offset(), c.engine.visibility(),
-        VplShading<B>{bound});
+        rays, c.engine.ray_caster(), c.surfaces, c.engine.visibility(), VplShading<B>{bound});
 }
 
 /// What full paths of a render run through. `bound` is the largest geometry term of the shading to

@@ -21,13 +21,13 @@ struct Emission {
 
 /// Draws a light by power and a ray from it: cosine-distributed from emissive triangles, uniform
 /// from point lights and inside spot cones, parallel from directional lights, by luminance from the
-/// environment. Always takes five numbers. `ray_offset` lifts origins off emitters. The table must
-/// not be empty.
-Emission sample_emission(const LightTable& lights, float ray_offset, PathNumbers& numbers);
+/// environment. Always takes five numbers. Origins are lifted off emitters. The table must not be
+/// empty.
+Emission sample_emission(const LightTable& lights, PathNumbers& numbers);
 
 namespace detail {
 
-inline Emission emit_from_triangle(EmitterSample s, float probability, float ray_offset, Vec2 uv) {
+inline Emission emit_from_triangle(EmitterSample s, float probability, Vec2 uv) {
     Emission e;
     const float sides = s.both_sides ? 2.0f : 1.0f;
     // One number serves side and direction: the half of [0, 1) picks the side.
@@ -36,7 +36,7 @@ inline Emission emit_from_triangle(EmitterSample s, float probability, float ray
     e.emitter_normal = back ? -s.normal : s.normal;
     e.pdf_point = probability * s.pdf_area / sides;
     e.power = s.radiance * (pi / e.pdf_point);
-    e.ray = {lift(s.position, e.emitter_normal, ray_offset),
+    e.ray = {lift(s.position, e.emitter_normal, s.offset),
              Frame::around(e.emitter_normal).to_world(square_to_cosine_hemisphere(uv))};
     e.light_group = s.light_group;
     e.emitter = s;
@@ -84,15 +84,14 @@ inline Emission emit_from_environment(const LightTable& lights, float probabilit
 
 }  // namespace detail
 
-inline Emission sample_emission(const LightTable& lights, float ray_offset, PathNumbers& numbers) {
+inline Emission sample_emission(const LightTable& lights, PathNumbers& numbers) {
     std::uint32_t light = lights.sample_light(numbers.next());
     const Vec2 on_light = numbers.next_2d();
     const Vec2 uv = numbers.next_2d();
     const float probability = lights.light_probability(light);
     const auto triangles = static_cast<std::uint32_t>(lights.emissive_triangles().size());
     if (light < triangles)
-        return detail::emit_from_triangle(lights.point_on(light, on_light), probability, ray_offset,
-                                          uv);
+        return detail::emit_from_triangle(lights.point_on(light, on_light), probability, uv);
     light -= triangles;
     if (light < lights.point_lights().size())
         return detail::emit_from_point(lights.point_lights()[light], probability, uv);

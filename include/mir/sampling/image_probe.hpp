@@ -21,12 +21,11 @@ namespace mir {
 template <Bsdf B, Visibility V>
 class ImageProbe {
  public:
-    /// Traces the rays; points are lifted by `ray_offset` metres. `shading` holds the bound that
-    /// the geometry terms get.
+    /// Traces the rays. `shading` holds the bound that the geometry terms get.
     /// @throws Error(invalid_argument) when the rays' luxels or aspect are out of range.
     template <RayCaster R>
     ImageProbe(const ProbeRays& rays, const R& caster, const SurfaceTable<B>& surfaces,
-               float ray_offset, V visibility, VplShading<B> shading = {});
+               V visibility, VplShading<B> shading = {});
 
     /// Radiance that a VPL of 1 W sr^-1 at `place` (its intensity is not read) sends to the viewer,
     /// averaged over all luxels, those that see nothing included: (1/M') sum_l f_1 G V, sr^-1 m^-2.
@@ -78,8 +77,7 @@ class ImageProbe {
 template <Bsdf B, Visibility V>
 template <RayCaster R>
 ImageProbe<B, V>::ImageProbe(const ProbeRays& rays, const R& caster,
-                             const SurfaceTable<B>& surfaces, float ray_offset, V visibility,
-                             VplShading<B> shading)
+                             const SurfaceTable<B>& surfaces, V visibility, VplShading<B> shading)
     : visibility_(visibility), shading_(shading) {
     expects(rays.luxels >= 1 && rays.luxels <= 65536,
             "the luxels of an image probe must be 1 to 65536 (256 are usual)");
@@ -91,9 +89,8 @@ ImageProbe<B, V>::ImageProbe(const ProbeRays& rays, const R& caster,
         const Ray ray = rays(i % cells.width, i / cells.width);
         const auto point = caster.closest_hit(ray);
         if (!point) continue;
-        const Vec3 n = point->geometric_normal;
         const auto surface = surfaces.surface(*point, -ray.direction);
-        if (shading.reflects(surface)) add({lift(point->position, n, ray_offset), n}, surface);
+        if (shading.reflects(surface)) add({lift(*point), point->geometric_normal}, surface);
     }
 }
 

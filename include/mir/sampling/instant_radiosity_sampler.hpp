@@ -151,7 +151,7 @@ void InstantRadiositySampler<B, R>::record(const Arrival<B>& at, const typename 
     const Rgb weight = options_.arrivals && !lambertian
                            ? B::albedo(bsdf, point.shading_normal, at.towards_light)
                            : sample.weight;
-    const Vpl vpl = reflective_vpl(at, weight, world_.geometry.ray_offset());
+    const Vpl vpl = reflective_vpl(at, weight);
     if (is_black(vpl.intensity)) return;
     path.records.push_back({vpl,
                             {VplKind::reflective, point.triangle, point.barycentrics},
@@ -170,7 +170,7 @@ auto InstantRadiositySampler<B, R>::trace(std::uint64_t index, Stream stream,
                                           const SurvivorCounts* levels) const -> Path {
     Path path;
     PathNumbers numbers(options_.sequence, options_.seed, stream, index);
-    Emission light = sample_emission(world_.lights, world_.geometry.ray_offset(), numbers);
+    Emission light = sample_emission(world_.lights, numbers);
     if (options_.emitter_vpls && light.emitter) {
         path.records.push_back(
             {emitter_vpl(light),
@@ -195,7 +195,6 @@ template <Bsdf B, RayCaster R>
 bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bounce,
                                                 float survival, PathNumbers& numbers,
                                                 Path& path) const {
-    const float offset = world_.geometry.ray_offset();
     const auto point = world_.caster.closest_hit(light.ray);
     if (!point || is_black(light.power)) return false;
     Arrival<B> at{*point, -light.ray.direction, light.power * (1.0f / survival)};
@@ -208,7 +207,7 @@ bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bo
     record(at, bsdf, sample, bounce, light.light_group, path);
 
     const std::uint16_t group = light.light_group;
-    light = scatter(at, sample, offset);
+    light = scatter(at, sample);
     light.light_group = group;
     const float roulette = numbers.next();
     if (options_.termination == Termination::levels) return true;

@@ -27,10 +27,9 @@ struct Arrival {
 /// directional albedo: the VPL sends out exactly the reflected power, spread as a Lambertian
 /// surface would. For Lambertian surfaces that is the truth; others lose the shape of their lobe.
 template <Bsdf B>
-Vpl reflective_vpl(const Arrival<B>& at, Rgb weight, float ray_offset) {
+Vpl reflective_vpl(const Arrival<B>& at, Rgb weight) {
     const Vec3 n = at.point.geometric_normal;
-    return {lift(at.point.position, n, ray_offset), n,
-            at.power * weight * (at.shading_normal_factor() * inv_pi)};
+    return {lift(at.point), n, at.power * weight * (at.shading_normal_factor() * inv_pi)};
 }
 
 /// The point on the lamp where a path starts, as a VPL: J = L_e / pdf.
@@ -41,13 +40,13 @@ inline Vpl emitter_vpl(const Emission& e) {
 /// Light that leaves an arrival along `sample`: its ray and power, which is black when the sampled
 /// direction and the geometric side disagree.
 template <Bsdf B>
-Emission scatter(const Arrival<B>& at, const BsdfSample& sample, float ray_offset) {
+Emission scatter(const Arrival<B>& at, const BsdfSample& sample) {
     Emission out;
     const Vec3 n = at.point.geometric_normal;
     const float cos_geometric = glm::dot(sample.wi, n);
     const float cos_shading = glm::dot(sample.wi, at.point.shading_normal);
     if (cos_geometric <= 0.0f || cos_shading <= 0.0f) return out;
-    out.ray = {lift(at.point.position, n, ray_offset), sample.wi};
+    out.ray = {lift(at.point), sample.wi};
     out.power =
         at.power * sample.weight * (at.shading_normal_factor() * (cos_geometric / cos_shading));
     return out;

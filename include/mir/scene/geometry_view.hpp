@@ -3,7 +3,10 @@
 
 #include "mir/core/ray.hpp"
 #include "mir/core/space.hpp"
+#include "mir/core/strict_float.hpp"
 #include "mir/scene/mesh.hpp"
+
+#include <cmath>
 
 namespace mir {
 
@@ -44,20 +47,49 @@ struct GeometryView {
 
     /// m^2.
     [[nodiscard]] MIR_HD float area(std::uint32_t triangle) const {
-        return 0.5f * glm::length(area_vector(triangle));
+        return 0.5f * long_length(area_vector(triangle));
     }
 
     /// Unit normal of the front of a triangle.
     [[nodiscard]] MIR_HD Vec3 front_normal(std::uint32_t triangle) const {
-        return glm::normalize(area_vector(triangle));
+        const Vec3 n = area_vector(triangle);
+        return n / long_length(n);
     }
 
-    /// Place of the point of a triangle at barycentrics of its second and third corner, metres.
+    /// Place of the point of a triangle at barycentrics of its second and third corner, metres. In
+    /// double precision, rounded once: it lies in the triangle's plane to a unit of rounding at the
+    /// place, however large the triangle is.
     [[nodiscard]] MIR_HD Vec3 position(std::uint32_t triangle, Vec2 barycentrics) const {
         const TriangleIndices& t = triangles[triangle];
-        const float u = barycentrics.x;
-        const float v = barycentrics.y;
-        return (1.0f - u - v) * positions[t[0]] + u * positions[t[1]] + v * positions[t[2]];
+        const Vec3 a = positions[t[0]];
+        const Vec3 b = positions[t[1]];
+        const Vec3 c = positions[t[2]];
+        const double u = static_cast<double>(barycentrics.x);
+        const double v = static_cast<double>(barycentrics.y);
+        const double w = strict::sub(strict::sub(1.0, u), v);
+        const auto mean = [=](float x, float y, float z) {
+            const double first = strict::mul(w, static_cast<double>(x));
+            const double second = strict::mul(u, static_cast<double>(y));
+            const double third = strict::mul(v, static_cast<double>(z));
+            return static_cast<float>(strict::add(strict::add(first, second), third));
+        };
+        return {mean(a.x, b.x, c.x), mean(a.y, b.y, c.y), mean(a.z, b.z, c.z)};
+    }
+
+    /// Distance by which segments that leave `position`, metres, are lifted off its surface,
+    /// metres. At least least_offset(). Beyond that `ray_offset`, which lets shafts see that a
+    /// surface does not hide its own points, as long as it is less than 2^-13 of `seen_from`: of
+    /// the distance from which the point is seen, or of the size of what it lies on.
+    [[nodiscard]] MIR_HD float offset_at(Vec3 position, float seen_from = INFINITY) const {
+        return larger(least_offset(position), smaller(ray_offset, 0x1p-13f * seen_from));
+    }
+
+    /// Place on a triangle where segments may leave: position(), moved in the triangle's plane so
+    /// that it keeps off the edges by four times `offset`, metres, and by what barycentrics round.
+    /// A point by an edge would, once lifted, lie in the neighbour's plane or behind it. Triangles
+    /// that are too narrow keep a quarter of each height.
+    [[nodiscard]] MIR_HD Vec3 place(std::uint32_t triangle, Vec2 barycentrics, float offset) const {
+        return position(triangle, barycentrics) + way_off_edges(triangle, barycentrics, offset);
     }
 
     /// At barycentrics of the second and third corner.
@@ -65,11 +97,29 @@ struct GeometryView {
                                                      Vec2 barycentrics) const;
 
     /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
-    /// travels along `direction`.
+    /// travels along `direction`, from so far that only the scene's size decides how much it is
+    /// lifted.
     [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
-                                                    Vec3 direction) const;
+                                                    Vec3 direction) const {
+        return surface_point(triangle, barycentrics, direction, INFINITY);
+    }
+    /// The same, seen by a ray from its origin.
+    [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
+                                                    const Ray& ray) const {
+        return surface_point(triangle, barycentrics, ray.direction,
+                             max_abs(position(triangle, barycentrics) - ray.origin));
+    }
 
  private:
+    /// Euclidean; of vectors whose square is no float, too.
+    [[nodiscard]] MIR_HD static float long_length(Vec3 v) {
+        const float largest = max_abs(v);
+        return largest > 0.0f ? largest * glm::length(v / largest) : 0.0f;
+    }
+    [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
+                                                    Vec3 direction, float distance) const;
+    [[nodiscard]] MIR_HD Vec3 way_off_edges(std::uint32_t triangle, Vec2 barycentrics,
+                                            float offset) const;
     MIR_HD void set_texture_frame(SurfacePoint& p) const;
 };
 
@@ -102,14 +152,38 @@ MIR_HD void GeometryView<S>::set_texture_frame(SurfacePoint& p) const {
 }
 
 template <Space S>
+MIR_HD Vec3 GeometryView<S>::way_off_edges(std::uint32_t triangle, Vec2 barycentrics,
+                                           float offset) const {
+    const TriangleIndices& t = triangles[triangle];
+    const Vec3 normal = front_normal(triangle);
+    const float twice_area = long_length(area_vector(triangle));
+    const float weights[3] = {1.0f - barycentrics.x - barycentrics.y, barycentrics.x,
+                              barycentrics.y};
+    const float size = larger(max_abs(positions[t[1]] - positions[t[0]]),
+                              max_abs(positions[t[2]] - positions[t[0]]));
+    const float wanted = 4.0f * offset + 0x1p-22f * size;
+    Vec3 way(0.0f);
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 edge = positions[t[(k + 2) % 3]] - positions[t[(k + 1) % 3]];
+        const float length = long_length(edge);
+        const float height = twice_area / length;
+        const float missing = smaller(wanted, 0.25f * height) - weights[k] * height;
+        if (missing > 0.0f) way += missing * glm::cross(normal, edge / length);
+    }
+    return way;
+}
+
+template <Space S>
 MIR_HD SurfacePoint GeometryView<S>::surface_point(std::uint32_t triangle, Vec2 barycentrics,
-                                                   Vec3 direction) const {
+                                                   Vec3 direction, float distance) const {
     const TriangleIndices& t = triangles[triangle];
     const float u = barycentrics.x;
     const float v = barycentrics.y;
     const float w = 1.0f - u - v;
     SurfacePoint p;
     p.position = position(triangle, barycentrics);
+    p.offset = offset_at(p.position, distance);
+    p.position += way_off_edges(triangle, barycentrics, p.offset);
     p.barycentrics = barycentrics;
     p.triangle = triangle;
     p.material = materials[triangle];

@@ -12,7 +12,8 @@ namespace mir {
 
 /// A point on an emissive triangle.
 struct EmitterSample {
-    Vec3 position{0};               ///< on the surface, not lifted
+    Vec3 position{0};               ///< on the surface, not lifted; off edges as SurfacePoint's
+    float offset = 0.0f;            ///< by which segments that leave it are lifted, metres
     Vec3 normal{0};                 ///< unit, of the triangle's front
     Rgb radiance;                   ///< W m^-2 sr^-1; black where the triangle's mask cuts it away
     float pdf_area = 0.0f;          ///< of this point among all emissive triangles, m^-2
@@ -139,6 +140,9 @@ struct LightTableView {
         s.barycentrics = square_to_triangle(uv);
         s.normal = lamp_triangles[light].normal;
         s.position = geometry.position(t, s.barycentrics);
+        s.offset =
+            geometry.offset_at(s.position, 1.0f / std::sqrt(lamp_triangles[light].inverse_area));
+        s.position = geometry.place(t, s.barycentrics, s.offset);
         s.radiance = radiance_at(geometry, t, s.barycentrics);
         s.pdf_area = lamp_triangles[light].inverse_area;
         s.both_sides = lamp.both_sides;

@@ -90,17 +90,21 @@ class WorldGeometry {
     [[nodiscard]] float area(std::uint32_t triangle) const { return view().area(triangle); }
 
     /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
-    /// travels along `direction`.
+    /// travels along `direction` from far away.
     [[nodiscard]] SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
                                              Vec3 direction) const {
         return view().surface_point(triangle, barycentrics, direction);
     }
+    /// The same, seen by a ray from its origin.
+    [[nodiscard]] SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
+                                             const Ray& ray) const {
+        return view().surface_point(triangle, barycentrics, ray);
+    }
 
-    /// Distance by which points are lifted off surfaces, metres: 2^-16 of the largest coordinate,
-    /// eight times the sigma of accept_box.hpp, so that shafts see that a surface does not hide its
-    /// own points (docs/shafts.md). Less where that would show, in scenes that lie far from the
-    /// origin, but never less than 2^-19 of the largest coordinate: that covers the rounding of hit
-    /// points and of traversal at any scale and distance.
+    /// Largest distance by which points are lifted off surfaces beyond what rounding asks for at
+    /// their place (GeometryView::offset_at()), metres: 2^-16 of the largest coordinate, eight
+    /// times the sigma of accept_box.hpp, so that shafts see that a surface does not hide its own
+    /// points (docs/shafts.md). Less in scenes that lie far from the origin, where that would show.
     [[nodiscard]] float ray_offset() const { return ray_offset_; }
 
  private:
@@ -150,7 +154,7 @@ inline float ray_offset_of(const Bounds& bounds) {
     if (bounds.empty()) return 0.0f;
     const float magnitude = larger(max_abs(bounds.low), max_abs(bounds.high));
     const float unseen = max_abs(bounds.high - bounds.low) * 0x1p-14f;
-    return larger(magnitude * 0x1p-19f, smaller(magnitude * 0x1p-16f, unseen));
+    return smaller(magnitude * 0x1p-16f, unseen);
 }
 
 /// Elements that are placed together: enough to hide what a thread costs.
@@ -263,7 +267,7 @@ inline std::uint32_t WorldGeometry::place_triangles(const Part& part) {
         for (std::uint32_t& v : t) v += part.first_vertex;
         const Vec3 a = positions_[t[0]];
         const Vec3 cross = glm::cross(positions_[t[1]] - a, positions_[t[2]] - a);
-        if (!(length_squared(cross) > 0.0f)) continue;
+        if (!(max_abs(cross) > 0.0f)) continue;
         triangles_[to] = t;
         materials_[to++] = part.mesh->material;
     }

@@ -30,7 +30,8 @@ struct Reconstruct {
                     is_known ? detail::SlotVisibility::masks : detail::SlotVisibility::none, image,
                     scheduler.monitor),
               copy_(scheduler.backend.queue()),
-              compute_(scheduler.backend.queue()) {
+              compute_(scheduler.backend.queue()),
+              home_(scheduler.backend.queue()) {
             vpls_.send(copy_);
         }
 
@@ -50,7 +51,7 @@ struct Reconstruct {
                 compute_.for_each(slot.luxels,
                                   FusedKernel{ring_.luxels(slot), vpls_.view(), in_.visibility,
                                               in_.shading, slot.sums()});
-            ring_.send_back(slot, compute_);
+            ring_.send_back(slot, compute_, home_);
         }
         /// Waits for the tiles that are still on their way and writes them to the image.
         /// @throws What the backend throws when its work failed.
@@ -66,6 +67,7 @@ struct Reconstruct {
         // Last, so that they end, and wait for their work, before the memory goes.
         typename B::Queue copy_;
         typename B::Queue compute_;
+        typename B::Queue home_;
     };
 
     /// A pipeline for one image, whose size is that of the G-buffer.

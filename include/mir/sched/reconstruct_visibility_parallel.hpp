@@ -33,7 +33,8 @@ struct ReconstructVisibilityParallel {
                     scheduler.monitor),
               finder_(scheduler.backend, ring_.largest_tile(), vpls_.size()),
               copy_(scheduler.backend.queue()),
-              compute_(scheduler.backend.queue()) {
+              compute_(scheduler.backend.queue()),
+              home_(scheduler.backend.queue()) {
             vpls_.send(copy_);
         }
 
@@ -61,7 +62,7 @@ struct ReconstructVisibilityParallel {
                 compute_.for_each_group(slot.luxels / LaneGroup::width,
                                         WordShading{ring_.luxels(slot), vpls_.view(),
                                                     slot.words.data(), in_.shading, slot.sums()});
-            ring_.send_back(slot, compute_);
+            ring_.send_back(slot, compute_, home_);
         }
         /// Waits for the tiles that are still on their way and writes them to the image.
         /// @throws What the backend throws when its work failed.
@@ -78,6 +79,7 @@ struct ReconstructVisibilityParallel {
         // Last, so that they end, and wait for their work, before the memory goes.
         typename B::Queue copy_;
         typename B::Queue compute_;
+        typename B::Queue home_;
     };
 
     /// A pipeline for one image, whose size is that of the G-buffer.

@@ -67,6 +67,7 @@ struct ShadingOnly {
         // Last, so that they end, and wait for their work, before the memory goes.
         typename B::Queue copy_;
         typename B::Queue compute_;
+        typename B::Queue home_;
     };
 
     /// A pipeline for one image, whose size is that of the G-buffer. It refers to this scheduler.
@@ -98,7 +99,8 @@ ShadingOnly<B, E>::Pipeline<In>::Pipeline(const In& in, Image<Rgb>& image,
             scheduler.monitor),
       planes_{make_plane(scheduler.backend, in.gbuffer), make_plane(scheduler.backend, in.gbuffer)},
       copy_(scheduler.backend.queue()),
-      compute_(scheduler.backend.queue()) {
+      compute_(scheduler.backend.queue()),
+      home_(scheduler.backend.queue()) {
     vpls_.send(copy_);
 }
 
@@ -139,8 +141,9 @@ void ShadingOnly<B, E>::Pipeline<In>::shade_ahead(const Slot& slot, VplIndex j) 
     compute_.for_each(slot.luxels, ShadeOneVpl{ring_.luxels(slot), vpls_.view(), j, in_.shading,
                                                SoaView<Rgb>{plane.there.data(), slot.luxels}});
     const std::size_t words = std::size_t{SoaView<Rgb>::words} * slot.luxels;
-    compute_.download(plane.there, plane.at_home.span().first(words));
-    plane.done = compute_.record();
+    home_.wait(compute_.record());
+    home_.download(plane.there, plane.at_home.span().first(words));
+    plane.done = home_.record();
 }
 
 template <Backend B, Executor E>

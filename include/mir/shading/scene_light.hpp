@@ -33,9 +33,7 @@ class EmitterLight {
         return mean_of_samples(
             hit.position, visibility_, samples_,
             [&](std::uint32_t k) { return sample(shift, shared, k); },
-            [hit, s, offset = geometry_.ray_offset](const LampPoint& from) {
-                return unshadowed(hit, s, from, offset);
-            });
+            [hit, s](const LampPoint& from) { return unshadowed(hit, s, from); });
     }
 
  private:
@@ -47,6 +45,7 @@ class EmitterLight {
     /// What shading reads of an EmitterSample, in whole words.
     struct LampPoint {
         Vec3 position;
+        float offset;
         Vec3 normal;
         Rgb radiance;
         float pdf_area;
@@ -61,16 +60,16 @@ class EmitterLight {
         const float lamp = (static_cast<float>(i) + shift.pick) / n;
         const EmitterSample e = lights_.sample_emitter(geometry_, smaller(lamp, 0x1.fffffep-1f),
                                                        kronecker_point(shift.uv, i));
-        return {e.position, e.normal, e.radiance, e.pdf_area, e.both_sides ? 1u : 0u};
+        return {e.position, e.offset, e.normal, e.radiance, e.pdf_area, e.both_sides ? 1u : 0u};
     }
 
     // Inlined by force, as VplShading.
     [[nodiscard, gnu::always_inline]] MIR_HD static LitPoint unshadowed(
-        const Hit& hit, const Surface<typename B::Params>& s, const LampPoint& e, float offset) {
+        const Hit& hit, const Surface<typename B::Params>& s, const LampPoint& e) {
         const bool is_behind = glm::dot(hit.position - e.position, e.normal) < 0.0f;
         const bool from_back = (e.both_sides & static_cast<std::uint32_t>(is_behind)) != 0;
         const Vec3 normal = e.normal * (from_back ? -1.0f : 1.0f);
-        const Vec3 place = lift(e.position, normal, offset);
+        const Vec3 place = lift(e.position, normal, e.offset);
         const Vec3 d = place - hit.position;
         const float d2 = length_squared(d);
         const Vec3 wi = d * (1.0f / std::sqrt(d2));

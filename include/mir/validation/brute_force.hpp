@@ -36,7 +36,7 @@ struct BruteForceRayCaster {
         if (found.triangle == Referee::none) return std::nullopt;
         return geometry->surface_point(
             found.triangle, {static_cast<float>(found.hit.u), static_cast<float>(found.hit.v)},
-            ray.direction);
+            ray);
     }
 };
 

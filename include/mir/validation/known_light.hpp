@@ -38,8 +38,7 @@ class KnownLight {
         const CameraRays rays{world_.scene.cameras.front(), {luxels_.extent()}};
         InlineExecutor executor;
         fill_gbuffer<Lambert>(luxels_, 0, rays, BruteForceScene(world_.geometry).ray_caster(),
-                              SurfaceTable<Lambert>(world_.scene), world_.geometry.ray_offset(),
-                              executor);
+                              SurfaceTable<Lambert>(world_.scene), executor);
     }
     KnownLight(const KnownLight&) = delete;
     KnownLight& operator=(const KnownLight&) = delete;

@@ -20,12 +20,12 @@ struct Segment {
 };
 
 /// Barycentric margin below which single precision may see a segment either way, in units of 1e-4:
-/// how many times its own size the scene lies from the origin, at least 1. Triangles that overlap
-/// by rounding do so by its unit there.
+/// four times as many as the scene lies of its own sizes from the origin, at least 1. Triangles
+/// that overlap by rounding do so by its unit there.
 inline double doubt_of(const WorldGeometry& geometry) {
     const Bounds& box = geometry.bounds();
     const float farthest = larger(max_abs(box.low), max_abs(box.high));
-    return std::max(1.0, static_cast<double>(farthest / max_abs(box.high - box.low)));
+    return std::max(1.0, 4.0 * static_cast<double>(farthest / max_abs(box.high - box.low)));
 }
 
 /// That margin.
@@ -117,7 +117,7 @@ Report check_visibility_symmetry(const V& visibility, const WorldGeometry& geome
     return report;
 }
 
-/// Axiom 2 of Visibility: points that are lifted by WorldGeometry::ray_offset() are not hidden by
+/// Axiom 2 of Visibility: points that are lifted are not hidden by
 /// their own surface.
 template <Visibility V>
 Report check_lifted_points(const V& visibility, const WorldGeometry& geometry,
@@ -125,15 +125,14 @@ Report check_lifted_points(const V& visibility, const WorldGeometry& geometry,
     Report report;
     if (!detail::expect_triangles(geometry, report)) return report;
     const Referee referee(geometry);
-    const float offset = geometry.ray_offset();
     Random random = detail::numbers(6);
     std::size_t asked = 0;
     std::size_t hidden = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const SurfacePoint p = random_surface_point(geometry, random);
         const SurfacePoint q = random_surface_point(geometry, random);
-        const Vec3 a = lift(p.position, p.geometric_normal, offset);
-        const Vec3 b = lift(q.position, q.geometric_normal, offset);
+        const Vec3 a = lift(p);
+        const Vec3 b = lift(q);
         const bool facing = glm::dot(b - a, p.geometric_normal) > 0.0f &&
                             glm::dot(a - b, q.geometric_normal) > 0.0f;
         if (!facing) continue;

@@ -58,10 +58,10 @@ MIR_HD inline EdgeDoubt edge_doubt(Vec3 from, Vec3 to) {
     return edge_doubt(larger(max_abs(from), max_abs(to)), max_abs(to - from));
 }
 
-/// U, V and W are not below -doubt where d is positive, which the crossing says by its sign.
-MIR_HD inline bool is_doubtful(PlaneCrossing c, float doubt) {
+/// U, V and W are not below `least` where d is positive, which the crossing says by its sign.
+MIR_HD inline bool is_above(PlaneCrossing c, float least) {
     const float side = c.d > 0.0f ? 1.0f : -1.0f;
-    return side * c.u >= -doubt && side * c.v >= -doubt && side * c.w() >= -doubt;
+    return side * c.u >= least && side * c.v >= least && side * c.w() >= least;
 }
 
 /// An edge along the thin piece of a segment that lies in the plane: its barycentric coordinate is
@@ -139,7 +139,7 @@ MIR_HD inline ThinPiece thin_piece(const TriangleRows& rows, Vec3 from, Vec3 to,
 MIR_HD inline bool is_crossed(const TriangleRows& rows, Vec3 from, Vec3 to, const RowsAtEnds& at,
                               PlaneCrossing c) {
     if (is_inside(c)) return true;
-    return is_doubtful(c, edge_doubt(from, to).of(rows)) &&
+    return is_above(c, -edge_doubt(from, to).of(rows)) &&
            thin_piece(rows, from, to, at, c).keeps_edges();
 }
 

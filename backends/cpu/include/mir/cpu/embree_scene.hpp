@@ -7,6 +7,7 @@
 #include "mir/cpu/embree_visibility.hpp"
 #include "mir/scene/world_geometry.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <cstring>
@@ -28,6 +29,9 @@ struct EmbreeRayCaster {
     /// `reach` in metres: nothing farther is found.
     [[nodiscard]] std::optional<SurfacePoint> closest_hit(
         Ray ray, float reach = std::numeric_limits<float>::infinity()) const;
+
+ private:
+    bool find(const Ray& ray, float after, float reach, RTCRayHit& query) const;
 };
 
 static_assert(ShortRayCaster<EmbreeRayCaster>);
@@ -89,21 +93,40 @@ class EmbreeScene {
     std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene_;
 };
 
-inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray, float reach) const {
-    RTCRayHit query{};
+inline bool EmbreeRayCaster::find(const Ray& ray, float after, float reach,
+                                  RTCRayHit& query) const {
+    query = {};
     query.ray.org_x = ray.origin.x;
     query.ray.org_y = ray.origin.y;
     query.ray.org_z = ray.origin.z;
     query.ray.dir_x = ray.direction.x;
     query.ray.dir_y = ray.direction.y;
     query.ray.dir_z = ray.direction.z;
+    query.ray.tnear = after;
     query.ray.tfar = reach;
     query.ray.mask = detail::all_rays;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     detail::intersect1(scene, query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return geometry->surface_point(query.hit.primID, {query.hit.u, query.hit.v}, ray.direction);
+    return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+/// Points by an edge that the ray's origin does not see are passed over, as find_surface() does.
+inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray, float reach) const {
+    constexpr int most_tries = 8;
+    constexpr float by_edge = 0x1p-16f;  // barycentric, beyond what Embree rounds where it is near
+    float after = 0.0f;
+    for (int i = 0; i < most_tries; ++i) {
+        RTCRayHit query;
+        if (!find(ray, after, reach, query)) return std::nullopt;
+        const float u = query.hit.u;
+        const float v = query.hit.v;
+        const SurfacePoint point = geometry->surface_point(query.hit.primID, {u, v}, ray);
+        const bool is_sure = std::min(std::min(u, v), 1.0f - u - v) > by_edge;
+        if (is_sure || EmbreeVisibility{scene}.visible(ray.origin, lift(point))) return point;
+        after = query.ray.tfar * (1.0f + 0x1p-20f);
+    }
+    return std::nullopt;
 }
 
 inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
