@@ -8,6 +8,7 @@
 #include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/micro_render.hpp"
+#include "mir/runtime/near_scene.hpp"
 #include "mir/runtime/path_render.hpp"
 #include "mir/runtime/tiled_render.hpp"
 
@@ -97,8 +98,10 @@ class CudaRenderer : public Renderer {
         StageClock clock;
         // Beside the GPU: it takes as long as a stage.
         auto hash = std::async(std::launch::async, [&scene] { return SceneHash(scene).hex(); });
-        RenderResult result = render_in_memory(scene, settings, monitor, clock);
+        const NearScene near = near_scene(scene, clock, warnings);
+        RenderResult result = render_in_memory(near.scene(), settings, monitor, clock);
         RenderStatistics& s = result.statistics;
+        s.origin = near.scene().origin;
         s.backend = "cuda";
         s.device = device_.name;
         s.acceleration = settings.integrator != Integrator::vpl
