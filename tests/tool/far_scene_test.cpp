@@ -143,3 +143,27 @@ TEST_CASE("vertices that a file rounded far away are among the warnings of a ren
     CHECK(info.at("remarks") == json{warnings[0]});
     CHECK(has(run_mir({"info", scene}).out, "remark: vertices of meshes lie far"));
 }
+
+TEST_CASE("what lies farther away than rays reach is refused by name") {
+    const TemporaryFolder folder("far_scene");
+    const mir::Scene room = mir::builtin::make("cornell-box");
+    const auto check_refused = [&](const mir::Scene& scene, const std::string& says) {
+        const std::string file = (folder / "far.glb").string();
+        mir::write_glb(scene, file);
+        for (const char* accel : {"embree", "bvh", "kdtree"})
+            check_failing_render({file, "--accel", accel, "--backend", "cpu"}, 3, says);
+    };
+    mir::Scene scene = room;
+    scene.point_lights.push_back({"star", {0, 2e18f, 0}, {1, 1, 1}});
+    check_refused(scene, "light 'star' lies 2e+18 m");
+    scene = room;
+    scene.spot_lights.emplace_back().name = "beam";
+    scene.spot_lights[0].position.x = -3e30f;
+    check_refused(scene, "light 'beam' lies 3e+30 m");
+    scene = room;
+    scene.cameras[0].position.z = 2e18f;
+    check_refused(scene, "camera 'front' lies 2e+18 m");
+    scene = room;
+    scene.instances[0].to_world[3].x = 2e18f;
+    check_refused(scene, "a mesh lies");
+}

@@ -4,6 +4,7 @@
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/register.hpp"
 #include "mir/host/shaft_scene.hpp"
+#include "mir/runtime/check_places.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/near_scene.hpp"
 #include "mir/scene/scene_hash.hpp"
@@ -86,6 +87,7 @@ class CpuRenderer : public Renderer {
             const auto stage = clock.measure(&StageSeconds::geometry);
             return WorldGeometry(scene, settings.limits, executor);
         }();
+        check_places(scene, settings.camera, geometry.bounds());
         RenderResult result =
             trace({scene, settings, geometry, executor, monitor, clock, scheduler_});
         result.statistics.triangles = geometry.triangles().size();

@@ -6,6 +6,7 @@
 #include "mir/cuda/register.hpp"
 #include "mir/resident/backend_metropolis.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
+#include "mir/runtime/check_places.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/micro_render.hpp"
 #include "mir/runtime/near_scene.hpp"
@@ -154,6 +155,7 @@ class CudaRenderer : public Renderer {
             const auto stage = clock.measure(&StageSeconds::geometry);
             return WorldGeometry(scene, settings.limits, executor);
         }();
+        check_places(scene, settings.camera, geometry.bounds());
         RenderResult result =
             is_lambertian(scene)
                 ? trace<Lambert>(scene, settings, geometry, executor, monitor, clock)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/math.hpp"
+#include "mir/scene/bounds.hpp"
 
 #include <cmath>
 #include <limits>
@@ -44,9 +44,9 @@ struct FarBox {
 };
 
 inline FarBox box_of(const std::vector<Vec3>& points) {
-    FarBox box;
-    for (const Vec3 p : points) box.add(DVec3(p));
-    return box;
+    Bounds bounds;
+    for (const Vec3 p : points) bounds.add(p);
+    return {DVec3(bounds.low), DVec3(bounds.high)};
 }
 
 /// Sizes of a box that may lie between it and the origin: they cost three of the 24 bits of a
