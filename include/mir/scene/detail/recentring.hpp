@@ -6,6 +6,7 @@
 #include "mir/scene/placements.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
