@@ -19,7 +19,7 @@ using mir::Scene;
 using mir::Vec3;
 using mir::detail::largest_coordinate;
 
-const double nan = std::numeric_limits<double>::quiet_NaN();
+const double no_number = std::numeric_limits<double>::quiet_NaN();
 
 std::string hash(const Scene& scene) { return mir::SceneHash(scene).hex(); }
 
@@ -206,7 +206,7 @@ TEST_CASE("a scene that cannot be rendered is left for those who say why") {
     scene.meshes[1].positions[0].x = std::numeric_limits<float>::infinity();
     scene.meshes[2].triangles[0][0] = 1u << 30;
     Placements places = moved(scene, {1e5, 0, 0});
-    places.instances[3][3].x = nan;
+    places.instances[3][3].x = no_number;
     CHECK_NOTHROW(mir::recentre(scene, places));
     CHECK_THROWS_AS(mir::WorldGeometry(scene), mir::Error);
     Scene empty;

@@ -19,7 +19,7 @@ std::string write_box(const TemporaryFolder& folder, const std::string& name, mi
     mir::Scene scene = mir::builtin::make("cornell-box");
     scene.point_lights.push_back({"bulb", {0.25f, 1.5f, 0.5f}, {1, 2, 3}});
     scene.origin = way;
-    const std::string file = (folder / (name + ".glb")).string();
+    std::string file = (folder / (name + ".glb")).string();
     mir::write_glb(scene, file);
     return file;
 }
