@@ -169,6 +169,17 @@ TEST_CASE("a scene whose floats hold its place far away gives the same picture i
     }
 }
 
+TEST_CASE("vertices that floats rounded far away are among the warnings of a renderer") {
+    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    for (mir::Mesh& mesh : scene.meshes)
+        for (mir::Vec3& p : mesh.positions) p.x += 65536.0f;
+    scene.cameras[0].position.x += 65536.0f;
+    const auto far = render(scene, settings_of(mir::SamplerKind::instant_radiosity, 8, 16));
+    CHECK(far.statistics.origin == mir::DVec3(65536, 0, 0));
+    REQUIRE_FALSE(far.warnings.empty());
+    CHECK(far.warnings[0].find("0.00781 m apart") != std::string::npos);
+}
+
 TEST_CASE("a picture does not depend on a rigid motion of scene and camera") {
     const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
     const auto settings = settings_of(mir::SamplerKind::instant_radiosity, 48, 64);

@@ -119,6 +119,17 @@ TEST_CASE("info, render, report, files of VPLs and compare name the origin of a 
               "origin of reference  (10000000, 0, -100000) m"));
 }
 
+TEST_CASE("a picture that goes on from its journal keeps its origin") {
+    const TemporaryFolder folder("far_scene");
+    const std::string scene = write_box(folder, "far", {0, 1e5, 0});
+    const std::string picture = (folder / "a.exr").string();
+    const Words passes = small_render(picture, scene) + Words{"--passes", "1", "--resume"};
+    for (int run = 0; run < 2; ++run) {
+        REQUIRE(run_mir(passes).exit_code == 0);
+        CHECK(origin_of(picture) == mir::DVec3(0, 1e5, 0));
+    }
+}
+
 TEST_CASE("near scenes and their pictures say nothing of an origin") {
     const TemporaryFolder folder("far_scene");
     const std::string picture = (folder / "a.exr").string();
