@@ -10,6 +10,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 
 namespace {
@@ -32,6 +33,20 @@ mir::Scene make_scene() {
     return scene;
 }
 // endregion: scene
+
+// region: places
+/// The scene at a place that a surveyor measured, in metres from the middle of the Earth.
+mir::Scene make_surveyed_scene() {
+    const mir::DVec3 site(4075539.8361, 931735.2713, 4801629.3525);
+    mir::Scene scene = make_scene();
+    mir::Placements places = mir::placements_of(scene);
+    for (mir::DMat4& to_world : places.instances) to_world[3] += glm::dvec4(site, 0.0);
+    for (mir::DVec3& place : places.cameras) place += site;
+    const std::vector<std::string> remarks = mir::recentre(scene, places);
+    if (!remarks.empty()) throw std::runtime_error(remarks.front());
+    return scene;  // scene.origin + the position of its camera is where the camera stands
+}
+// endregion: places
 
 // region: render
 mir::RenderResult render(const mir::Scene& scene, mir::Monitor& monitor) {
@@ -92,6 +107,17 @@ TEST_CASE("The program of the documentation renders and can be watched") {
     CHECK(result.statistics.indirect_luminance > 0.0);
     monitor.cancelled = true;
     CHECK_THROWS_AS(render(make_scene(), monitor), mir::Error);
+}
+
+TEST_CASE("The far scene of the documentation looks as it does at home") {
+    const mir::Scene scene = make_surveyed_scene();
+    CHECK(glm::length(scene.origin - mir::DVec3(4075540, 931735, 4801629)) < 16.0);
+    mir::Monitor monitor;
+    const mir::RenderResult far = render(scene, monitor);
+    CHECK(far.statistics.origin == scene.origin);
+    const mir::RenderResult home = render(make_scene(), monitor);
+    CHECK(far.statistics.indirect_luminance ==
+          mirtest::Approx(home.statistics.indirect_luminance).epsilon(0.1));
 }
 
 TEST_CASE("The executor of the documentation keeps the axioms of Executor") {

@@ -149,6 +149,37 @@ TEST_CASE("a scene far from the origin looks the same and does not leak") {
     }
 }
 
+TEST_CASE("a scene whose floats hold its place far away gives the same picture in every bit") {
+    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    scene.cameras[0].position.z = 6.75f;
+    for (const mir::SamplerKind sampler : samplers) {
+        const auto settings = settings_of(sampler, 32, 64);
+        const auto reference = render(scene, settings);
+        CHECK(reference.statistics.origin == mir::DVec3(0.0));
+        for (float away : {1024.0f, 65536.0f, 1048576.0f}) {
+            const mir::Vec3 way = away * mir::Vec3(1, -0.5f, 2);
+            const auto far = render(transformed(scene, 1.0f, way), settings);
+            CAPTURE(int(sampler), away);
+            CHECK(same_bits(far.beauty, reference.beauty));
+            CHECK(far.guides.position.pixels().front() ==
+                  reference.guides.position.pixels().front());
+            CHECK(far.statistics.origin == mir::DVec3(way));
+            CHECK(far.warnings == reference.warnings);
+        }
+    }
+}
+
+TEST_CASE("vertices that floats rounded far away are among the warnings of a renderer") {
+    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    for (mir::Mesh& mesh : scene.meshes)
+        for (mir::Vec3& p : mesh.positions) p.x += 65536.0f;
+    scene.cameras[0].position.x += 65536.0f;
+    const auto far = render(scene, settings_of(mir::SamplerKind::instant_radiosity, 8, 16));
+    CHECK(far.statistics.origin == mir::DVec3(65536, 0, 0));
+    REQUIRE_FALSE(far.warnings.empty());
+    CHECK(far.warnings[0].find("0.00781 m apart") != std::string::npos);
+}
+
 TEST_CASE("a picture does not depend on a rigid motion of scene and camera") {
     const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
     const auto settings = settings_of(mir::SamplerKind::instant_radiosity, 48, 64);

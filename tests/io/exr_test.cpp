@@ -114,14 +114,20 @@ TEST_CASE("layers keep their names, precision and values") {
 TEST_CASE("attributes are written, Rec. 709 among them, and equal input gives equal bytes") {
     const Folder folder("bytes");
     const Image<Rgb> image = noise({33, 40});
-    const mir::ExrAttributes attributes{
-        {"software", "mir 1.2"}, {"mir:seed", 7}, {"mir:exposure", 1.5f}, {"mir:command", "x"}};
+    const mir::ExrAttributes attributes{{"software", "mir 1.2"},
+                                        {"mir:seed", 7},
+                                        {"mir:exposure", 1.5f},
+                                        {"mir:command", "x"},
+                                        {"mir:origin", mir::DVec3(1e7, 0.1, -3)}};
     for (const char* name : {"a.exr", "b.exr"})
         mir::write_exr(folder.path / name, image.extent(), {{"", &image}}, attributes);
     CHECK(bytes_of(folder.path / "a.exr") == bytes_of(folder.path / "b.exr"));
     using Texts = std::vector<std::pair<std::string, std::string>>;
     CHECK(mir::read_exr(folder.path / "a.exr").attributes ==
           Texts{{"mir:command", "x"}, {"software", "mir 1.2"}});
+    using Vectors = std::vector<std::pair<std::string, mir::DVec3>>;
+    CHECK((mir::read_exr(folder.path / "a.exr").vectors ==
+           Vectors{{"mir:origin", mir::DVec3(1e7, 0.1, -3)}}));
     const Imf::InputFile file((folder.path / "a.exr").string().c_str());
     CHECK(file.header().typedAttribute<Imf::IntAttribute>("mir:seed").value() == 7);
     CHECK(file.header().typedAttribute<Imf::FloatAttribute>("mir:exposure").value() == 1.5f);

@@ -49,6 +49,15 @@ TEST_CASE("VPLs come back from their glTF file in every bit") {
     CHECK(model.accessors.at(0).maxValues == std::vector<double>{4, 5, 6});
 }
 
+TEST_CASE("VPLs of a scene far away stand there in their files") {
+    const mirtest::TemporaryFolder folder("vpl_far");
+    const mir::DVec3 origin(1e7, 0.1, -3);
+    mir::write_vpls_glb(folder / "a.glb", mirtest::some_vpls(), origin);
+    CHECK(model_of(folder / "a.glb").nodes.at(0).translation == std::vector<double>{1e7, 0.1, -3});
+    mir::write_vpls_glb(folder / "b.glb", mirtest::some_vpls());
+    CHECK(model_of(folder / "b.glb").nodes.at(0).translation.empty());
+}
+
 TEST_CASE("a glTF file of VPLs is sound for readers of scenes, also one of none") {
     const mirtest::TemporaryFolder folder("vpl_glb_scene");
     mir::write_vpls_glb(folder / "a.glb", mirtest::some_vpls());

@@ -45,6 +45,15 @@ TEST_CASE("a PLY file of VPLs is sound for readers of meshes") {
     CHECK(mirtest::read_vpls(vpl_file_bytes(folder / "none.ply")).empty());
 }
 
+TEST_CASE("a PLY file of VPLs names the place that its positions are counted from") {
+    const mirtest::TemporaryFolder folder("vpl_ply_far");
+    mir::write_vpls_ply(folder / "a.ply", mirtest::some_vpls(), {1e7, 0.25, -3});
+    const std::string bytes = vpl_file_bytes(folder / "a.ply");
+    CHECK(bytes.find("\ncomment origin of positions, metres: 10000000 0.25 -3\nelement") !=
+          std::string::npos);
+    CHECK(mirtest::read_vpls(bytes).size() == 2);
+}
+
 TEST_CASE("VPLs that cannot be written are an error that names the file") {
     const mirtest::TemporaryFolder folder("vpl_ply_missing");
     try {

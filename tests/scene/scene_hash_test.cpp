@@ -43,6 +43,12 @@ TEST_CASE("a hash does not depend on names") {
     CHECK(hash(s) == hash(full()));
 }
 
+TEST_CASE("a hash does not depend on where in the world the scene lies") {
+    Scene s = full();
+    s.origin = {1e5, 0, -1e7};
+    CHECK(hash(s) == hash(full()));
+}
+
 TEST_CASE("a hash changes with everything that changes the picture") {
     const std::vector<std::pair<const char*, Change>> changes{
         {"position", [](Scene& s) { s.meshes[0].positions[0].x += 1e-6f; }},

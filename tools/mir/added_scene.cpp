@@ -29,10 +29,12 @@ mir::Mesh ground_mesh(const mir::Bounds& bounds, std::uint32_t material) {
     return mesh;
 }
 
+/// `bounds` are counted from `origin`, which is a place of the file as those of `added` are.
 /// @throws mir::Error(invalid_argument) unless it looks somewhere.
-mir::Camera camera_of(const AddedScene& added, const mir::Bounds& bounds) {
-    const mir::Vec3 target = added.look_at.value_or(bounds.centre());
-    const mir::Vec3 way = target - *added.eye;
+mir::Camera camera_of(const AddedScene& added, const mir::Bounds& bounds, mir::DVec3 origin) {
+    const mir::Vec3 eye(*added.eye - origin);
+    const mir::Vec3 target = added.look_at ? mir::Vec3(*added.look_at - origin) : bounds.centre();
+    const mir::Vec3 way = target - eye;
     mir::expects(glm::length(way) > 0.0f && std::isfinite(glm::length(way)),
                  "the camera of --eye is where it looks at (it has no direction); move it, or "
                  "give another --look-at");
@@ -40,7 +42,7 @@ mir::Camera camera_of(const AddedScene& added, const mir::Bounds& bounds) {
     const bool upright = std::hypot(way.x, way.z) < 1e-4f * glm::length(way);
     const mir::Vec3 up = upright ? mir::Vec3(0, 0, -1) : mir::Vec3(0, 1, 0);
     const float radians = added.fov * std::numbers::pi_v<float> / 180.0f;
-    mir::Camera camera = mir::Camera::look_at(*added.eye, target, up, radians);
+    mir::Camera camera = mir::Camera::look_at(eye, target, up, radians);
     camera.name = "--eye";
     return camera;
 }
@@ -50,12 +52,13 @@ mir::Camera camera_of(const AddedScene& added, const mir::Bounds& bounds) {
 void add_to_scene(const AddedScene& added, SceneAndReport& loaded) {
     mir::Scene& scene = loaded.scene;
     if (added.sun) {
-        const float length = glm::length(*added.sun);
+        const mir::Vec3 towards(*added.sun);
+        const float length = glm::length(towards);
         mir::expects(length > 0.0f && std::isfinite(length),
                      "the sun of --sun is in no direction; give one such as 1,2,1");
         mir::DirectionalLight sun;
         sun.name = "sun";
-        sun.direction = -*added.sun / length;
+        sun.direction = -towards / length;
         sun.irradiance = grey(added.sun_irradiance);
         scene.directional_lights.push_back(sun);
     }
@@ -65,7 +68,7 @@ void add_to_scene(const AddedScene& added, SceneAndReport& loaded) {
         scene.place(ground_mesh(loaded.report.bounds, material));
     }
     if (!added.eye) return;
-    scene.cameras.push_back(camera_of(added, loaded.report.bounds));
+    scene.cameras.push_back(camera_of(added, loaded.report.bounds, scene.origin));
     mir::CameraReport report;
     report.name = scene.cameras.back().name;
     report.kind = "perspective";

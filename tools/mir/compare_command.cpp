@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mirtool {
@@ -48,8 +49,12 @@ std::vector<std::string> find_exceeded(const Comparison& c, const CompareOptions
 
 Comparison compare(const CompareOptions& o, const mir::Monitor& monitor) {
     Comparison c;
-    c.image = read_picture(o.image, o.layer);
-    c.reference = read_picture(o.reference, o.layer);
+    Picture image = read_picture(o.image, o.layer);
+    Picture reference = read_picture(o.reference, o.layer);
+    c.image = std::move(image.image);
+    c.reference = std::move(reference.image);
+    c.origin = image.origin;
+    c.reference_origin = reference.origin;
     mir::check_comparable(c.image, c.reference, o.image, o.reference);
     c.metrics = mir::compare_images(c.image, c.reference, o.epsilon);
     c.exposure = o.exposure ? *o.exposure : mir::auto_exposure(c.reference);

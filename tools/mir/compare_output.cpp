@@ -48,20 +48,33 @@ void add_means(Rows& rows, const mir::ImageMetrics& m) {
                           std::to_string(most.x) + ", " + std::to_string(most.y) + ")");
 }
 
+bool has_origin(const Comparison& c) {
+    return c.origin != mir::DVec3(0.0) || c.reference_origin != mir::DVec3(0.0);
+}
+
+/// Rows on what positions are counted from, where that is said.
+void add_origins(Rows& rows, const Comparison& c) {
+    if (!has_origin(c)) return;
+    rows.emplace_back("origin", place(c.origin) + " m");
+    rows.emplace_back("origin of reference", place(c.reference_origin) + " m");
+}
+
 Rows rows_of(const Comparison& c, const CompareOptions& o) {
     const mir::ImageMetrics& m = c.metrics;
     const mir::FlipExposures& e = c.flip_exposures;
     Rows rows{{"image", o.image},
               {"reference", o.reference},
               {"layer", o.layer.empty() ? "beauty" : o.layer},
-              {"size", std::to_string(c.image.width()) + " x " + std::to_string(c.image.height())},
-              {"RMSE", number(m.rmse())},
-              {"MSE", number(m.mse)},
-              {"relMSE", number(m.rel_mse) + " (epsilon " + number(o.epsilon) + ")"},
-              {"MAE", number(m.mae)},
-              {"HDR-FLIP", number(c.flip) + " (" + std::to_string(e.count) + " exposures from " +
-                               number(e.start) + " to " + number(e.stop) + " EV)"},
-              {"LDR-FLIP", number(c.ldr_flip) + " (at " + number(c.exposure) + " EV)"}};
+              {"size", std::to_string(c.image.width()) + " x " + std::to_string(c.image.height())}};
+    add_origins(rows, c);
+    rows.insert(rows.end(),
+                {{"RMSE", number(m.rmse())},
+                 {"MSE", number(m.mse)},
+                 {"relMSE", number(m.rel_mse) + " (epsilon " + number(o.epsilon) + ")"},
+                 {"MAE", number(m.mae)},
+                 {"HDR-FLIP", number(c.flip) + " (" + std::to_string(e.count) + " exposures from " +
+                                  number(e.start) + " to " + number(e.stop) + " EV)"},
+                 {"LDR-FLIP", number(c.ldr_flip) + " (at " + number(c.exposure) + " EV)"}});
     add_means(rows, m);
     for (const std::string& name : c.exceeded) rows.emplace_back("above its limit", name);
     return rows;
@@ -86,6 +99,10 @@ void add_flip(Json& out, const Comparison& c, const CompareOptions& o) {
 Json json_of(const Comparison& c, const CompareOptions& o) {
     const mir::ImageMetrics& m = c.metrics;
     Json out = head_of(c, o);
+    if (has_origin(c))
+        out["origin"] = {
+            {"image", {c.origin.x, c.origin.y, c.origin.z}},
+            {"reference", {c.reference_origin.x, c.reference_origin.y, c.reference_origin.z}}};
     out["rmse"] = m.rmse();
     out["mse"] = m.mse;
     out["relmse"] = m.rel_mse;

@@ -14,6 +14,8 @@ namespace mirtool {
 struct Comparison {
     mir::Image<mir::Rgb> image;
     mir::Image<mir::Rgb> reference;
+    mir::DVec3 origin{0.0};            ///< from which positions of `image` are counted, metres
+    mir::DVec3 reference_origin{0.0};  ///< and those of `reference`
     mir::ImageMetrics metrics;
     mir::Image<float> flip_map;  ///< HDR-FLIP
     double flip = 0.0;           ///< mean of it

@@ -6,6 +6,7 @@
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/scene/environment_table.hpp"
 #include "mir/scene/scene_hash.hpp"
+#include "text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -44,7 +45,7 @@ Json cameras_of(const mir::SceneReport& r) {
     return cameras;
 }
 
-Json vector_of(mir::Vec3 v) { return {v.x, v.y, v.z}; }
+Json vector_of(mir::DVec3 v) { return {v.x, v.y, v.z}; }
 
 /// Size of the image around the scene, and mean radiance over all directions.
 Json environment_of(const mir::Environment& e) {
@@ -88,12 +89,16 @@ void print_json(const std::string& name, const SceneAndReport& loaded, bool acce
     const mir::SceneReport& r = loaded.report;
     Json out{{"scene", name}, {"scene_hash", mir::SceneHash(loaded.scene).hex()}};
     out["counts"] = counts_of(r);
+    const mir::DVec3 origin = loaded.scene.origin;
     if (!r.bounds.empty())
-        out["bounds"] = {{"low", vector_of(r.bounds.low)}, {"high", vector_of(r.bounds.high)}};
+        out["bounds"] = {{"low", vector_of(origin + mir::DVec3(r.bounds.low))},
+                         {"high", vector_of(origin + mir::DVec3(r.bounds.high))}};
+    if (origin != mir::DVec3(0.0)) out["origin"] = vector_of(origin);
     out["cameras"] = cameras_of(r);
     if (loaded.scene.environment) out["environment"] = environment_of(*loaded.scene.environment);
     out["ignored"] = r.ignored;
     out["notes"] = r.notes;
+    out["remarks"] = r.remarks;
     if (accel) out["kd_tree"] = kd_tree_of(loaded.scene);
     // Names in files need not be UTF-8; JSON must be.
     std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
@@ -115,10 +120,14 @@ void print_text(const std::string& name, const SceneAndReport& loaded, bool acce
     const mir::SceneReport& r = loaded.report;
     std::printf("%s\n", name.c_str());
     print_numbers(counts_of(r));
+    const mir::DVec3 origin = loaded.scene.origin;
+    const bool is_far = origin != mir::DVec3(0.0);
+    const int digits = is_far ? 10 : 6;
     if (!r.bounds.empty())
-        std::printf("  %-24s (%g, %g, %g) to (%g, %g, %g) m\n", "bounds", r.bounds.low.x,
-                    r.bounds.low.y, r.bounds.low.z, r.bounds.high.x, r.bounds.high.y,
-                    r.bounds.high.z);
+        std::printf("  %-24s %s to %s m\n", "bounds",
+                    place(origin + mir::DVec3(r.bounds.low), digits).c_str(),
+                    place(origin + mir::DVec3(r.bounds.high), digits).c_str());
+    if (is_far) std::printf("  %-24s %s m\n", "origin", place(origin).c_str());
     if (loaded.scene.environment) {
         const Json e = environment_of(*loaded.scene.environment);
         const Json& mean = e["mean_radiance"];
@@ -134,6 +143,7 @@ void print_text(const std::string& name, const SceneAndReport& loaded, bool acce
     for (const auto& [what, times] : r.ignored)
         std::printf("  ignored: %s (%llu)\n", what.c_str(), static_cast<unsigned long long>(times));
     for (const std::string& note : r.notes) std::printf("  note: %s\n", note.c_str());
+    for (const std::string& remark : r.remarks) std::printf("  remark: %s\n", remark.c_str());
     if (!accel) return;
     std::printf("kd-tree\n");
     print_numbers(kd_tree_of(loaded.scene));

@@ -25,20 +25,20 @@ CLI::Validator seed_number() {
             "0 to 2^64-1"};
 }
 
-std::optional<mir::Vec3> read_vector(const std::string& text) {
-    mir::Vec3 v(0.0f);
+std::optional<mir::DVec3> read_vector(const std::string& text) {
+    mir::DVec3 v(0.0);
     std::size_t begin = 0;
     for (int k = 0; k < 3; ++k) {
         const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
         if (end == std::string::npos || !read_whole(text.substr(begin, end - begin), v[k]) ||
-            !std::isfinite(v[k]))
+            !std::isfinite(static_cast<float>(v[k])))
             return std::nullopt;
         begin = end + 1;
     }
     return v;
 }
 
-CLI::Option* add_vector(CLI::App& app, const std::string& name, std::optional<mir::Vec3>& target,
+CLI::Option* add_vector(CLI::App& app, const std::string& name, std::optional<mir::DVec3>& target,
                         const std::string& help) {
     return app
         .add_option_function<std::string>(

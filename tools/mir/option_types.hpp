@@ -49,10 +49,10 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target,
 }
 
 /// Reads three finite numbers that are separated by commas.
-std::optional<mir::Vec3> read_vector(const std::string& text);
+std::optional<mir::DVec3> read_vector(const std::string& text);
 
 /// An option whose value is a point or a direction.
-CLI::Option* add_vector(CLI::App& app, const std::string& name, std::optional<mir::Vec3>& target,
+CLI::Option* add_vector(CLI::App& app, const std::string& name, std::optional<mir::DVec3>& target,
                         const std::string& help);
 
 /// A whole number option of a smaller type than int.

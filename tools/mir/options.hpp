@@ -23,12 +23,12 @@ struct PassOptions {
 
 /// What a file may lack: light, something to stand on, a view.
 struct AddedScene {
-    std::optional<mir::Vec3> sun;      ///< direction to it, of any length but 0
-    float sun_irradiance = 3.0f;       ///< of a surface that faces it, W m^-2
-    bool ground = false;               ///< a floor below everything
-    std::optional<mir::Vec3> eye;      ///< place of the camera, metres
-    std::optional<mir::Vec3> look_at;  ///< what is in the middle; none: the middle of the scene
-    float fov = 45.0f;                 ///< vertical, degrees
+    std::optional<mir::DVec3> sun;      ///< direction to it, of any length but 0
+    float sun_irradiance = 3.0f;        ///< of a surface that faces it, W m^-2
+    bool ground = false;                ///< a floor below everything
+    std::optional<mir::DVec3> eye;      ///< place of the camera in the file, metres
+    std::optional<mir::DVec3> look_at;  ///< what is in the middle; none: the middle of the scene
+    float fov = 45.0f;                  ///< vertical, degrees
 };
 
 /// Light from all around that the command line puts around a scene.

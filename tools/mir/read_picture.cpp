@@ -3,11 +3,17 @@
 
 #include "mir/io/exr.hpp"
 
+#include <utility>
+
 namespace mirtool {
 
-mir::Image<mir::Rgb> read_picture(const std::string& name, const std::string& layer) {
+Picture read_picture(const std::string& name, const std::string& layer) {
     try {
-        return mir::read_exr(name, layer).image;
+        mir::ExrImage file = mir::read_exr(name, layer);
+        Picture picture{std::move(file.image)};
+        for (const auto& [attribute, value] : file.vectors)
+            if (attribute == "mir:origin") picture.origin = value;
+        return picture;
     } catch (const mir::Error& e) {
         // A file that is too large is the input's fault, not that of the command line.
         if (e.code() != mir::ErrorCode::limit_exceeded) throw;

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 namespace mirtool {
 namespace {
@@ -148,8 +149,10 @@ int run(const RenderOptions& options) {
     mir::Monitor monitor;
     const CancelOnInterrupt cancel(monitor);
     Convergence convergence(reference);
-    const mir::RenderResult result =
+    mir::RenderResult result =
         blaming(o.scene, [&] { return render(o, loaded.scene, paths, monitor, convergence); });
+    const std::vector<std::string>& remarks = loaded.report.remarks;
+    result.warnings.insert(result.warnings.begin(), remarks.begin(), remarks.end());
     write_outputs(paths, result, o);
     write_render_report({o, loaded, result, reference, convergence});
     if (!o.quiet) print_summary(result);

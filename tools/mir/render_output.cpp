@@ -86,6 +86,7 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
         {"mir:bound", s.bound},
         {"mir:removed_share", static_cast<float>(s.removed_share())},
     };
+    if (s.origin != mir::DVec3(0.0)) all.push_back({"mir:origin", s.origin});
     append_pass_attributes(s, all);
     append_chain_attributes(s, all);
     if (o.record_seconds) all.push_back({"mir:seconds", static_cast<float>(s.seconds.total)});
@@ -237,8 +238,8 @@ void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const R
     if (!paths.png.empty())
         mir::write_png(paths.png, r.beauty,
                        o.exposure ? *o.exposure : mir::auto_exposure(r.beauty));
-    if (o.vpls_out.ends_with(".glb")) mir::write_vpls_glb(o.vpls_out, r.vpls);
-    if (o.vpls_out.ends_with(".ply")) mir::write_vpls_ply(o.vpls_out, r.vpls);
+    if (o.vpls_out.ends_with(".glb")) mir::write_vpls_glb(o.vpls_out, r.vpls, r.statistics.origin);
+    if (o.vpls_out.ends_with(".ply")) mir::write_vpls_ply(o.vpls_out, r.vpls, r.statistics.origin);
 }
 
 void print_summary(const mir::RenderResult& r) {
@@ -275,6 +276,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
         out["environment"] = {{"file", o.environment.file},
                               {"scale", o.environment.scale},
                               {"rotation", o.environment.rotation}};
+    if (s.origin != mir::DVec3(0.0)) out["origin"] = {s.origin.x, s.origin.y, s.origin.z};
     out["width"] = r.beauty.width();
     out["height"] = r.beauty.height();
     out["seed"] = o.settings.seed;

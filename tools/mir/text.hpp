@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/math.hpp"
+
 #include <array>
 #include <cstdio>
 #include <string>
@@ -18,6 +20,14 @@ inline std::string number(double value) {
 inline std::string fixed(double value, int digits) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+    return text.data();
+}
+
+/// "(1.5, 2, -3)", each number in up to `digits` digits. 15 tell every Scene::origin.
+inline std::string place(mir::DVec3 v, int digits = 15) {
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "(%.*g, %.*g, %.*g)", digits, v.x, digits, v.y, digits,
+                  v.z);
     return text.data();
 }
 

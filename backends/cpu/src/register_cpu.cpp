@@ -4,7 +4,9 @@
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/register.hpp"
 #include "mir/host/shaft_scene.hpp"
+#include "mir/runtime/check_places.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/near_scene.hpp"
 #include "mir/scene/scene_hash.hpp"
 
 #include <algorithm>
@@ -61,8 +63,10 @@ class CpuRenderer : public Renderer {
         settings.validate();
         std::vector<std::string> warnings = check_scene(scene, settings);
         StageClock clock;
-        RenderResult result = build_and_render(scene, settings, monitor, clock);
+        const NearScene near = near_scene(scene, clock, warnings);
+        RenderResult result = build_and_render(near.scene(), settings, monitor, clock);
         RenderStatistics& s = result.statistics;
+        s.origin = near.scene().origin;
         s.backend = "cpu";
         s.scheduler = name_;
         {
@@ -83,6 +87,7 @@ class CpuRenderer : public Renderer {
             const auto stage = clock.measure(&StageSeconds::geometry);
             return WorldGeometry(scene, settings.limits, executor);
         }();
+        check_places(scene, settings.camera, geometry.bounds());
         RenderResult result =
             trace({scene, settings, geometry, executor, monitor, clock, scheduler_});
         result.statistics.triangles = geometry.triangles().size();

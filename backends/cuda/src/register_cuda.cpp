@@ -6,8 +6,10 @@
 #include "mir/cuda/register.hpp"
 #include "mir/resident/backend_metropolis.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
+#include "mir/runtime/check_places.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/micro_render.hpp"
+#include "mir/runtime/near_scene.hpp"
 #include "mir/runtime/path_render.hpp"
 #include "mir/runtime/tiled_render.hpp"
 
@@ -97,8 +99,10 @@ class CudaRenderer : public Renderer {
         StageClock clock;
         // Beside the GPU: it takes as long as a stage.
         auto hash = std::async(std::launch::async, [&scene] { return SceneHash(scene).hex(); });
-        RenderResult result = render_in_memory(scene, settings, monitor, clock);
+        const NearScene near = near_scene(scene, clock, warnings);
+        RenderResult result = render_in_memory(near.scene(), settings, monitor, clock);
         RenderStatistics& s = result.statistics;
+        s.origin = near.scene().origin;
         s.backend = "cuda";
         s.device = device_.name;
         s.acceleration = settings.integrator != Integrator::vpl
@@ -151,6 +155,7 @@ class CudaRenderer : public Renderer {
             const auto stage = clock.measure(&StageSeconds::geometry);
             return WorldGeometry(scene, settings.limits, executor);
         }();
+        check_places(scene, settings.camera, geometry.bounds());
         RenderResult result =
             is_lambertian(scene)
                 ? trace<Lambert>(scene, settings, geometry, executor, monitor, clock)

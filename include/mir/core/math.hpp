@@ -33,6 +33,11 @@ using Vec4 = glm::vec4;  ///< four floats
 using Mat3 = glm::mat3;  ///< 3 x 3 floats, column by column
 using Mat4 = glm::mat4;  ///< 4 x 4 floats, column by column
 
+/// Three doubles: places in the world before an origin is chosen (Scene::origin).
+using DVec3 = glm::dvec3;
+/// 4 x 4 doubles, column by column: placements before an origin is chosen.
+using DMat4 = glm::dmat4;
+
 // Host and device code exchange these types as bytes.
 static_assert(sizeof(Vec3) == 12 && alignof(Vec3) == 4);
 static_assert(std::is_trivially_copyable_v<Vec3> && std::is_trivially_copyable_v<Mat4>);

@@ -21,6 +21,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVecAttribute.h>
 #include <OpenEXR/ImfVersion.h>
 #include <half.h>
 
@@ -64,6 +65,8 @@ inline void insert_attribute(Imf::Header& header, const ExrAttribute& attribute)
         header.insert(name, Imf::StringAttribute(*text));
     else if (const auto* real = std::get_if<float>(&attribute.value))
         header.insert(name, Imf::FloatAttribute(*real));
+    else if (const auto* v = std::get_if<DVec3>(&attribute.value))
+        header.insert(name, Imf::V3dAttribute(Imath::V3d(v->x, v->y, v->z)));
     else
         header.insert(name, Imf::IntAttribute(std::get<int>(attribute.value)));
 }
@@ -153,6 +156,7 @@ inline void write_exr(const std::filesystem::path& path, Extent extent,
 struct ExrImage {
     Image<Rgb> image;                                             ///< as large as the data window
     std::vector<std::pair<std::string, std::string>> attributes;  ///< text only, sorted by name
+    std::vector<std::pair<std::string, DVec3>> vectors;           ///< those of type v3d, likewise
 };
 
 namespace detail {
@@ -251,6 +255,9 @@ inline ExrImage read_exr(const std::filesystem::path& path, const std::string& l
         for (auto a = header.begin(); a != header.end(); ++a)
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
                 result.attributes.emplace_back(a.name(), text->value());
+            else if (const auto* v = dynamic_cast<const Imf::V3dAttribute*>(&a.attribute()))
+                result.vectors.emplace_back(a.name(),
+                                            DVec3(v->value().x, v->value().y, v->value().z));
         return result;
     } catch (const Error&) {
         throw;

@@ -38,7 +38,8 @@ struct ExrLayer {
 /// A named value in the header of an OpenEXR file. The project's own names start with "mir:".
 struct ExrAttribute {
     std::string name;  ///< 1 to 255 bytes, given once, none that OpenEXR reserves
-    std::variant<std::string, float, int> value;  ///< stored as string, float or int attribute
+    /// Stored as attribute of type string, float, int or v3d.
+    std::variant<std::string, float, int, DVec3> value;
 };
 using ExrAttributes = std::vector<ExrAttribute>;  ///< of one file
 

@@ -9,9 +9,11 @@
 #include "mir/io/detail/gltf_materials.hpp"
 #include "mir/io/detail/gltf_meshes.hpp"
 #include "mir/io/loaded_scene.hpp"
+#include "mir/scene/recentre.hpp"
 
 #include <cstddef>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 namespace mir {
@@ -41,17 +43,20 @@ inline void place_everything(const tinygltf::Model& model, const std::vector<int
                              const Limits& limits, LoadedScene& loaded) {
     const auto parts =
         GltfMeshes(model, coordinates, limits, loaded.scene, loaded.report).convert_all();
-    GltfInstances instances(model, parts, limits, loaded.scene);
+    Placements places;
+    GltfInstances instances(model, parts, limits, loaded.scene, places);
     for (const PlacedNode& placed : placed_nodes(model, loaded.report)) {
         const tinygltf::Node& node = model.nodes[placed.node];
         if (node.mesh >= 0) instances.add(placed);
-        if (node.camera >= 0) add_camera(model, node.camera, placed, loaded.scene, loaded.report);
+        if (node.camera >= 0)
+            add_camera(model, node.camera, placed, loaded.scene, places, loaded.report);
         const auto light = node.extensions.find("KHR_lights_punctual");
         if (light != node.extensions.end())
-            add_light(model, index_under(light->second, "light"), placed, loaded.scene,
+            add_light(model, index_under(light->second, "light"), placed, loaded.scene, places,
                       loaded.report);
         note_unused_of_node(node, loaded.report);
     }
+    loaded.report.remarks = recentre(loaded.scene, std::move(places));
 }
 
 inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& limits) {
@@ -81,8 +86,9 @@ inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& li
 /// after its mesh (and its number where a mesh has several). emissiveFactor x emissiveStrength is
 /// radiance; punctual lights give candela as W/sr and lux as W/m^2; what is unlit shines with its
 /// base colour. Images are PNG or JPEG; their textures and vertex colours are read. A scene without
-/// light or camera is no error: the report says so. Alpha mode MASK is read; BLEND and environments
-/// are not, the report counts them. Thread-safe for different or equal files.
+/// light or camera is no error: the report says so. Transforms of nodes are multiplied in double
+/// precision and counted from the origin that recentre() chooses. Alpha mode MASK is read; BLEND
+/// and environments are not, the report counts them. Thread-safe for different or equal files.
 /// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules;
 ///         Error(unsupported) when it requires an extension that is not known;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.

@@ -4,6 +4,7 @@
 #include "mir/io/detail/obj_materials.hpp"
 #include "mir/io/detail/obj_meshes.hpp"
 #include "mir/io/loaded_scene.hpp"
+#include "mir/scene/recentre.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -53,6 +54,7 @@ inline LoadedScene load_obj(const std::filesystem::path& path, const Limits& lim
     tinyobj::LoadObjWithCallback(stream, ObjTarget::callbacks(), &target, &target.materials);
     target.meshes.finish();
     loaded.scene.name = path.stem().string();
+    loaded.report.remarks = recentre(loaded.scene);
     count_scene(loaded.scene, loaded.report);
     return loaded;
 }
@@ -62,10 +64,11 @@ inline LoadedScene load_obj(const std::filesystem::path& path, const Limits& lim
 /// Reads a Wavefront OBJ scene with the material libraries (MTL) that it names, in UTF-8 or UTF-16.
 /// Each group becomes one mesh per material; polygons are cut into triangles; faces without normals
 /// are flat; colours behind the coordinates of vertices are sRGB. Coordinates are metres as they
-/// stand, +y up. Ke is radiance, Kd the base colour, the mean of Ks the weight of the interface, Ns
-/// or Pr its roughness, Pm metalness, Ni the index of refraction; map_Kd, map_Ke, map_d and norm
-/// are textures (docs/scene_files.md). Libraries and images that are missing and what is not read
-/// are counted in the report. Thread-safe for different or equal files.
+/// stand, +y up, brought home by recentre(). Ke is radiance, Kd the base colour, the mean of Ks the
+/// weight of the interface, Ns or Pr its roughness, Pm metalness, Ni the index of refraction;
+/// map_Kd, map_Ke, map_d and norm are textures (docs/scene_files.md). Libraries and images that are
+/// missing and what is not read are counted in the report. Thread-safe for different or equal
+/// files.
 /// @throws Error(invalid_input) when the file is missing or broken, with its line;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.
 ///         Each message reads "FILE: PLACE: problem (why); remedy".

@@ -5,6 +5,7 @@
 #include "mir/io/detail/read_file.hpp"
 #include "mir/io/detail/unknown_surface.hpp"
 #include "mir/io/loaded_scene.hpp"
+#include "mir/scene/recentre.hpp"
 
 #include <filesystem>
 #include <string_view>
@@ -25,6 +26,7 @@ inline LoadedScene load_ply(const std::filesystem::path& path, const Limits& lim
     mesh.name = loaded.scene.name;
     mesh.material = loaded.scene.add(unknown_surface("PLY default", !mesh.colors.empty()));
     if (!mesh.triangles.empty()) loaded.scene.place(std::move(mesh));
+    loaded.report.remarks = recentre(loaded.scene);
     count_scene(loaded.scene, loaded.report);
     return loaded;
 }
@@ -34,8 +36,8 @@ inline LoadedScene load_ply(const std::filesystem::path& path, const Limits& lim
 /// Reads a mesh in the PLY format, ascii or binary of either byte order: vertices (x y z, nx ny nz,
 /// red green blue as sRGB) and faces (vertex_indices), whose polygons are cut into triangles. It
 /// gets one Lambertian material, of the vertices' colours or else of reflectance 0.8. Coordinates
-/// are metres as they stand, +y up. Other elements and properties are skipped and counted in the
-/// report. Thread-safe for different or equal files.
+/// are metres as they stand, +y up, brought home by recentre(). Other elements and properties are
+/// skipped and counted in the report. Thread-safe for different or equal files.
 /// @throws Error(invalid_input) when the file is missing or broken, with element and number;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.
 ///         Each message reads "FILE: PLACE: problem (why); remedy".

@@ -37,12 +37,15 @@ struct SceneReport {
     std::uint64_t directional_lights = 0;  ///< of Scene::directional_lights
     std::uint64_t environments = 0;        ///< 0 or 1
     std::vector<CameraReport> cameras;     ///< usable or not, as the reader met them
-    Bounds bounds;                         ///< of all instances, metres
+    Bounds bounds;                         ///< of all instances, metres, from Scene::origin on
 
     /// Features that change the picture and are not supported, with the number of their uses.
     /// Nothing is dropped without an entry here.
     std::map<std::string, std::uint64_t> ignored;
     std::vector<std::string> notes;  ///< sentences on choices that the reader made
+    /// Sentences of recentre(): what is too fine for 32-bit numbers where it lies. The picture may
+    /// be wrong there.
+    std::vector<std::string> remarks;
 
     /// True when nothing in the scene shines.
     [[nodiscard]] bool is_dark() const {

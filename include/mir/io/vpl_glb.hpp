@@ -24,7 +24,7 @@ inline Rgb hue_of(Rgb c) {
 }
 
 /// VPLs as one mesh of points; a model without meshes for none, because glTF has no empty ones.
-inline tinygltf::Model vpl_model(const VplList& list) {
+inline tinygltf::Model vpl_model(const VplList& list, DVec3 origin) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "mir";
@@ -50,7 +50,9 @@ inline tinygltf::Model vpl_model(const VplList& list) {
     tinygltf::Mesh& mesh = model.meshes.emplace_back();
     mesh.name = "VPLs";
     mesh.primitives.push_back(std::move(points));
-    model.nodes.emplace_back().mesh = 0;
+    tinygltf::Node& node = model.nodes.emplace_back();
+    node.mesh = 0;
+    if (origin != DVec3(0.0)) node.translation = {origin.x, origin.y, origin.z};
     model.scenes.emplace_back().nodes = {0};
     model.defaultScene = 0;
     return model;
@@ -61,14 +63,16 @@ inline tinygltf::Model vpl_model(const VplList& list) {
 /// Writes VPLs as binary glTF 2.0 (.glb), a mesh of points that viewers show: one point for each
 /// geometric VPL, black ones included, in the order of the list. POSITION in metres; NORMAL;
 /// COLOR_0, linear, the hue of its light with 1 in the largest channel; _INTENSITY, the J of Vpl in
-/// W sr^-1; _BOUNCE, that of main_bounces(). Equal lists give equal bytes; the file appears
-/// complete or not at all. Thread-safe for different files.
+/// W sr^-1; _BOUNCE, that of main_bounces(). The node of the mesh stands at `origin`, from which
+/// positions are counted (RenderStatistics::origin), metres. Equal lists give equal bytes; the file
+/// appears complete or not at all. Thread-safe for different files.
 /// @throws Error(io) when the file cannot be written; Error(limit_exceeded) for more than the
 ///         4 GiB of the format.
-inline void write_vpls_glb(const std::filesystem::path& path, const VplList& list) {
+inline void write_vpls_glb(const std::filesystem::path& path, const VplList& list,
+                           DVec3 origin = DVec3(0.0)) {
     constexpr std::uint64_t bytes_of_point = 13 * sizeof(float);
     detail::check_glb_bytes(list.size() * bytes_of_point, "the list of VPLs");
-    detail::write_glb_model(detail::vpl_model(list), path);
+    detail::write_glb_model(detail::vpl_model(list, origin), path);
 }
 
 }  // namespace mir

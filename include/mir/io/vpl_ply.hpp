@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,16 +17,24 @@
 namespace mir {
 namespace detail {
 
+/// The line that says where positions are counted from; none where that is (0, 0, 0).
+inline std::string vpl_ply_origin(DVec3 origin) {
+    if (origin == DVec3(0.0)) return {};
+    char line[128];
+    std::snprintf(line, sizeof line, "comment origin of positions, metres: %.17g %.17g %.17g\n",
+                  origin.x, origin.y, origin.z);
+    return line;
+}
+
 /// Everything before the numbers of a PLY file of VPLs.
-inline std::string vpl_ply_header(std::uint32_t count) {
+inline std::string vpl_ply_header(std::uint32_t count, DVec3 origin) {
     return "ply\n"
            "format binary_little_endian 1.0\n"
            "comment virtual point lights: points that shine into the hemisphere of their normal\n"
            "comment position in metres; radiant intensity J cos(angle to the normal), J in W/sr,\n"
            "comment linear Rec. 709; the power of a light is pi J, in W\n"
-           "comment bounce: scattering events up to the camera, 1 for light of a lamp itself\n"
-           "element vertex " +
-           std::to_string(count) +
+           "comment bounce: scattering events up to the camera, 1 for light of a lamp itself\n" +
+           vpl_ply_origin(origin) + "element vertex " + std::to_string(count) +
            "\n"
            "property float x\n"
            "property float y\n"
@@ -52,12 +61,14 @@ inline void append_little_endian(std::string& out, float value) {
 /// Writes VPLs as a PLY file of points, binary little endian: one vertex per geometric VPL, black
 /// ones included, in the order of the list. Properties: position x y z, metres; normal nx ny nz;
 /// intensity_red, intensity_green, intensity_blue, the J of Vpl in W sr^-1; bounce, that of
-/// main_bounces(). Equal lists give equal bytes; the file appears complete or not at all.
-/// Thread-safe for different files.
+/// main_bounces(). A comment names `origin`, from which positions are counted
+/// (RenderStatistics::origin), metres, where it is not zero. Equal lists give equal bytes; the file
+/// appears complete or not at all. Thread-safe for different files.
 /// @throws Error(io) when the file cannot be written.
 /// Source of the format: Turk, "The PLY polygon file format", 1994.
-inline void write_vpls_ply(const std::filesystem::path& path, const VplList& list) {
-    std::string bytes = detail::vpl_ply_header(list.size());
+inline void write_vpls_ply(const std::filesystem::path& path, const VplList& list,
+                           DVec3 origin = DVec3(0.0)) {
+    std::string bytes = detail::vpl_ply_header(list.size(), origin);
     const std::vector<std::uint8_t> bounces = main_bounces(list);
     for (std::size_t j = 0; j < bounces.size(); ++j) {
         const Vpl& vpl = list.vpls()[j];

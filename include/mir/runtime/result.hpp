@@ -42,6 +42,8 @@ struct RenderStatistics {
     std::string acceleration;           ///< "bvh", "embree", "kdtree" or "kdtree+shafts"
     std::string scheduler;              ///< its name in the Registry
     std::string scene_hash;             ///< SceneHash::hex()
+    DVec3 origin{0.0};                  ///< Scene::origin of what was rendered, metres: positions
+                                        ///< of guides and VPLs are counted from it
     StageSeconds seconds;               ///< of wall time, by stage
     std::uint32_t passes = 1;           ///< renders whose mean the picture is (ProgressiveRender)
     std::optional<double> relative_error;  ///< of the picture, from their spread; needs two

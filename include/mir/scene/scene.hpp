@@ -17,6 +17,10 @@ namespace mir {
 /// Everything to render, as plain values: a host renderer fills it from its own data, a file reader
 /// from a file. Right-handed, +y up, metres, linear Rec. 709. WorldGeometry and LightTable are made
 /// from it; both check it.
+///
+/// All of it stands in one coordinate system, whose numbers are floats: 100 km from its origin they
+/// lie 8 mm apart. recentre() brings a scene that lies far away to its origin and says in `origin`
+/// where that is.
 struct Scene {
     std::string name;                                  ///< for messages and files
     std::vector<Mesh> meshes;                          ///< each once, however often it is placed
@@ -28,6 +32,9 @@ struct Scene {
     std::vector<DirectionalLight> directional_lights;  ///< from outside; no ray meets them
     std::optional<Environment> environment;            ///< light from all around; none: black
     std::vector<Camera> cameras;  ///< by RenderSettings::camera; none: there is no view to render
+    /// Place, in the coordinates of the file or of the host, of the point (0, 0, 0) of all of the
+    /// above; metres. No picture depends on it.
+    DVec3 origin{0.0};
 
     /// Adds a mesh together with one instance of it; returns the index of the mesh.
     std::uint32_t place(Mesh mesh, const Mat4& to_world = Mat4(1.0f)) {

@@ -11,7 +11,8 @@
 namespace mir {
 
 /// Fingerprint of what a scene looks like: 16 hexadecimal digits that change with any geometry,
-/// material, light or camera, and not with names. Not cryptographic. Source: FNV-1a, 64 bits.
+/// material, light or camera, and not with names or Scene::origin. Not cryptographic. Source:
+/// FNV-1a, 64 bits.
 class SceneHash {
  public:
     /// Reads all of the scene once, which may end afterwards.

@@ -102,6 +102,8 @@ std::string scene_section(const ReportInput& in) {
                             ? ""
                             : ", around them " + in.options.environment.file)},
         {"emitted power", number(s.emitted_power) + " W (luminance)"}};
+    const mir::DVec3 origin = in.loaded.scene.origin;
+    if (origin != mir::DVec3(0.0)) rows.push_back({"origin of positions", place(origin) + " m"});
     for (const auto& [what, times] : r.ignored)
         rows.push_back({"ignored", what + " (" + std::to_string(times) + ")"});
     for (const std::string& note : r.notes) rows.push_back({"note", note});

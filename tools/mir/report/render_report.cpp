@@ -44,7 +44,7 @@ std::string page_of(const ReportInput& in) {
 
 mir::Image<mir::Rgb> read_report_reference(const RenderOptions& o) {
     if (o.report_reference.empty()) return {};
-    mir::Image<mir::Rgb> reference = read_picture(o.report_reference);
+    mir::Image<mir::Rgb> reference = read_picture(o.report_reference).image;
     mir::check_comparable(reference, reference, o.report_reference, o.report_reference);
     return reference;
 }

@@ -28,6 +28,7 @@ class GltfBuilder {
     [[nodiscard]] tinygltf::Model build(const Scene& scene) {
         model_.asset.version = "2.0";
         model_.asset.generator = "mir";
+        origin_ = scene.origin;
         reserve(scene);
         (void)TextureTable(scene);  // for its checks
         for (const TextureImage& image : scene.images) textures_.add(image);
@@ -147,11 +148,12 @@ class GltfBuilder {
         to.primitives.push_back(std::move(primitive));
     }
 
-    /// Adds a root node with the given columns.
+    /// Adds a root node with the given columns, `position` counted from the scene's origin.
     tinygltf::Node& add_node(Vec3 x, Vec3 y, Vec3 z, Vec3 position) {
+        const DVec3 place = origin_ + DVec3(position);
         tinygltf::Node& node = model_.nodes.emplace_back();
-        node.matrix = {x.x, x.y, x.z, 0, y.x,        y.y,        y.z,        0,
-                       z.x, z.y, z.z, 0, position.x, position.y, position.z, 1};
+        node.matrix = {x.x, x.y, x.z, 0, y.x,     y.y,     y.z,     0,
+                       z.x, z.y, z.z, 0, place.x, place.y, place.z, 1};
         return node;
     }
 
@@ -209,6 +211,7 @@ class GltfBuilder {
         if (!extras.empty()) to.extras = tinygltf::Value(std::move(extras));
     }
 
+    DVec3 origin_{0.0};
     tinygltf::Model model_;
     GltfTextureBuilder textures_{model_};
 };

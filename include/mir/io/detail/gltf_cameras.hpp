@@ -19,11 +19,9 @@ inline bool is_orthonormal(const GltfPose& p) {
            near(glm::dot(p.y, p.z), 0) && near(glm::dot(p.z, p.x), 0);
 }
 
-/// Position and axes of a camera: the node's, without its scale and shear. A mirroring node mirrors
-/// the picture.
+/// Axes of a camera: the node's, without its scale and shear. A mirroring node mirrors the picture.
 /// @throws Error(invalid_input) when the node flattens space.
 inline void aim_camera(const GltfPose& pose, const std::string& place, Camera& camera) {
-    camera.position = pose.position;
     camera.right = pose.x;
     camera.up = pose.y;
     camera.back = pose.z;
@@ -61,10 +59,11 @@ inline Camera perspective_camera(const tinygltf::Camera& from, const std::string
     return camera;
 }
 
-/// Adds the camera `index` as placed by a node, or reports why it cannot be used.
+/// Adds the camera `index`, its place to `places`, as placed by a node, or reports why it cannot be
+/// used.
 /// @throws Error(invalid_input)
 inline void add_camera(const tinygltf::Model& model, int index, const PlacedNode& placed,
-                       Scene& scene, SceneReport& report) {
+                       Scene& scene, Placements& places, SceneReport& report) {
     const std::string user = node_place(model, placed.node);
     const auto at = checked_index(index, model.cameras.size(), "camera", user);
     const tinygltf::Camera& from = model.cameras[at];
@@ -80,9 +79,11 @@ inline void add_camera(const tinygltf::Model& model, int index, const PlacedNode
     }
     Camera camera = perspective_camera(from, gltf_place("camera", at, from.name));
     camera.name = entry.name;
-    aim_camera(pose_of(placed.to_world, user), user, camera);
+    const GltfPose pose = pose_of(placed.to_world, user);
+    aim_camera(pose, user, camera);
     entry.index = static_cast<std::uint32_t>(scene.cameras.size());
     scene.cameras.push_back(camera);
+    places.cameras.push_back(pose.position);
     report.cameras.push_back(entry);
 }
 

@@ -4,7 +4,7 @@
 #include "mir/core/limits.hpp"
 #include "mir/io/detail/gltf_arrays.hpp"
 #include "mir/io/detail/gltf_nodes.hpp"
-#include "mir/scene/scene.hpp"
+#include "mir/scene/placements.hpp"
 
 #include <tiny_gltf.h>
 
@@ -17,11 +17,12 @@ namespace mir::detail {
 /// Places the meshes of a file's nodes, several times where EXT_mesh_gpu_instancing says so.
 class GltfInstances {
  public:
-    /// `parts`: for every mesh of the file, the scene meshes of its primitives.
+    /// `parts`: for every mesh of the file, the scene meshes of its primitives. `places` gets one
+    /// for each instance that `scene` gets.
     GltfInstances(const tinygltf::Model& model,
                   const std::vector<std::vector<std::uint32_t>>& parts, const Limits& limits,
-                  Scene& scene)
-        : model_(model), parts_(parts), limits_(limits), scene_(scene) {}
+                  Scene& scene, Placements& places)
+        : model_(model), parts_(parts), limits_(limits), scene_(scene), places_(places) {}
 
     /// @throws Error(invalid_input), Error(limit_exceeded) before the instances are stored.
     void add(const PlacedNode& placed) {
@@ -50,9 +51,11 @@ class GltfInstances {
         }
     }
 
-    void store(const std::vector<std::uint32_t>& parts, const GltfMatrix& to_world) {
-        const Mat4 narrow = checked_matrix(to_world, place_);
-        for (std::uint32_t part : parts) scene_.instances.push_back({part, narrow});
+    void store(const std::vector<std::uint32_t>& parts, const DMat4& to_world) {
+        for (std::uint32_t part : parts) {
+            scene_.instances.push_back({part});
+            places_.instances.push_back(checked_matrix(to_world, place_));
+        }
     }
 
     template <class Vec>
@@ -77,7 +80,7 @@ class GltfInstances {
         scales_ = read_attribute<Vec3>(attributes, "SCALE");
     }
 
-    [[nodiscard]] GltfMatrix copy_transform(std::size_t i) const {
+    [[nodiscard]] DMat4 copy_transform(std::size_t i) const {
         const Vec3 t = translations_.empty() ? Vec3(0.0f) : translations_[i];
         const Vec4 r = rotations_.empty() ? Vec4(0, 0, 0, 1) : rotations_[i];
         const Vec3 s = scales_.empty() ? Vec3(1.0f) : scales_[i];
@@ -88,6 +91,7 @@ class GltfInstances {
     const std::vector<std::vector<std::uint32_t>>& parts_;
     const Limits& limits_;
     Scene& scene_;
+    Placements& places_;
     std::uint64_t triangles_ = 0;
     std::uint64_t vertices_ = 0;
     std::size_t copies_ = 0;

@@ -3,7 +3,7 @@
 
 #include "mir/io/detail/gltf_meshes.hpp"
 #include "mir/io/detail/gltf_nodes.hpp"
-#include "mir/scene/scene.hpp"
+#include "mir/scene/placements.hpp"
 
 #include <tiny_gltf.h>
 
@@ -14,15 +14,15 @@ namespace mir::detail {
 
 /// Where a light or a camera stands and how it is turned. Columns need not be unit.
 struct GltfPose {
-    Vec3 position{0};
+    DVec3 position{0.0};
     Vec3 x{1, 0, 0};
     Vec3 y{0, 1, 0};
     Vec3 z{0, 0, 1};
 };
 
-inline GltfPose pose_of(const GltfMatrix& to_world, const std::string& place) {
-    const Mat4 m = checked_matrix(to_world, place);
-    return {Vec3(m[3]), Vec3(m[0]), Vec3(m[1]), Vec3(m[2])};
+inline GltfPose pose_of(const DMat4& to_world, const std::string& place) {
+    const DMat4& m = checked_matrix(to_world, place);
+    return {DVec3(m[3]), Vec3(m[0]), Vec3(m[1]), Vec3(m[2])};
 }
 
 /// Unit direction in which a light shines: -z of its node.
@@ -61,7 +61,6 @@ inline SpotLight spot_light(const tinygltf::Light& light, const GltfPose& pose,
         gltf_fail(place, "its cone angles are not in order (0 <= inner " + std::to_string(inner) +
                              " < outer " + std::to_string(outer) + " <= pi/2); repair them");
     SpotLight spot;
-    spot.position = pose.position;
     spot.direction = shining_direction(pose, place);
     spot.intensity = light_strength(light, place);
     spot.cos_inner = cone_cosine(inner);
@@ -69,11 +68,11 @@ inline SpotLight spot_light(const tinygltf::Light& light, const GltfPose& pose,
     return spot;
 }
 
-/// Adds the KHR_lights_punctual light `index` as placed by a node. Candela and lux are taken as
-/// W/sr and W/m^2: no photometric conversion is made, results scale linearly.
+/// Adds the KHR_lights_punctual light `index`, its place to `places`, as placed by a node. Candela
+/// and lux are taken as W/sr and W/m^2: no photometric conversion is made, results scale linearly.
 /// @throws Error(invalid_input)
 inline void add_light(const tinygltf::Model& model, int index, const PlacedNode& placed,
-                      Scene& scene, SceneReport& report) {
+                      Scene& scene, Placements& places, SceneReport& report) {
     const std::string user = node_place(model, placed.node);
     const auto at = checked_index(index, model.lights.size(), "light", user);
     const tinygltf::Light& light = model.lights[at];
@@ -83,12 +82,14 @@ inline void add_light(const tinygltf::Model& model, int index, const PlacedNode&
     const std::uint16_t group = light_group_of(light.extras, place);
     if (light.range > 0.0) ++report.ignored["range of a light"];
     if (light.type == "point") {
-        scene.point_lights.push_back({name, pose.position, light_strength(light, place), group});
+        scene.point_lights.push_back({name, {}, light_strength(light, place), group});
+        places.point_lights.push_back(pose.position);
     } else if (light.type == "spot") {
         SpotLight spot = spot_light(light, pose, place);
         spot.name = name;
         spot.light_group = group;
         scene.spot_lights.push_back(spot);
+        places.spot_lights.push_back(pose.position);
     } else if (light.type == "directional") {
         scene.directional_lights.push_back(
             {name, shining_direction(pose, place), light_strength(light, place), group});

@@ -14,20 +14,18 @@
 
 namespace mir::detail {
 
-/// Products of node transforms are formed in double precision.
-using GltfMatrix = glm::dmat4;
-
-/// A node of the chosen scene and its transform to world space.
+/// A node of the chosen scene and its transform to world space. Products of transforms are formed
+/// in double precision, as the numbers of JSON are.
 struct PlacedNode {
     std::size_t node = 0;
-    GltfMatrix to_world{1.0};
+    DMat4 to_world{1.0};
 };
 
 inline std::string node_place(const tinygltf::Model& model, std::size_t index) {
     return gltf_place("node", index, model.nodes[index].name);
 }
 
-/// `count` numbers, or the default when the file gives none.
+/// `count` numbers within the range of floats, or the default when the file gives none.
 template <std::size_t count>
 std::array<double, count> numbers_or(const std::vector<double>& given,
                                      std::array<double, count> otherwise, const char* what,
@@ -36,13 +34,16 @@ std::array<double, count> numbers_or(const std::vector<double>& given,
     if (given.size() != count)
         gltf_fail(place, std::string(what) + " has " + std::to_string(given.size()) +
                              " numbers instead of " + std::to_string(count) + "; repair it");
-    for (std::size_t i = 0; i < count; ++i) otherwise[i] = checked_float(given[i], what, place);
+    for (std::size_t i = 0; i < count; ++i) {
+        (void)checked_float(given[i], what, place);
+        otherwise[i] = given[i];
+    }
     return otherwise;
 }
 
 /// Translation x rotation x scale, the rotation as a quaternion (x, y, z, w) of any length.
-inline GltfMatrix compose(const std::array<double, 3>& t, const std::array<double, 4>& q,
-                          const std::array<double, 3>& s, const std::string& place) {
+inline DMat4 compose(const std::array<double, 3>& t, const std::array<double, 4>& q,
+                     const std::array<double, 3>& s, const std::string& place) {
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0.0))
         gltf_fail(place, "its rotation is no quaternion (all zeros); repair or remove it");
@@ -50,7 +51,7 @@ inline GltfMatrix compose(const std::array<double, 3>& t, const std::array<doubl
     const double y = q[1] / length;
     const double z = q[2] / length;
     const double w = q[3] / length;
-    GltfMatrix m(1.0);
+    DMat4 m(1.0);
     m[0] = s[0] * glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0);
     m[1] = s[1] * glm::dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0);
     m[2] = s[2] * glm::dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0);
@@ -59,13 +60,13 @@ inline GltfMatrix compose(const std::array<double, 3>& t, const std::array<doubl
 }
 
 /// Transform of a node to its parent.
-inline GltfMatrix node_transform(const tinygltf::Node& node, const std::string& place) {
+inline DMat4 node_transform(const tinygltf::Node& node, const std::string& place) {
     if (node.matrix.empty())
         return compose(numbers_or<3>(node.translation, {0, 0, 0}, "translation", place),
                        numbers_or<4>(node.rotation, {0, 0, 0, 1}, "rotation", place),
                        numbers_or<3>(node.scale, {1, 1, 1}, "scale", place), place);
     const auto numbers = numbers_or<16>(node.matrix, {}, "matrix", place);
-    GltfMatrix m(1.0);
+    DMat4 m(1.0);
     for (std::size_t column = 0; column < 4; ++column)
         for (std::size_t row = 0; row < 4; ++row)
             m[static_cast<int>(column)][static_cast<int>(row)] = numbers[4 * column + row];
@@ -74,15 +75,13 @@ inline GltfMatrix node_transform(const tinygltf::Node& node, const std::string& 
     return m;
 }
 
-/// A transform in single precision.
-/// @throws Error(invalid_input) when products of nodes overflow it.
-inline Mat4 checked_matrix(const GltfMatrix& m, const std::string& place) {
-    Mat4 narrow(1.0f);
+/// `m` itself.
+/// @throws Error(invalid_input) when products of nodes leave the range of floats.
+inline const DMat4& checked_matrix(const DMat4& m, const std::string& place) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-            narrow[column][row] =
-                checked_float(m[column][row], "its transform to the world", place);
-    return narrow;
+            (void)checked_float(m[column][row], "its transform to the world", place);
+    return m;
 }
 
 /// Parent of every node, -1 for roots.
@@ -152,7 +151,7 @@ inline std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model, SceneR
     const std::vector<std::size_t> roots = scene_roots(model, report);
     std::vector<PlacedNode> open;
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        open.push_back({*root, GltfMatrix(1.0)});
+        open.push_back({*root, DMat4(1.0)});
     std::vector<PlacedNode> placed;
     while (!open.empty()) {
         PlacedNode next = open.back();

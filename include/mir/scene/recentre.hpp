@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/error.hpp"
+#include "mir/scene/detail/recentring.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mir {
+
+/// Puts the things of `scene` at `places`, brings them to the origin of its coordinates if they do
+/// not lie near it, and adds to Scene::origin what it subtracted. A scene is near while each
+/// coordinate of its middle is at most eight times its longest side; what is near moves by nothing,
+/// so that calling it twice changes nothing. Vertices that lie so far from the origin of their own
+/// mesh move too, and their placements against them. Depends on the scene alone.
+///
+/// Returns sentences on meshes too fine for 32-bit numbers where they lie: those whose median edge
+/// is shorter than 1000 steps of the floats there. Call it when the scene is finished, before
+/// WorldGeometry and CameraRays are made. For one thread at a time.
+/// @throws Error(invalid_argument) when `places` has not one element for each thing.
+inline std::vector<std::string> recentre(Scene& scene, Placements places) {
+    expects(places.instances.size() == scene.instances.size() &&
+                places.point_lights.size() == scene.point_lights.size() &&
+                places.spot_lights.size() == scene.spot_lights.size() &&
+                places.cameras.size() == scene.cameras.size(),
+            "recentre: the scene has not as many things as places were given for; give one each");
+    detail::Recentring recentring(scene, std::move(places));
+    std::vector<std::string> remarks = recentring.remarks(scene);
+    recentring.apply(scene);
+    return remarks;
+}
+
+/// The same for a scene whose things stand where it says.
+inline std::vector<std::string> recentre(Scene& scene) {
+    return recentre(scene, placements_of(scene));
+}
+
+/// A scene that is near the origin of its coordinates: one that is given, or else a copy of it
+/// after recentre(). What is given must outlive it. Const use from any thread.
+class NearScene {
+ public:
+    /// Reads all vertices once; copies only what lies far away.
+    explicit NearScene(const Scene& scene) : given_(&scene) {
+        if (!detail::Recentring(scene, placements_of(scene)).is_needed()) return;
+        moved_ = scene;
+        remarks_ = recentre(*moved_);
+    }
+
+    /// Valid until this object ends.
+    [[nodiscard]] const Scene& scene() const { return moved_ ? *moved_ : *given_; }
+
+    /// Sentences of recentre(); none when nothing moved.
+    [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+
+ private:
+    const Scene* given_;
+    std::optional<Scene> moved_;
+    std::vector<std::string> remarks_;
+};
+
+}  // namespace mir
