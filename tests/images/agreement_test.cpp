@@ -243,7 +243,7 @@ mir::RenderResult unbounded_chain(const Trial& trial, const mir::RenderSettings&
 mir::RenderResult shorter_luminance(const Trial& trial, const mir::RenderSettings& s) {
     mir::VplRecords records = sampled(trial, s, s.bound.value);
     mir::RenderSettings shorter = s;
-    --shorter.max_bounce;
+    shorter.max_bounce = static_cast<std::uint8_t>(s.bounce_limit() - 1);
     records.path_luminance = sampled(trial, shorter, s.bound.value).path_luminance;
     return render(trial.studio, s, Given{records});
 }

@@ -50,6 +50,11 @@ void add_passes(FactRows& rows, const mir::RenderStatistics& s) {
     rows.push_back({"relative error, from their spread", percent(*s.relative_error)});
 }
 
+std::string bounce_text(const mir::RenderSettings& s) {
+    if (s.integrator == mir::Integrator::path && !s.max_bounce) return "none";
+    return std::to_string(s.bounce_limit());
+}
+
 std::string machine_text(const mir::RenderStatistics& s) {
     return s.backend + (s.device.empty() ? "" : " (" + s.device + ")");
 }
@@ -73,7 +78,7 @@ std::string settings_section(const ReportInput& in) {
     add_passes(rows, statistics);
     rows.insert(rows.end(),
                 {{"lamp samples per pixel", std::to_string(s.direct_samples)},
-                 {"largest bounce", std::to_string(s.max_bounce)},
+                 {"largest bounce", bounce_text(s)},
                  {"seed", std::to_string(s.seed)},
                  {"machine", machine_text(statistics)},
                  {"acceleration structure", statistics.acceleration},
