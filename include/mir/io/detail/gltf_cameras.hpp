@@ -19,8 +19,8 @@ inline bool is_orthonormal(const GltfPose& p) {
            near(glm::dot(p.y, p.z), 0) && near(glm::dot(p.z, p.x), 0);
 }
 
-/// Position and axes of a camera: the node's, without its scale and shear. A mirroring node mirrors
-/// the picture.
+/// Position and axes of a camera: the node's, without scale and shear. A mirror among the nodes
+/// above mirrors the picture.
 /// @throws Error(invalid_input) when the node flattens space.
 inline void aim_camera(const GltfPose& pose, const std::string& place, Camera& camera) {
     camera.position = pose.position;
@@ -80,7 +80,7 @@ inline void add_camera(const tinygltf::Model& model, int index, const PlacedNode
     }
     Camera camera = perspective_camera(from, gltf_place("camera", at, from.name));
     camera.name = entry.name;
-    aim_camera(pose_of(placed.to_world, user), user, camera);
+    aim_camera(pose_of(placed, user), user, camera);
     entry.index = static_cast<std::uint32_t>(scene.cameras.size());
     scene.cameras.push_back(camera);
     report.cameras.push_back(entry);
