@@ -22,9 +22,9 @@ constexpr const char* variance_layer = "variance";
 
 /// Indirect light of an image of one replicate at a pixel.
 mir::RgbSum indirect_at(const mir::ReferenceImage& image, std::uint32_t x, std::uint32_t y) {
-    mir::RgbSum sum;
-    for (std::uint8_t b = 2; b <= image.last_bounce(); ++b)
-        sum += image.bounce_moments(x, y, b).mean;
+    mir::RgbSum sum = image.beauty_moments(x, y).mean;
+    for (std::uint8_t b = 0; b <= image.last_bounce(); ++b)
+        sum += image.bounce_moments(x, y, b).mean * -1.0;
     return sum;
 }
 
@@ -71,7 +71,7 @@ Reference trace(const mir::Scene& scene, const ReferenceSettings& settings) {
     mir::ReferenceOptions options;
     options.samples = (settings.samples + replicates - 1) / replicates;
     options.replicates = 1;
-    options.last_bounce = tracer.options().max_bounce;
+    options.last_bounce = 1;
     mir::cpu::TbbExecutor executor(settings.threads);
     ReplicateMean mean(settings.size);
     for (std::uint32_t r = 0; r < replicates; ++r) {

@@ -132,7 +132,7 @@ TEST_CASE("light that is traced back stands in the layer of its bounce, up to th
     const mir::RenderResult without = render(scene, s);
     s.compensate = 2;
     const mir::RenderResult with = render(scene, s);
-    REQUIRE(with.bounces.size() == s.max_bounce);
+    REQUIRE(with.bounces.size() == s.bounce_limit());
     CHECK(same_bits(with.direct, without.direct));
     CHECK(with.statistics.indirect_luminance == without.statistics.indirect_luminance);
     CHECK(with.statistics.removed_luminance == without.statistics.removed_luminance);

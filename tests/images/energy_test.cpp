@@ -23,6 +23,7 @@ mir::RenderSettings few_chains() {
     s.bound.kind = mir::BoundPolicy::Kind::automatic;
     s.direct_samples = 1;
     s.max_bounce = 8;
+    s.metropolis.chains = 12;  // fewer than VPLs, or nothing would mutate
     s.metropolis.stride = 8;
     s.metropolis.chain.tries = 4;
     s.metropolis.bootstrap = {1.0, 1u << 14, 1u << 14};
@@ -45,11 +46,12 @@ double sum_of_bounces(const mir::RenderResult& r) {
 bool balances(const mir::Scene& scene, mir::RenderSettings s) {
     s.bounce_layers = true;
     const mir::RenderResult r = render(scene, s);
-    CHECK(r.statistics.health);
+    REQUIRE(r.statistics.health);
     if (!(r.statistics.path_luminance > 0.0)) {
         CHECK(r.statistics.indirect_luminance == 0.0);
         return false;
     }
+    CHECK((r.statistics.health->mutations > 0) == (s.vpls > s.metropolis.chains));
     CAPTURE(r.statistics.path_luminance, r.statistics.dropped_share);
     CHECK(r.statistics.dropped_share < 1.0);
     CHECK(imbalance(r, r.statistics.indirect_luminance) < 1e-5);

@@ -97,6 +97,59 @@ TEST_CASE("punctual lights shine along -z of their nodes") {
     CHECK_FALSE(loaded.report.is_dark());
 }
 
+namespace {
+
+/// A spot, a directional light and a camera in one node with `own`, below a node with `above`.
+mir::LoadedScene lamps_and_camera(const std::string& above, const std::string& own) {
+    const std::string shared =
+        R"("extensions":{"KHR_lights_punctual":{"lights":[)"
+        R"({"type":"spot","spot":{}},{"type":"directional"}]}},)"
+        R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)";
+    const auto light = [&](const char* k) {
+        return "{" + own + R"("extensions":{"KHR_lights_punctual":{"light":)" + k + "}}}";
+    };
+    return read_node(above + R"("children":[1,2,3]},)" + light("0") + "," + light("1") + ",{" +
+                         own + R"("camera":0)",
+                     shared);
+}
+
+void check_aim(const mir::LoadedScene& loaded, Vec3 direction) {
+    REQUIRE(loaded.scene.spot_lights.size() == 1);
+    REQUIRE(loaded.scene.directional_lights.size() == 1);
+    REQUIRE(loaded.scene.cameras.size() == 1);
+    CHECK(distance(loaded.scene.spot_lights[0].direction, direction) < 1e-6f);
+    CHECK(distance(loaded.scene.directional_lights[0].direction, direction) < 1e-6f);
+    CHECK(distance(loaded.scene.cameras[0].back, -direction) < 1e-6f);
+}
+
+}  // namespace
+
+TEST_CASE("the scale of its node does not turn a light or a camera") {
+    // A quarter turn about y: -z becomes -x.
+    const std::string turned = R"("translation":[1,2,3],"rotation":[0,1,0,1],)";
+    for (const char* scale : {"[-1,-1,-1]", "[1,1,-1]", "[-2,1,1]", "[3,0.5,-7]", "[0,0,0]"}) {
+        CAPTURE(scale);
+        const auto loaded = lamps_and_camera("", turned + R"("scale":)" + scale + ",");
+        check_aim(loaded, {-1, 0, 0});
+        CHECK(loaded.scene.spot_lights[0].position == Vec3(1, 2, 3));
+        CHECK(distance(loaded.scene.cameras[0].right, {0, 0, -1}) < 1e-6f);
+        CHECK(distance(loaded.scene.cameras[0].up, {0, 1, 0}) < 1e-6f);
+    }
+}
+
+TEST_CASE("scale above a light or a camera tilts and mirrors it, at a point does not") {
+    const std::string turned = R"("translation":[1,2,3],"rotation":[0,1,0,1],)";
+    check_aim(lamps_and_camera(R"("scale":[-1,-1,-1],)", turned), {-1, 0, 0});
+    CHECK(lamps_and_camera(R"("scale":[-1,-1,-1],)", turned).scene.spot_lights[0].position ==
+          Vec3(-1, -2, -3));
+    check_aim(lamps_and_camera(R"("scale":[1,1,-1],)", turned), {-1, 0, 0});
+    check_aim(lamps_and_camera(R"("scale":[-1,1,1],)", turned), {1, 0, 0});
+    // An eighth of a turn about y, half as far along x.
+    check_aim(
+        lamps_and_camera(R"("scale":[0.5,1,1],)", R"("rotation":[0,0.3826834324,0,0.9238795325],)"),
+        Vec3(-0.4472136f, 0, -0.8944272f));
+}
+
 TEST_CASE("cameras keep their frame without the scale of their nodes") {
     const std::string cameras =
         R"("cameras":[{"type":"perspective","name":"c","perspective":{"yfov":0.75,"znear":1,)"

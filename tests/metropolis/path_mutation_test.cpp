@@ -99,6 +99,25 @@ TEST_CASE("gaps that move the first hit alone are rare, because the VPL stays") 
     for (std::uint32_t k = 3; k <= 12; ++k) CHECK(c.gap_probability(k, {0, 2}) <= 0.1);
 }
 
+TEST_CASE("a gap is half as likely with each vertex more or less than one") {
+    const GapChoices c(2, 8);
+    const double one = c.gap_probability(5, {1, 3});
+    CHECK(c.gap_probability(5, {1, 2}) == Approx(one / 2));
+    CHECK(c.gap_probability(5, {1, 4}) == Approx(one / 2));
+    CHECK(c.gap_probability(5, {1, 5}) == Approx(one / 4));
+    CHECK(c.gap_probability(5, {0, 3}) == Approx(one / 2));
+    CHECK(c.gap_probability(5, {4, 6}) == Approx(one));
+    CHECK(c.gap_probability(5, {0, 2}) == Approx(one / 4));
+}
+
+TEST_CASE("a count is half as likely with each vertex more or less than were taken out") {
+    const GapChoices c(2, 8);
+    const double two = c.count_probability(5, {1, 4}, 2);
+    for (const auto& [n, share] : {std::pair{0u, 4}, {1u, 2}, {3u, 2}, {4u, 4}, {5u, 8}})
+        CHECK(c.count_probability(5, {1, 4}, n) == Approx(two / share));
+    CHECK(c.count_probability(5, {1, 4}, 6) == 0.0);
+}
+
 namespace {
 
 /// p-value of "gaps and counts are drawn as their probabilities, with `bias` to the gaps', say".

@@ -124,6 +124,24 @@ TEST_CASE("every bounce of the furnace has its radiance", "[statistical]") {
     CHECK(p_of_furnace<mir::PowerRules>({.max_bounce = 8, .roulette_from = 5}) > level);
 }
 
+// H0: mean radiance L_e / (1 - rho) = 20, a fifth of which is scattered more than 32 times.
+// Student's t over 32 replicates of 16 x 16 luxels with 8 samples, seed 316, level 1 %.
+TEST_CASE("without a largest bounce a bright furnace has all of its radiance", "[statistical]") {
+    const Studio<Lambert> studio(mir::builtin::furnace_box(0.95f, 1.0f));
+    mir::ReferenceOptions options;
+    options.samples = 8;
+    options.last_bounce = 3;
+    const auto p = [&](const mir::PathTracerOptions& paths) {
+        TileMeans means(16);
+        for (const auto& image :
+             replicates(studio.tracer(paths), studio.rays(16, 316), options, 32))
+            means.add(image.beauty());
+        return mean_p_value(means.moments().front(), 20.0, 1e-6);
+    };
+    CHECK(p({}) > 0.01);
+    CHECK(p({.max_bounce = 32}) < 1e-9);
+}
+
 TEST_CASE("the furnace rejects roulette without compensation, lost paths and light counted twice",
           "[statistical]") {
     const double level = sidak(0.01, 32);

@@ -68,7 +68,10 @@ TEST_CASE("roulette keeps the mean of every channel") {
     CHECK(mean_after_roulette<mirtest::NoCompensation>({0.2f, 0.1f, 0.0f}) < 0.05);
 }
 
-TEST_CASE("roulette ends black paths and leaves bright ones alone") {
+TEST_CASE("roulette ends black paths, and every other with odds that do not vanish") {
     CHECK(is_black(BalanceRules::roulette({}, 0.0f)));
-    CHECK(BalanceRules::roulette({1.0f, 0.5f, 0.0f}, 0x1.fffffep-1f) == mir::Rgb{1.0f, 0.5f, 0.0f});
+    for (const mir::Rgb t : {mir::Rgb{1.0f, 0.5f, 0.0f}, {40.0f, 1.0f, 1.0f}}) {
+        CHECK(BalanceRules::roulette(t, 0.9989f) == t * (1.0f / BalanceRules::most_odds));
+        CHECK(is_black(BalanceRules::roulette(t, 0.9991f)));
+    }
 }

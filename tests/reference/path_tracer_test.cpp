@@ -141,6 +141,31 @@ TEST_CASE("light stops after the largest bounce") {
     CHECK(small_image(studio, {.max_bounce = 2}).last_bounce() == 2);
 }
 
+TEST_CASE("later bounces than there is room for go to the last element") {
+    const Studio<Lambert> studio(box());
+    const auto tracer = studio.tracer({});
+    const auto first = tracer.first_vertex({{0, 1, 0.9f}, {0, -1, 0}});
+    REQUIRE(first);
+    std::array<mir::RgbSum, 3> few{};
+    std::array<mir::RgbSum, 64> many{};
+    mir::Random random(9, mir::Stream::reference, 0);
+    mir::Random same = random;
+    for (int i = 0; i < 200; ++i) {
+        tracer.trace(*first, random, few);
+        tracer.trace(*first, same, many);
+    }
+    double later = 0.0;
+    for (std::size_t b = 2; b < many.size(); ++b) later += many[b].channel[0];
+    CHECK(few[1].channel[0] == many[1].channel[0]);
+    CHECK(few[2].channel[0] == Approx(later).epsilon(1e-12));
+    CHECK(later > many[2].channel[0]);
+}
+
+TEST_CASE("paths end between white walls") {
+    const Studio<Lambert> studio(mir::builtin::furnace_box(1.0f, 1.0f));
+    CHECK(is_sound(small_image(studio, {}).beauty()));
+}
+
 TEST_CASE("scenes without light, without reflection, without anything give black") {
     mir::Scene black = box();
     for (mir::Material& m : black.materials) m.base_color = {};
@@ -177,5 +202,7 @@ TEST_CASE("options out of range are refused") {
     CHECK_THROWS_AS(studio.tracer({.max_bounce = 0}), mir::Error);
     CHECK_THROWS_AS(studio.tracer({.max_bounce = 255}), mir::Error);
     CHECK_THROWS_AS(studio.tracer({.roulette_from = 0}), mir::Error);
+    CHECK_THROWS_AS(studio.tracer({.roulette_from = 255}), mir::Error);
+    CHECK_NOTHROW(studio.tracer({.max_bounce = 254, .roulette_from = 255}));
     CHECK_THROWS_AS(studio.tracer({.bound = 0.0f}), mir::Error);
 }

@@ -55,7 +55,7 @@ TEST_CASE("a furnace with textured walls has radiance 1", "[statistical]") {
         constexpr int n = 40000;
         for (int i = 0; i < n; ++i) {
             const mir::Ray ray{{0, 0, 0}, mir::square_to_sphere(random.next_2d())};
-            std::vector<mir::RgbSum> bounces(options.max_bounce + 1u);
+            std::vector<mir::RgbSum> bounces(8);
             const auto first = tracer.first_vertex(ray);
             REQUIRE(first.has_value());
             tracer.trace(*first, random, bounces);

@@ -33,7 +33,8 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
         CHECK(all.at(key).get<double>() > 0.0);
     CHECK(all.at("non_lambertian_share") == 0.0);
     CHECK(all.at("widened_share") == 0.0);
-    CHECK(all.at("removed_share").get<double>() >= 0.0);
+    for (const char* key : {"removed_share", "removed_share_error", "cut_share", "cut_share_error"})
+        CHECK(all.at(key).get<double>() >= 0.0);
     CHECK_FALSE(all.contains("removed_tiles"));
     CHECK(all.at("vsl_radius") == 0.0);
     CHECK(all.at("residual_paths") == 0);

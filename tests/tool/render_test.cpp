@@ -170,7 +170,9 @@ TEST_CASE("the header tells how the picture was made") {
     CHECK(vpls > 0);
     CHECK(attribute_of(path, "mir:contributions") == std::to_string(24 * 18 * 2 * vpls));
     CHECK(std::stoi(attribute_of(path, "mir:light_paths")) > 0);
-    CHECK(std::stof(attribute_of(path, "mir:removed_share")) >= 0.0f);
+    for (const char* name :
+         {"mir:removed_share", "mir:removed_share_error", "mir:cut_share", "mir:cut_share_error"})
+        CHECK(std::stof(attribute_of(path, name)) >= 0.0f);
     CHECK(attribute_of(path, "mir:seconds") == "none");
     render(small_render(path) + Words{"--record-seconds", "--chains", "4"});
     CHECK(std::stof(attribute_of(path, "mir:seconds")) > 0.0f);

@@ -163,7 +163,8 @@ void add_sampling(CLI::App& app, RenderOptions& o) {
     app.add_option("--direct-samples", s.direct_samples, "Lamp samples per pixel (default 16)")
         ->check(between(1, 65536, "1 to 65536"));
     add_count(app, "--bounces", s.max_bounce, 1, 254,
-              "Largest number of reflections on the way to the camera (default 32)");
+              "Largest number of reflections on the way to the camera (default 32; no limit with "
+              "--integrator path)");
     app.add_option_function<std::string>(
            "--bound",
            [&s](const std::string& text) {

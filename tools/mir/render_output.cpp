@@ -64,6 +64,18 @@ void append_chain_attributes(const mir::RenderStatistics& s, mir::ExrAttributes&
     add("mir:dropped_share", s.dropped_share);
 }
 
+/// What the VPLs' light lacks, as far as it was measured.
+void append_missing_attributes(const mir::RenderStatistics& s, mir::ExrAttributes& all) {
+    const auto add = [&](const char* name, double value) {
+        all.push_back({name, static_cast<float>(value)});
+    };
+    add("mir:removed_share", s.removed_share());
+    if (s.removed) add("mir:removed_share_error", s.removed->standard_error);
+    if (!s.cut) return;
+    add("mir:cut_share", s.cut->share);
+    add("mir:cut_share_error", s.cut->standard_error);
+}
+
 void append_pass_attributes(const mir::RenderStatistics& s, mir::ExrAttributes& all) {
     all.push_back({"mir:passes", static_cast<int>(s.passes)});
     all.push_back({"mir:complete", s.complete ? 1 : 0});
@@ -84,9 +96,9 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
         {"mir:luxels_per_pixel", static_cast<int>(o.settings.luxels_per_pixel)},
         {"mir:contributions", std::to_string(s.contributions)},
         {"mir:bound", s.bound},
-        {"mir:removed_share", static_cast<float>(s.removed_share())},
     };
     if (s.origin != mir::DVec3(0.0)) all.push_back({"mir:origin", s.origin});
+    append_missing_attributes(s, all);
     append_pass_attributes(s, all);
     append_chain_attributes(s, all);
     if (o.record_seconds) all.push_back({"mir:seconds", static_cast<float>(s.seconds.total)});
@@ -153,6 +165,13 @@ Json mean_of(const mir::Image<mir::Rgb>& image) {
     return {r / n, g / n, b / n};
 }
 
+void add_missing(Json& out, const mir::RenderStatistics& s) {
+    out["removed_share"] = s.removed_share();
+    out["removed_share_error"] = s.removed ? Json(s.removed->standard_error) : Json();
+    out["cut_share"] = s.cut ? Json(s.cut->share) : Json();
+    out["cut_share_error"] = s.cut ? Json(s.cut->standard_error) : Json();
+}
+
 /// True when both names lead to the same place; an empty name leads nowhere.
 bool are_one_file(const std::string& a, const std::string& b) {
     const auto place = [](const std::string& name) {
@@ -169,6 +188,21 @@ void print_health(const mir::ChainHealth& h) {
     // Chains that record once say nothing about how they mix.
     if (std::isfinite(h.split_r_hat)) std::fprintf(stderr, ", R-hat %.2f", h.split_r_hat);
     std::fprintf(stderr, "\n");
+}
+
+/// "1.2 +- 0.3 % by the bound", three digits of what is small.
+std::string missing_text(const mir::ShareEstimate& e, const char* by) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%.3g +- %.1g %% %s", 100.0 * e.share,
+                  100.0 * e.standard_error, by);
+    return text;
+}
+
+void print_missing(const mir::RenderStatistics& s) {
+    if (!s.removed || !s.cut) return;
+    std::fprintf(stderr, "mir: missing of the VPLs' light: %s, %s\n",
+                 missing_text(*s.removed, "by the bound").c_str(),
+                 missing_text(*s.cut, "by the largest number of reflections").c_str());
 }
 
 /// Where the bound removed light: 256 tiles at most.
@@ -258,6 +292,7 @@ void print_summary(const mir::RenderResult& r) {
         std::fprintf(stderr, ", %.1f M contributions/s", 1e-6 * contributions_per_second(s));
     std::fputc('\n', stderr);
     if (s.health) print_health(*s.health);
+    print_missing(s);
     for (const std::string& warning : r.warnings)
         std::fprintf(stderr, "mir: warning: %s\n", warning.c_str());
 }
@@ -308,7 +343,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["indirect_luminance"] = s.indirect_luminance;
     if (s.health) out["chains"] = health_of(*s.health);
     out["bound"] = s.bound;
-    out["removed_share"] = s.removed_share();
+    add_missing(out, s);
     out["removed_luminance"] = s.removed_luminance;
     if (!r.removed.pixels().empty()) out["removed_tiles"] = tiles_of(r.removed);
     out["vsl_radius"] = s.vsl_radius;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "host_render.hpp"
+#include "mir/runtime/missing_light.hpp"
 #include "mir/runtime/path_render.hpp"
 #include "mir/runtime/residual_light.hpp"
 
 template class mir::ResidualLight<mir::Lambert, mir::AnyEngine, mir::cpu::HostLoops>;
 template class mir::ResidualLight<mir::CookTorrance, mir::AnyEngine, mir::cpu::HostLoops>;
+template class mir::MissingLight<mir::Lambert, mir::AnyEngine, mir::cpu::HostLoops>;
+template class mir::MissingLight<mir::CookTorrance, mir::AnyEngine, mir::cpu::HostLoops>;
 
 namespace mir::cpu {
 

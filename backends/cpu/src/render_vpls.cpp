@@ -11,6 +11,8 @@ extern template SampledVpls sample_vpls(
     const RenderContext<CookTorrance, AnyEngine, cpu::HostLoops>&, const LightTable&, float);
 extern template class ResidualLight<Lambert, AnyEngine, cpu::HostLoops>;
 extern template class ResidualLight<CookTorrance, AnyEngine, cpu::HostLoops>;
+extern template class MissingLight<Lambert, AnyEngine, cpu::HostLoops>;
+extern template class MissingLight<CookTorrance, AnyEngine, cpu::HostLoops>;
 extern template Image<Rgb> vsl_light(const BlockedGBuffer<Lambert::Params>&,
                                      const VisibilityMatrix&, VplSpan<Space::host>,
                                      std::span<const float>, VslShading<Lambert>, cpu::HostLoops&);

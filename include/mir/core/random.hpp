@@ -27,7 +27,8 @@ enum class Stream : std::uint32_t {
     pass,           ///< seeds of the passes of a progressive render
     residual,       ///< paths that trace back what the bound removed
     distant_vpls,   ///< directions towards the environment that all luxels share
-    vsl             ///< directions in which luxels see the spheres of VSLs
+    vsl,            ///< directions in which luxels see the spheres of VSLs
+    missing         ///< paths that tell what VPLs leave out
 };
 
 /// 128 bits as four words; a plain array, because device code cannot index std::array.

@@ -9,6 +9,7 @@
 #include "mir/shading/scene_light.hpp"
 #include "mir/shading/surface_table.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
@@ -30,8 +31,9 @@ struct PathTracerOptions {
     /// Every later vertex takes one: the cost is linear in `light_samples` and `directions`, not
     /// their product.
     std::uint32_t light_samples = 1;
-    std::uint32_t directions = 1;    ///< paths that go on from the first vertex
-    std::uint8_t max_bounce = 32;    ///< largest number of scattering events, 1..254
+    std::uint32_t directions = 1;  ///< paths that go on from the first vertex
+    /// Largest number of scattering events, 1..254; none: roulette alone ends paths.
+    std::optional<std::uint8_t> max_bounce = std::nullopt;
     std::uint8_t roulette_from = 3;  ///< first vertex where a path may end by chance; 255: never
     /// Largest geometry term of the first two vertices, m^-2, in paths that are scattered at both:
     /// what VplShading gives to the light of VPLs. Emission and other direct light are not bounded.
@@ -42,9 +44,9 @@ struct PathTracerOptions {
 
 /// Unidirectional path tracer with next-event estimation, the reference that other estimators are
 /// compared with: radiance split by the number b of scattering events, D_0 emission seen directly,
-/// D_1 direct light, D_b what VPLs of bounce b bring. Unbiased up to `max_bounce`. Point, spot and
-/// directional lights are summed exactly at every vertex, since no direction finds them. Rays that
-/// leave the scene see its environment.
+/// D_1 direct light, D_b what VPLs of bounce b bring. Unbiased, up to `max_bounce` if there is one.
+/// Point, spot and directional lights are summed exactly at every vertex, since no direction finds
+/// them. Rays that leave the scene see its environment.
 ///
 /// Conventions are those of docs/method.md, 4: shading normal at the receiver, geometric normal at
 /// the emitter, black where shading and geometric side disagree, points lifted by
@@ -84,7 +86,8 @@ class PathTracer {
     }
 
     /// Adds one estimate of the radiance that leaves `first` towards the viewer, W m^-2 sr^-1:
-    /// D_b is added to element b of `bounces`, which has max_bounce + 1 elements.
+    /// D_b is added to element b of `bounces`, which has two elements or more. The last one takes
+    /// all later bounces too.
     void trace(const Vertex& first, Random& random, std::span<RgbSum> bounces) const;
 
  private:
@@ -92,23 +95,26 @@ class PathTracer {
     struct Walk {
         Vertex at;
         float share = 1.0f;  ///< of the directions of the first vertex
-        std::uint8_t bounce = 1;
+        std::uint32_t bounce = 1;
         Rgb throughput{1.0f, 1.0f, 1.0f};
     };
 
     [[nodiscard]] Vertex vertex(const SurfacePoint& p, Vec3 direction) const;
-    [[nodiscard]] std::uint32_t light_samples_at(std::uint8_t bounce) const;
-    [[nodiscard]] std::uint32_t directions_at(std::uint8_t bounce) const;
-    [[nodiscard]] Rgb sampled_light(const Vertex& at, std::uint8_t bounce, Random& random) const;
-    [[nodiscard]] Rgb light_sample(const Vertex& at, std::uint8_t bounce, Random& random) const;
+    [[nodiscard]] std::uint32_t light_samples_at(std::uint32_t bounce) const;
+    [[nodiscard]] std::uint32_t directions_at(std::uint32_t bounce) const;
+    [[nodiscard]] Rgb sampled_light(const Vertex& at, std::uint32_t bounce, Random& random) const;
+    [[nodiscard]] Rgb light_sample(const Vertex& at, std::uint32_t bounce, Random& random) const;
     [[nodiscard]] Rgb found_light(const Walk& walk, const BsdfSample& sample,
                                   const SurfacePoint& point, const Vertex& next) const;
     [[nodiscard]] std::optional<SurfacePoint> next_point(const Walk& walk, Vec3 direction) const;
-    [[nodiscard]] Rgb environment_sample(const Vertex& at, std::uint8_t bounce,
+    [[nodiscard]] Rgb environment_sample(const Vertex& at, std::uint32_t bounce,
                                          Random& random) const;
     [[nodiscard]] Rgb found_environment(const Walk& walk, const BsdfSample& sample) const;
-    [[nodiscard]] bool is_all_wanted(std::uint8_t bounce) const;
+    [[nodiscard]] bool is_all_wanted(std::uint32_t bounce) const;
     bool advance(Walk& walk, Random& random, std::span<RgbSum> bounces) const;
+    static RgbSum& sum_of(std::span<RgbSum> bounces, std::uint32_t bounce) {
+        return bounces[std::min<std::size_t>(bounce, bounces.size() - 1)];
+    }
 
     World world_;
     PathTracerOptions options_;
@@ -131,8 +137,10 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
             "none");
     expects(options.directions >= 1 && options.directions <= 65536,
             "directions at the first vertex must be 1 to 65536");
-    expects(options.max_bounce >= 1 && options.max_bounce < 255,
+    expects(!options.max_bounce || (*options.max_bounce >= 1 && *options.max_bounce < 255),
             "the largest bounce must be 1 to 254");
+    expects(options.max_bounce || options.roulette_from < 255,
+            "paths with neither a largest bounce nor roulette never end; give one of them");
     expects(options.roulette_from >= 1,
             "roulette cannot start before the first vertex; use 1 to 254, or 255 for none");
     expects(options.bound > 0.0f,
@@ -198,13 +206,14 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
     if (is_black(walk.throughput) || !(glm::dot(sample.wi, hit.normal) > 0.0f)) return false;
     const auto point = next_point(walk, sample.wi);
     if (!point) {
-        bounces[walk.bounce] += walk.throughput * found_environment(walk, sample) * walk.share;
+        sum_of(bounces, walk.bounce) +=
+            walk.throughput * found_environment(walk, sample) * walk.share;
         return false;
     }
 
     const Vertex next = vertex(*point, sample.wi);
     const Rgb found = found_light(walk, sample, *point, next);
-    bounces[walk.bounce] += walk.throughput * found * walk.share;
+    sum_of(bounces, walk.bounce) += walk.throughput * found * walk.share;
     if (last || B::is_black(next.surface.bsdf)) return false;
     if (walk.bounce == 1)
         walk.throughput = walk.throughput * split_.reflected(hit, surface.normal, next.hit);
@@ -212,20 +221,20 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
     walk.at = next;
     ++walk.bounce;
     const Rgb light = sampled_light(walk.at, walk.bounce, random);
-    bounces[walk.bounce] += walk.throughput * light * walk.share;
+    sum_of(bounces, walk.bounce) += walk.throughput * light * walk.share;
     return true;
 }
 
 /// Points on emissive triangles that a vertex asks for, and directions towards the environment.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-std::uint32_t PathTracer<B, R, V, Rules>::light_samples_at(std::uint8_t bounce) const {
+std::uint32_t PathTracer<B, R, V, Rules>::light_samples_at(std::uint32_t bounce) const {
     if (options_.light == LightSearch::directions) return 0;
     return bounce == 1 ? options_.light_samples : 1;
 }
 
 /// Scattered directions of a vertex that may find emissive triangles or the environment.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-std::uint32_t PathTracer<B, R, V, Rules>::directions_at(std::uint8_t bounce) const {
+std::uint32_t PathTracer<B, R, V, Rules>::directions_at(std::uint32_t bounce) const {
     const bool any = world_.lights.has_emitters() || !environment_.empty();
     if (options_.light == LightSearch::lamps || !any) return 0;
     return bounce == 1 ? options_.directions : 1;
@@ -233,7 +242,7 @@ std::uint32_t PathTracer<B, R, V, Rules>::directions_at(std::uint8_t bounce) con
 
 /// Light that the samples of a vertex bring, f cos included, W m^-2 sr^-1.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint8_t bounce,
+Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint32_t bounce,
                                               Random& random) const {
     const std::uint32_t samples = light_samples_at(bounce);
     Rgb sum;
@@ -248,12 +257,12 @@ Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint8_t bou
 /// Whether light that no bound holds for counts at a vertex: lights without extent, the
 /// environment.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-bool PathTracer<B, R, V, Rules>::is_all_wanted(std::uint8_t bounce) const {
+bool PathTracer<B, R, V, Rules>::is_all_wanted(std::uint32_t bounce) const {
     return bounce > 1 || split_.unbounded() > 0.0f;
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint8_t bounce,
+Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint32_t bounce,
                                              Random& random) const {
     const float pick = random.next();
     const EmitterSample e = world_.lights.sample_emitter(pick, random.next_2d());
@@ -279,7 +288,7 @@ Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint8_t boun
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::environment_sample(const Vertex& at, std::uint8_t bounce,
+Rgb PathTracer<B, R, V, Rules>::environment_sample(const Vertex& at, std::uint32_t bounce,
                                                    Random& random) const {
     const EnvironmentSample from = environment_.sample(random.next_2d());
     const Rgb light = environment_light_.unshadowed(at.hit, at.surface, from);

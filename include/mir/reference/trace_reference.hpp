@@ -43,7 +43,8 @@ class ReferenceRows {
         : tracer_(tracer), rays_(rays), options_(options), image_(image) {}
 
     void operator()(std::uint32_t y) const {
-        std::vector<RgbSum> bounces(std::size_t{tracer_.options().max_bounce} + 1);
+        // Bounces without a layer share the last element.
+        std::vector<RgbSum> bounces(std::size_t{image_.last_bounce()} + 2);
         for (std::uint32_t x = 0; x < image_.extent().width; ++x) {
             const auto seen = tracer_.first_vertex(rays_(x, y));
             for (std::uint32_t r = 0; r < options_.replicates; ++r) {
@@ -96,9 +97,10 @@ ReferenceImage trace_reference(const Tracer& tracer, const CameraRays& rays,
     expects(options.samples >= 1 && options.replicates >= 1,
             "a reference of no samples was asked for (there would be no image); ask for at least "
             "one sample and one replicate");
-    ReferenceImage image(rays.grid.luxels(),
-                         std::min(options.last_bounce, tracer.options().max_bounce),
-                         options.replicates);
+    ReferenceImage image(
+        rays.grid.luxels(),
+        std::min(options.last_bounce, tracer.options().max_bounce.value_or(options.last_bounce)),
+        options.replicates);
     const detail::ReferenceRows<Tracer> row(tracer, rays, options, image);
     executor.for_each(image.extent().height,
                       [&](std::size_t y) { row(static_cast<std::uint32_t>(y)); });

@@ -103,6 +103,23 @@ inline void add_mixing_warnings(const ChainHealth& h, std::vector<std::string>& 
                            ", 1 is ideal); a longer --stride or fewer --chains help");
 }
 
+/// "17.3 +- 0.8 %".
+inline std::string percent(const ShareEstimate& e) {
+    return rounded(100.0 * e.share, 1) + " +- " + rounded(100.0 * e.standard_error, 1) + " %";
+}
+
+inline void add_missing_warnings(const RenderStatistics& s, std::vector<std::string>& warnings) {
+    if (s.removed_share() > 0.05 && s.residual_paths == 0)
+        warnings.push_back(
+            "the bound removed " +
+            (s.removed ? percent(*s.removed) : rounded(100.0 * s.removed_share(), 1) + " %") +
+            " of the indirect light; more VPLs lose less, --compensate 4 traces it back");
+    if (s.cut && s.cut->share > 0.005)
+        warnings.push_back("the largest number of reflections cuts " + percent(*s.cut) +
+                           " of the indirect light; a larger --bounces cuts less, --integrator "
+                           "path nothing");
+}
+
 }  // namespace detail
 
 /// Adds what Markov chains have to say about themselves.
@@ -123,10 +140,7 @@ inline void add_result_warnings(const RenderResult& result, std::vector<std::str
     if (s.dropped_triangles > 0)
         warnings.push_back(std::to_string(s.dropped_triangles) +
                            " triangles without area were left out");
-    if (s.removed_share() > 0.05 && s.residual_paths == 0)
-        warnings.push_back(
-            "the bound removed " + detail::rounded(100.0 * s.removed_share(), 1) +
-            " % of the indirect light; more VPLs lose less, --compensate 4 traces it back");
+    detail::add_missing_warnings(s, warnings);
     if (s.non_lambertian_share > 0.01f)
         warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.non_lambertian_share), 1) +
                            " % of the VPLs' light comes from glossy surfaces and is spread as if "

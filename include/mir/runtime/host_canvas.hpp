@@ -6,6 +6,7 @@
 #include "mir/reshade.hpp"
 #include "mir/runtime/any_engine.hpp"
 #include "mir/runtime/film_layers.hpp"
+#include "mir/runtime/missing_light.hpp"
 #include "mir/runtime/render_job.hpp"
 #include "mir/runtime/residual_light.hpp"
 #include "mir/vsl_light.hpp"
@@ -82,6 +83,13 @@ class HostCanvas {
         const AnyEngine engine(job_.engine);
         const auto context = job_.context().through(engine);
         return ResidualLight<B, AnyEngine, E>(context, job_.lights, bound).add_to(layers, band);
+    }
+
+    /// What VPLs leave out under `bound`, m^-2; the largest number for none.
+    [[nodiscard]] MissingShares missing(float bound) const {
+        const AnyEngine engine(job_.engine);
+        const auto context = job_.context().through(engine);
+        return MissingLight<B, AnyEngine, E>(context, job_.lights, bound).measure();
     }
 
     /// sum += layer.

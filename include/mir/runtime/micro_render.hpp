@@ -81,11 +81,11 @@ SurfelTree MicroRender<B, Engine, E>::make_tree() {
 /// light may be reflected once alone.
 template <Bsdf B, class Engine, Executor E>
 auto MicroRender<B, Engine, E>::light(const SurfelTree& tree) -> std::vector<Radiance> {
-    if (job_.settings.max_bounce < 2) return {};
+    if (job_.settings.bounce_limit() < 2) return {};
     const auto stage = job_.clock.measure(&StageSeconds::sampling);
     const MicroSettings& m = job_.settings.micro;
     SurfelBounceOptions options;
-    options.last = static_cast<std::uint8_t>(job_.settings.max_bounce - 1);
+    options.last = static_cast<std::uint8_t>(job_.settings.bounce_limit() - 1);
     options.gather = m.gather;
     options.gather.rays = m.surfel_rays;
     options.gather.directions = GatherDirections::cosine;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace mir {
 
@@ -24,6 +25,15 @@ inline void add_pass(PathLuminance& all, const PathLuminance& pass, std::uint32_
         std::hypot(all.standard_error * earlier, pass.standard_error) / (earlier + 1.0);
     all.paths += pass.paths;
     all.contributing += pass.contributing;
+}
+
+/// Independent estimates of one share.
+inline void add_pass(std::optional<ShareEstimate>& all, const std::optional<ShareEstimate>& pass,
+                     std::uint32_t earlier) {
+    if (!all || !pass) return all.reset();
+    all->share = mean_with(all->share, pass->share, earlier);
+    all->standard_error =
+        std::hypot(all->standard_error * earlier, pass->standard_error) / (earlier + 1.0);
 }
 
 inline void add_pass(ChainHealth& all, const ChainHealth& pass, std::uint32_t earlier) {
@@ -58,6 +68,8 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
          {&RenderStatistics::non_lambertian_share, &RenderStatistics::widened_share})
         all.*share = static_cast<float>(detail::mean_with(
             static_cast<double>(all.*share), static_cast<double>(pass.*share), earlier));
+    detail::add_pass(all.removed, pass.removed, earlier);
+    detail::add_pass(all.cut, pass.cut, earlier);
     if (all.health && pass.health) detail::add_pass(*all.health, *pass.health, earlier);
     for (const RenderStage& stage : render_stages)
         all.seconds.*stage.seconds += pass.seconds.*stage.seconds;

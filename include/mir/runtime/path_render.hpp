@@ -62,7 +62,8 @@ ReferenceImage PathRender<B, Engine, E>::trace() {
     ReferenceOptions wanted;
     wanted.samples = job_.settings.path.samples;
     wanted.replicates = 1;
-    wanted.last_bounce = job_.settings.bounce_layers ? job_.settings.max_bounce : std::uint8_t{1};
+    wanted.last_bounce =
+        job_.settings.bounce_layers ? job_.settings.bounce_limit() : std::uint8_t{1};
     return trace_reference(tracer, job_.rays, wanted, job_.executor);
 }
 

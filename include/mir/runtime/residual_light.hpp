@@ -44,7 +44,7 @@ class ResidualLight {
                                trace({hit, luxels.surface(i)},
                                      rows.luxel_numbers(x, y, Stream::residual));
                            RgbSum sum;
-                           for (std::uint32_t b = 1; b <= context_.settings.max_bounce; ++b)
+                           for (std::uint32_t b = 1; b <= context_.settings.bounce_limit(); ++b)
                                sum += bounces[b];
                            light(x, y) = sum.rgb();
                            layers[indirect_layer](x, y) += light(x, y);
@@ -62,7 +62,7 @@ class ResidualLight {
     static PathTracerOptions options_of(const RenderSettings& settings, float bound) {
         PathTracerOptions options;
         options.directions = settings.compensate_per_luxel();
-        options.max_bounce = settings.max_bounce;
+        options.max_bounce = settings.bounce_limit();
         options.bound = bound;
         options.part = BoundPart::removed;
         options.bound_lamps = settings.direct == DirectLight::vpl;
@@ -72,7 +72,7 @@ class ResidualLight {
     [[nodiscard]] Bounces trace(const typename Tracer::Vertex& luxel, Random random) const {
         Bounces bounces{};
         tracer_.trace(luxel, random,
-                      std::span(bounces).first(std::size_t{context_.settings.max_bounce} + 1));
+                      std::span(bounces).first(std::size_t{context_.settings.bounce_limit()} + 1));
         return bounces;
     }
 

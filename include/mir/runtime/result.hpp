@@ -5,6 +5,7 @@
 #include "mir/data/vpl_list.hpp"
 #include "mir/film/guides.hpp"
 #include "mir/metropolis/chain_health.hpp"
+#include "mir/runtime/share_estimate.hpp"
 #include "mir/runtime/stage_seconds.hpp"
 
 #include <optional>
@@ -37,20 +38,24 @@ struct RenderStatistics {
     double vsl_radius = 0.0;            ///< mean radius of spherical lights, m; 0: points
     std::uint64_t residual_paths = 0;   ///< that traced back what the bound removed
     double residual_luminance = 0.0;    ///< mean over luxels of what they found
-    std::string backend;                ///< "cpu" or "cuda"
-    std::string device;                 ///< name of the GPU; empty on the processor
-    std::string acceleration;           ///< "bvh", "embree", "kdtree" or "kdtree+shafts"
-    std::string scheduler;              ///< its name in the Registry
-    std::string scene_hash;             ///< SceneHash::hex()
-    DVec3 origin{0.0};                  ///< Scene::origin of what was rendered, metres: positions
-                                        ///< of guides and VPLs are counted from it
-    StageSeconds seconds;               ///< of wall time, by stage
-    std::uint32_t passes = 1;           ///< renders whose mean the picture is (ProgressiveRender)
+    std::optional<ShareEstimate> removed;  ///< MissingShares::removed, where it was measured
+    std::optional<ShareEstimate> cut;      ///< MissingShares::cut, likewise
+    std::string backend;                   ///< "cpu" or "cuda"
+    std::string device;                    ///< name of the GPU; empty on the processor
+    std::string acceleration;              ///< "bvh", "embree", "kdtree" or "kdtree+shafts"
+    std::string scheduler;                 ///< its name in the Registry
+    std::string scene_hash;                ///< SceneHash::hex()
+    DVec3 origin{0.0};     ///< Scene::origin of what was rendered, metres: positions of guides and
+                           ///< VPLs are counted from it
+    StageSeconds seconds;  ///< of wall time, by stage
+    std::uint32_t passes = 1;  ///< renders whose mean the picture is (ProgressiveRender)
     std::optional<double> relative_error;  ///< of the picture, from their spread; needs two
     bool complete = true;                  ///< false: passes that were asked for are missing
 
-    /// Share of the VPLs' light that the bound removed, 0..1.
+    /// Share of the VPLs' light that the bound removed, 0..1: as measured, else as the VPLs tell
+    /// it, which is too little where few of them lie next to what they would light.
     [[nodiscard]] double removed_share() const {
+        if (removed) return removed->share;
         const double all = indirect_luminance + removed_luminance;
         return all > 0.0 ? removed_luminance / all : 0.0;
     }

@@ -15,7 +15,7 @@ namespace mir {
 template <class Options>
 Options with_common(Options options, const RenderSettings& settings) {
     options.emitter_vpls = settings.direct == DirectLight::vpl;
-    options.max_bounce = settings.max_bounce;
+    options.max_bounce = settings.bounce_limit();
     options.seed = settings.seed;
     return options;
 }
@@ -76,7 +76,7 @@ auto with_sampler(const RenderContext<B, Engine, E>& c, const LightTable& lights
     const RenderSettings& s = c.settings;
     using LightPaths = InstantRadiositySampler<B, decltype(c.engine.ray_caster())>;
     // With direct light alone, and not by VPLs, there is nothing to sample: light paths know that.
-    const bool any = s.max_bounce > 1 || s.direct == DirectLight::vpl;
+    const bool any = s.bounce_limit() > 1 || s.direct == DirectLight::vpl;
     const bool by_chains = any && s.sampler == SamplerKind::metropolis;
     if constexpr (SamplingEngine<Engine>)
         if (by_chains && !needs_probe(s))

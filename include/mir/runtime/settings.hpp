@@ -134,8 +134,10 @@ struct RenderSettings {
     Sequence sequence = Sequence::random;             ///< of SamplerKind::instant_radiosity
     DirectLight direct = DirectLight::separate;       ///< how it reaches the image
     std::uint32_t direct_samples = 16;                ///< next-event samples per pixel
-    std::uint8_t max_bounce = 32;                     ///< largest number of scattering events
-    BoundPolicy bound;                                ///< of the VPLs' geometry term
+    /// Largest number of scattering events, 1..254; none: bounce_limit() of VPLs and discs, no
+    /// limit of Integrator::path.
+    std::optional<std::uint8_t> max_bounce = std::nullopt;
+    BoundPolicy bound;  ///< of the VPLs' geometry term
     /// Paths per pixel that trace back what the bound removed, shared out among its luxels, at
     /// least one each; 0: none, so that this light is missing.
     std::uint32_t compensate = 0;
@@ -162,6 +164,9 @@ struct RenderSettings {
     [[nodiscard]] float aspect() const {
         return static_cast<float>(image.width) / static_cast<float>(image.height);
     }
+
+    /// Largest number of scattering events of the light that VPLs or discs bring.
+    [[nodiscard]] std::uint8_t bounce_limit() const { return max_bounce.value_or(32); }
 
     /// Next-event samples of one luxel: those of the pixel shared out, at least one.
     [[nodiscard]] std::uint32_t direct_samples_per_luxel() const {
@@ -274,13 +279,13 @@ inline void RenderSettings::validate() const {
             "camera paths per luxel must be 1 to 16777216");
     expects(path.directions >= 1 && path.directions <= 65536,
             "paths that go on from a first hit must be 1 to 65536");
-    expects(sampler == SamplerKind::instant_radiosity || max_bounce < max_path_edges,
+    expects(sampler == SamplerKind::instant_radiosity || bounce_limit() < max_path_edges,
             "samplers of whole paths hold at most 63 reflections; lower the largest bounce or use "
             "instant radiosity");
     expects(sampler != SamplerKind::metropolis || normalisation != NormalisationPolicy::none,
             "Metropolis sampling yields VPLs without intensities (they follow from what the image "
             "gets); normalise them: full, prepass or proposal");
-    expects(max_bounce >= 1 && max_bounce < 255, "the largest bounce must be 1 to 254");
+    expects(bounce_limit() >= 1 && bounce_limit() < 255, "the largest bounce must be 1 to 254");
     expects(!tile || (tile->width > 0 && tile->height > 0),
             "a tile of zero luxels was asked for (a tile must hold at least one); use 256x256");
     detail::check_tile(tile, luxel_grid(image, luxels_per_pixel, limits).luxels());

@@ -11,6 +11,8 @@
 #include "mir/sampling/vsl_radii.hpp"
 #include "mir/scene/scene_hash.hpp"
 
+#include <limits>
+
 namespace mir {
 
 namespace detail {
@@ -99,6 +101,7 @@ class TiledRender {
     [[nodiscard]] Layer removed_light(const Canvas& canvas, const Band& band,
                                       const VplLight<B>& light);
     void add_residual(const Canvas& canvas, const Band& band, std::vector<Layer>& layers);
+    void measure_missing(const Canvas& canvas);
     void add_mean(const Canvas& canvas, const Layer& layer, double RenderStatistics::*mean);
 
     RenderJob<B, Engine, E> job_;
@@ -225,6 +228,7 @@ void TiledRender<B, Engine, E, MakeScheduler>::render(const VplRecords& records,
     Canvas canvas(
         job_, make_scheduler_,
         std::size_t{first_bounce_layer} + light.bounces() + (job_.settings.removed_layer ? 1 : 0));
+    measure_missing(canvas);
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
         Band band = kept.empty() ? bands.make(i) : std::move(kept[i]);
         if (stores && !band.knows_visibility()) bands.find_visible(band, job_.result.vpls.span());
@@ -299,6 +303,20 @@ void TiledRender<B, Engine, E, MakeScheduler>::add_residual(const Canvas& canvas
              &RenderStatistics::residual_luminance);
     job_.result.statistics.residual_paths +=
         band.extent().area() * job_.settings.compensate_per_luxel();
+}
+
+/// Engines that keep luxels to themselves have no rays for the host without building for them.
+template <Bsdf B, class Engine, Executor E, class MakeScheduler>
+void TiledRender<B, Engine, E, MakeScheduler>::measure_missing(const Canvas& canvas) {
+    if constexpr (!BandEngine<Engine>) {
+        const auto stage = job_.clock.measure(&StageSeconds::ledger);
+        const bool bounded =
+            job_.settings.bound.kind != BoundPolicy::Kind::none && !job_.settings.vsl.enabled;
+        const MissingShares missing =
+            canvas.missing(bounded ? shading_.bound : std::numeric_limits<float>::max());
+        job_.result.statistics.cut = missing.cut;
+        job_.result.statistics.removed = missing.removed;
+    }
 }
 
 /// Adds what a band brings to a mean luminance over the image: row by row, so that bands change

@@ -28,7 +28,7 @@ class VplLight {
           details_(std::move(details)) {
         if (!settings.bounce_layers) return;
         // What is traced back may have bounced more often than any VPL.
-        layers_ = settings.compensate > 0 ? settings.max_bounce : vpls.max_bounce();
+        layers_ = settings.compensate > 0 ? settings.bounce_limit() : vpls.max_bounce();
         for (std::uint8_t b = 1; b <= vpls.max_bounce(); ++b) bounces_.push_back(vpls.bounce(b));
     }
 

@@ -5,12 +5,18 @@
 #include "report/sections.hpp"
 #include "text.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace mirtool {
 namespace {
 
 using FactRows = std::vector<std::vector<std::string>>;
+
+/// " ± 0.3 %", where it is known.
+std::string error_of(const std::optional<mir::ShareEstimate>& share) {
+    return share ? " ± " + percent(share->standard_error) : "";
+}
 
 std::string bound_text(const mir::RenderSettings& s, const mir::RenderStatistics& statistics) {
     if (s.bound.kind == mir::BoundPolicy::Kind::none) return "none";
@@ -20,7 +26,8 @@ std::string bound_text(const mir::RenderSettings& s, const mir::RenderStatistics
             ? ", traced back by " + std::to_string(s.compensate_per_luxel()) + " paths per luxel"
             : "";
     return number(statistics.bound) + " per m²" + how + ", removed " +
-           percent(statistics.removed_share()) + " of the VPLs' light" + traced;
+           percent(statistics.removed_share()) + error_of(statistics.removed) +
+           " of the VPLs' light" + traced;
 }
 
 void add_vpl_settings(FactRows& rows, const mir::RenderSettings& s,
@@ -50,6 +57,14 @@ void add_passes(FactRows& rows, const mir::RenderStatistics& s) {
     rows.push_back({"relative error, from their spread", percent(*s.relative_error)});
 }
 
+std::string bounce_text(const mir::RenderSettings& s, const mir::RenderStatistics& statistics) {
+    if (s.integrator == mir::Integrator::path && !s.max_bounce) return "none";
+    const std::string limit = std::to_string(s.bounce_limit());
+    if (!statistics.cut) return limit;
+    return limit + ", cuts " + percent(statistics.cut->share) + error_of(statistics.cut) +
+           " of the VPLs' light";
+}
+
 std::string machine_text(const mir::RenderStatistics& s) {
     return s.backend + (s.device.empty() ? "" : " (" + s.device + ")");
 }
@@ -73,7 +88,7 @@ std::string settings_section(const ReportInput& in) {
     add_passes(rows, statistics);
     rows.insert(rows.end(),
                 {{"lamp samples per pixel", std::to_string(s.direct_samples)},
-                 {"largest bounce", std::to_string(s.max_bounce)},
+                 {"largest bounce", bounce_text(s, statistics)},
                  {"seed", std::to_string(s.seed)},
                  {"machine", machine_text(statistics)},
                  {"acceleration structure", statistics.acceleration},

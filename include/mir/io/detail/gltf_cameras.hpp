@@ -19,7 +19,8 @@ inline bool is_orthonormal(const GltfPose& p) {
            near(glm::dot(p.y, p.z), 0) && near(glm::dot(p.z, p.x), 0);
 }
 
-/// Axes of a camera: the node's, without its scale and shear. A mirroring node mirrors the picture.
+/// Axes of a camera: the node's, without scale and shear. A mirror among the nodes
+/// above mirrors the picture.
 /// @throws Error(invalid_input) when the node flattens space.
 inline void aim_camera(const GltfPose& pose, const std::string& place, Camera& camera) {
     camera.right = pose.x;
@@ -79,7 +80,7 @@ inline void add_camera(const tinygltf::Model& model, int index, const PlacedNode
     }
     Camera camera = perspective_camera(from, gltf_place("camera", at, from.name));
     camera.name = entry.name;
-    const GltfPose pose = pose_of(placed.to_world, user);
+    const GltfPose pose = pose_of(placed, user);
     aim_camera(pose, user, camera);
     entry.index = static_cast<std::uint32_t>(scene.cameras.size());
     scene.cameras.push_back(camera);

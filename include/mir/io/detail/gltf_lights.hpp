@@ -20,9 +20,10 @@ struct GltfPose {
     Vec3 z{0, 0, 1};
 };
 
-inline GltfPose pose_of(const DMat4& to_world, const std::string& place) {
-    const DMat4& m = checked_matrix(to_world, place);
-    return {DVec3(m[3]), Vec3(m[0]), Vec3(m[1]), Vec3(m[2])};
+inline GltfPose pose_of(const PlacedNode& placed, const std::string& place) {
+    const Mat4 m(checked_matrix(placed.turn, place));
+    const DMat4& at = checked_matrix(placed.to_world, place);
+    return {DVec3(at[3]), Vec3(m[0]), Vec3(m[1]), Vec3(m[2])};
 }
 
 /// Unit direction in which a light shines: -z of its node.
@@ -77,7 +78,7 @@ inline void add_light(const tinygltf::Model& model, int index, const PlacedNode&
     const auto at = checked_index(index, model.lights.size(), "light", user);
     const tinygltf::Light& light = model.lights[at];
     const std::string place = gltf_place("light", at, light.name);
-    const GltfPose pose = pose_of(placed.to_world, user);
+    const GltfPose pose = pose_of(placed, user);
     const std::string name = light.name.empty() ? model.nodes[placed.node].name : light.name;
     const std::uint16_t group = light_group_of(light.extras, place);
     if (light.range > 0.0) ++report.ignored["range of a light"];

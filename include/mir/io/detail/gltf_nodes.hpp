@@ -19,6 +19,9 @@ namespace mir::detail {
 struct PlacedNode {
     std::size_t node = 0;
     DMat4 to_world{1.0};
+    /// Turns what has an orientation but no size, a light or a camera: rotations of this node and
+    /// of those above, whose scale tilts and mirrors it. The node's own scale does not count.
+    DMat4 turn{1.0};
 };
 
 inline std::string node_place(const tinygltf::Model& model, std::size_t index) {
@@ -59,12 +62,25 @@ inline DMat4 compose(const std::array<double, 3>& t, const std::array<double, 4>
     return m;
 }
 
-/// Transform of a node to its parent.
-inline DMat4 node_transform(const tinygltf::Node& node, const std::string& place) {
+/// The scale of a node along its axes.
+inline std::array<double, 3> scale_of(const tinygltf::Node& node, const std::string& place) {
+    return numbers_or<3>(node.scale, {1, 1, 1}, "scale", place);
+}
+
+/// What is left of a scale for orientations below it. Three negative numbers mirror at a point: no
+/// plane and no axis is left that could turn anything.
+inline std::array<double, 3> scale_of_turns(std::array<double, 3> s) {
+    if (s[0] < 0.0 && s[1] < 0.0 && s[2] < 0.0)
+        for (double& along : s) along = -along;
+    return s;
+}
+
+/// Transform of a node to its parent, with `scale` in place of its own unless it has a matrix.
+inline DMat4 node_transform(const tinygltf::Node& node, const std::array<double, 3>& scale,
+                            const std::string& place) {
     if (node.matrix.empty())
         return compose(numbers_or<3>(node.translation, {0, 0, 0}, "translation", place),
-                       numbers_or<4>(node.rotation, {0, 0, 0, 1}, "rotation", place),
-                       numbers_or<3>(node.scale, {1, 1, 1}, "scale", place), place);
+                       numbers_or<4>(node.rotation, {0, 0, 0, 1}, "rotation", place), scale, place);
     const auto numbers = numbers_or<16>(node.matrix, {}, "matrix", place);
     DMat4 m(1.0);
     for (std::size_t column = 0; column < 4; ++column)
@@ -150,17 +166,21 @@ inline std::vector<std::size_t> scene_roots(const tinygltf::Model& model, SceneR
 inline std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model, SceneReport& report) {
     const std::vector<std::size_t> roots = scene_roots(model, report);
     std::vector<PlacedNode> open;
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        open.push_back({*root, DMat4(1.0)});
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) open.push_back({*root});
     std::vector<PlacedNode> placed;
     while (!open.empty()) {
         PlacedNode next = open.back();
         open.pop_back();
         const tinygltf::Node& node = model.nodes[next.node];
-        // From here on `to_world` is the node's own; before it was its parent's.
-        next.to_world = next.to_world * node_transform(node, node_place(model, next.node));
+        const std::string place = node_place(model, next.node);
+        const std::array<double, 3> scale = scale_of(node, place);
+        // From here on both are the node's own; before they were what its parent hands down.
+        next.to_world = next.to_world * node_transform(node, scale, place);
+        const DMat4 handed_down =
+            next.turn * node_transform(node, scale_of_turns(scale), place);
+        next.turn = next.turn * node_transform(node, {1, 1, 1}, place);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            open.push_back({static_cast<std::size_t>(*child), next.to_world});
+            open.push_back({static_cast<std::size_t>(*child), next.to_world, handed_down});
         placed.push_back(next);
     }
     return placed;
