@@ -27,12 +27,11 @@ struct BruteFinder {
     std::uint32_t count = 0;
     float reach = 0.0f;
 
-    [[nodiscard]] mir::TriangleHit closest(const mir::Ray& ray, float after = -1.0f) const {
+    [[nodiscard]] mir::TriangleHit closest(const mir::Ray& ray) const {
         mir::TriangleHit best;
         const mir::CutSegment cut = cut_to_reach(ray, reach);
-        const float share = share_behind(cut, after);
         for (std::uint32_t t = 0; t < count && !cut.empty; ++t)
-            keep_closer(rows[t], cut.from, cut.to, t, best, mir::Opaque{}, share);
+            keep_closer(rows[t], cut.from, cut.to, t, best);
         if (best.triangle != mir::TriangleHit::none) best.t = cut.t_from + best.t * cut.t_length;
         return best;
     }

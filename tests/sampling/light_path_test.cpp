@@ -34,8 +34,7 @@ void check_close(Rgb a, Rgb b) {
 // the irradiance of the geometric surface. Here it is twice that without shading normal.
 TEST_CASE("a bent normal makes a VPL as bright as cameras see its surface") {
     CHECK(bent().shading_normal_factor() == Approx(2.0));
-    check_close(reflective_vpl(bent(), albedo).intensity,
-                power * albedo * (2.0f * mir::inv_pi));
+    check_close(reflective_vpl(bent(), albedo).intensity, power * albedo * (2.0f * mir::inv_pi));
     mir::Arrival<Lambert> flat = bent();
     flat.point.shading_normal = flat.point.geometric_normal;
     CHECK(flat.shading_normal_factor() == 1.0f);

@@ -57,24 +57,35 @@ class LeakSegments {
         : places_(geometry), centre_(centre), random_(test_random(index)) {}
 
     SegmentEnds next() {
-        for (;;) {
-            const SegmentEnds s = draw();
-            if (keeps_off_planes(s)) return s;
-        }
+        return keep_drawing([&] { return draw(start()); });
+    }
+
+    /// The same, all from one place.
+    SegmentEnds next_from(mir::Vec3 from) {
+        return keep_drawing([&] { return draw(from); });
     }
 
  private:
-    /// From anywhere between the centre and the surface, close to it in one draw of two, so that
-    /// many segments lean, past an edge or vertex to where nothing is.
-    SegmentEnds draw() {
+    template <class Draw>
+    SegmentEnds keep_drawing(const Draw& once) {
+        for (;;) {
+            const SegmentEnds s = once();
+            if (keeps_off_planes(s)) return s;
+        }
+    }
+    /// Anywhere between the centre and the surface, close to it in one draw of two, so that many
+    /// segments lean.
+    mir::Vec3 start() {
         const float way = random_.next();
         const float in = random_.next() < 0.5f ? 1.0f - std::pow(10.0f, -4.0f * way) : way;
-        const mir::Vec3 from = centre_ + 0.9999f * in * (on_surface() - centre_);
+        return centre_ + 0.9999f * in * (on_surface() - centre_);
+    }
+    /// Past an edge or vertex to where nothing is.
+    SegmentEnds draw(mir::Vec3 from) {
         const mir::Vec3 at =
             random_.next() < 0.5f ? places_.on_edge(random_) : places_.corner(random_);
         const float beyond = places_.extent() / std::max(glm::length(at - from), 1e-6f);
-        const mir::Vec3 to = at + (1.0f + random_.next()) * beyond * (at - from);
-        return {from, to};
+        return {from, at + (1.0f + random_.next()) * beyond * (at - from)};
     }
     mir::Vec3 on_surface() {
         const mir::Vec2 uv = mir::square_to_triangle(random_.next_2d());

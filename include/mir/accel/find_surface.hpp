@@ -6,27 +6,37 @@
 
 namespace mir {
 
-/// Writes the first surface along a ray to `point`; false when there is none. The same bits on host
-/// and device. Thread-safe.
+/// Lets segments leave a point by an edge, which a ray met at the distance `t`, metres, where the
+/// ray's origin sees them begin. `hides(p, q)` says whether two points do not see each other.
 ///
 /// Triangles reach over their edges by what rounding can hide (detail/thick_triangle.hpp). So a ray
 /// that passes by the edge of a closed body may meet the inner side of the triangle behind the
-/// edge, and what leaves that point would lie inside of the body. A point by an edge that the ray's
-/// origin does not see, once it is lifted, is therefore passed over.
+/// edge, and what leaves that point would lie inside of the body. From such a point segments leave
+/// on the ray, before it arrives, or beside the ray across the edge: a ray in the plane of the
+/// edge's other triangle has all its points there.
+template <Space S, class Hides>
+MIR_HD void keep_in_sight(SurfacePoint& point, const GeometryView<S>& geometry, const Ray& ray,
+                          float t, const Hides& hides) {
+    if (!hides(ray.origin, lift(point))) return;
+    const Vec3 inwards = point.position - geometry.position(point.triangle, point.barycentrics);
+    leave_on_ray(point, ray, t);
+    SurfacePoint across = point;
+    across.position -= inwards;
+    if (!hides(ray.origin, lift(across))) point = across;
+}
+
+/// Writes the first surface along a ray to `point`; false when there is none. The same bits on host
+/// and device. Thread-safe.
 template <RayFinder F, Space S>
 [[nodiscard]] MIR_HD bool find_surface(const F& finder, const GeometryView<S>& geometry,
                                        const Ray& ray, SurfacePoint& point) {
-    // At a vertex several triangles may be passed over; what is left after so many is nothing.
-    constexpr int most_tries = 8;
-    float after = -1.0f;
-    for (int i = 0; i < most_tries; ++i) {
-        const TriangleHit hit = finder.closest(ray, after);
-        if (hit.triangle == TriangleHit::none) return false;
-        point = geometry.surface_point(hit.triangle, hit.barycentrics, ray);
-        if (!hit.by_edge || !finder.hides(ray.origin, lift(point))) return true;
-        after = hit.t;
-    }
-    return false;
+    const TriangleHit hit = finder.closest(ray);
+    if (hit.triangle == TriangleHit::none) return false;
+    point = geometry.surface_point(hit.triangle, hit.barycentrics, ray);
+    if (hit.by_edge)
+        keep_in_sight(point, geometry, ray, hit.t,
+                      [&finder](Vec3 from, Vec3 to) { return finder.hides(from, to); });
+    return true;
 }
 
 }  // namespace mir

@@ -17,9 +17,9 @@ struct KdRayFinder {
     View tree;    ///< of the scene
     Mask mask{};  ///< which points of triangles are there
 
-    /// The first triangle along the ray behind the distance `after`, metres: first_hit().
-    [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray, float after = -1.0f) const {
-        return first_hit(tree, ray, mask, after);
+    /// The first triangle along the ray, t in metres: first_hit().
+    [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray) const {
+        return first_hit(tree, ray, mask);
     }
     /// Whether a triangle hides two points from each other, metres: is_hidden().
     [[nodiscard]] MIR_HD bool hides(Vec3 from, Vec3 to) const {

@@ -141,13 +141,12 @@ struct FindFirst {
     Vec3 from{0};
     Vec3 to{0};
     TriangleHit best;
-    float after = -1.0f;  ///< share of the segment before which nothing counts
 
     MIR_HD bool operator()(KdNode leaf, float end) {
         const std::uint32_t last = leaf.first() + leaf.count();
         for (std::uint32_t i = leaf.first(); i != last; ++i) {
             const std::uint32_t triangle = tree.references[i];
-            keep_closer(tree.triangles[triangle], from, to, triangle, best, mask, after);
+            keep_closer(tree.triangles[triangle], from, to, triangle, best, mask);
         }
         return best.t * (1.0f + 0x1p-20f) < end;
     }
@@ -168,14 +167,14 @@ template <Space S, class Mask = Opaque>
 }
 
 /// The first triangle along a ray, with t in metres; TriangleHit::none if there is none. Equal in
-/// bits to keep_closer() over all triangles. Nothing counts up to the distance `after`, metres.
+/// bits to keep_closer() over all triangles.
 /// `mask` as for is_hidden(). Thread-safe.
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD TriangleHit first_hit(const KdTreeView<S>& tree, const Ray& ray,
-                                           const Mask& mask = {}, float after = -1.0f) {
+                                           const Mask& mask = {}) {
     const CutSegment cut = cut_to_reach(ray, tree.reach);
     if (cut.empty) return {};
-    detail::FindFirst<S, Mask> first{tree, mask, cut.from, cut.to, {}, share_behind(cut, after)};
+    detail::FindFirst<S, Mask> first{tree, mask, cut.from, cut.to, {}};
     detail::walk(tree, cut.from, cut.to, first);
     if (first.best.triangle == TriangleHit::none) return {};
     first.best.t = strict::add(cut.t_from, strict::mul(first.best.t, cut.t_length));

@@ -108,14 +108,6 @@ MIR_HD inline Vec3 passage_point(const Ray& ray, float t, Vec3 t_of_faces, float
     return cut;
 }
 
-/// Share of a cut ray that lies behind the distance `after` from its origin, metres, and behind
-/// what that distance rounds; -1 where `after` is negative.
-[[nodiscard]] MIR_HD inline float share_behind(const CutSegment& cut, float after) {
-    if (!(after >= 0.0f)) return -1.0f;
-    const float rounded = strict::mul(0x1p-20f, strict::add(after, cut.t_from));
-    return strict::div(strict::add(strict::sub(after, cut.t_from), rounded), cut.t_length);
-}
-
 /// Cuts the segment from `a` to `b` where it must be cut, which is rare; false when nothing of it
 /// is left.
 [[nodiscard]] MIR_HD inline bool is_left_within_reach(Vec3& a, Vec3& b, float reach) {

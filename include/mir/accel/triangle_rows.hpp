@@ -131,11 +131,10 @@ MIR_HD inline bool crosses_behind(Vec3 from, Vec3 to, float s_from, float s_to, 
 
 /// Replaces `best` when the segment crosses triangle number `triangle` before it, or at the same
 /// computed place and with a smaller number: the first crossing then does not depend on the order
-/// in which triangles are asked. Crosses exactly when hits_segment() with the same mask says so,
-/// and only behind the share `after` of the segment.
+/// in which triangles are asked. Crosses exactly when hits_segment() with the same mask says so.
 template <class Mask = Opaque>
 MIR_HD void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std::uint32_t triangle,
-                        TriangleHit& best, const Mask& mask = {}, float after = -1.0f) {
+                        TriangleHit& best, const Mask& mask = {}) {
     const float s_from = row_at(rows.s, from);
     const float s_to = row_at(rows.s, to);
     if (!detail::opposite(s_from, s_to)) return;
@@ -144,8 +143,7 @@ MIR_HD void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std::uint3
     const detail::PlaneCrossing c = detail::crossing(at);
     if (!detail::is_crossed(rows, from, to, at, c)) return;
     const detail::MeetingPlace place = detail::meeting_place(rows, from, to, at, c);
-    if (place.t <= after || place.t > best.t || (place.t == best.t && triangle >= best.triangle))
-        return;
+    if (place.t > best.t || (place.t == best.t && triangle >= best.triangle)) return;
     if (mask.exists() && !mask.is_solid(triangle, place.barycentrics)) return;
     const bool by_edge = !detail::is_above(c, detail::edge_doubt(from, to).of(rows));
     best = {place.t, place.barycentrics, triangle, by_edge};

@@ -180,14 +180,13 @@ struct FindFirstInLeaf {
     Vec3 from{0};
     Vec3 to{0};
     TriangleHit best;
-    float after = -1.0f;  ///< share of the segment before which nothing counts
 
     [[nodiscard]] MIR_HD float end() const { return best.t * (1.0f + 0x1p-20f); }
 
     MIR_HD bool operator()(std::uint32_t first, std::int32_t count) {
         for (std::int32_t i = 0; i < count; ++i) {
             const std::uint32_t at = first + static_cast<std::uint32_t>(i);
-            keep_closer(bvh.triangles[at], from, to, bvh.indices[at], best, mask, after);
+            keep_closer(bvh.triangles[at], from, to, bvh.indices[at], best, mask);
         }
         return false;
     }
@@ -208,15 +207,14 @@ template <Space S, class Mask = Opaque>
 }
 
 /// The first triangle along a ray, with t in metres; TriangleHit::none if there is none. Equal in
-/// bits to keep_closer() over all triangles. Nothing counts up to the distance `after`, metres.
+/// bits to keep_closer() over all triangles.
 /// `mask` as for is_hidden(). Thread-safe.
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD TriangleHit first_hit(const WideBvhView<S>& bvh, const Ray& ray,
-                                           const Mask& mask = {}, float after = -1.0f) {
+                                           const Mask& mask = {}) {
     const CutSegment cut = cut_to_reach(ray, bvh.reach);
     if (cut.empty) return {};
-    detail::FindFirstInLeaf<S, Mask> first{bvh,    mask, cut.from,
-                                           cut.to, {},   share_behind(cut, after)};
+    detail::FindFirstInLeaf<S, Mask> first{bvh, mask, cut.from, cut.to, {}};
     detail::walk(bvh, cut.from, cut.to, first);
     if (first.best.triangle == TriangleHit::none) return {};
     first.best.t = strict::add(cut.t_from, strict::mul(first.best.t, cut.t_length));

@@ -10,16 +10,14 @@
 namespace mir {
 
 /// Finds the first triangle along a ray, from kernels: the face of a ray engine that knows nothing
-/// of surfaces. `triangle` of the answer is TriangleHit::none for rays that leave the scene; a
-/// second argument asks for what lies behind that distance, metres. `hides` says whether a triangle
-/// lies between two points.
+/// of surfaces. `triangle` of the answer is TriangleHit::none for rays that leave the scene.
+/// `hides` says whether a triangle lies between two points.
 ///
 /// Axioms: those of RayCaster, once the answer went through find_surface().
 template <class F>
 concept RayFinder = DeviceCopyable<F> && requires(const F f, const Ray& ray, Vec3 p) {
     { F::space } -> std::convertible_to<Space>;
     { f.closest(ray) } -> std::same_as<TriangleHit>;
-    { f.closest(ray, 0.0f) } -> std::same_as<TriangleHit>;
     { f.hides(p, p) } -> std::same_as<bool>;
 };
 

@@ -49,4 +49,14 @@ MIR_HD inline Vec3 lift(const SurfacePoint& p) {
     return lift(p.position, p.geometric_normal, larger(p.offset, least_offset(p.position)));
 }
 
+/// Moves a point that a ray met at the distance `t`, metres, so that segments leave it on the ray
+/// before it arrives: four offsets before the surface's plane, but not before half of the way.
+MIR_HD inline void leave_on_ray(SurfacePoint& p, const Ray& ray, float t) {
+    p.offset = larger(p.offset, least_offset(p.position));
+    const float cosine = larger(fabsf(glm::dot(p.geometric_normal, ray.direction)), 1e-6f);
+    const float back = smaller(larger(4.0f * p.offset / cosine, 0x1p-20f * t), 0.5f * t);
+    const Vec3 place = ray.origin + (t - back) * ray.direction;
+    p.position = place - p.offset * p.geometric_normal;
+}
+
 }  // namespace mir

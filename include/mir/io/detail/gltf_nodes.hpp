@@ -176,8 +176,7 @@ inline std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model, SceneR
         const std::array<double, 3> scale = scale_of(node, place);
         // From here on both are the node's own; before they were what its parent hands down.
         next.to_world = next.to_world * node_transform(node, scale, place);
-        const DMat4 handed_down =
-            next.turn * node_transform(node, scale_of_turns(scale), place);
+        const DMat4 handed_down = next.turn * node_transform(node, scale_of_turns(scale), place);
         next.turn = next.turn * node_transform(node, {1, 1, 1}, place);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
             open.push_back({static_cast<std::size_t>(*child), next.to_world, handed_down});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/find_surface.hpp"
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/cpu/detail/embree.hpp"
 #include "mir/cpu/detail/embree_mask.hpp"
@@ -29,9 +30,6 @@ struct EmbreeRayCaster {
     /// `reach` in metres: nothing farther is found.
     [[nodiscard]] std::optional<SurfacePoint> closest_hit(
         Ray ray, float reach = std::numeric_limits<float>::infinity()) const;
-
- private:
-    bool find(const Ray& ray, float after, float reach, RTCRayHit& query) const;
 };
 
 static_assert(ShortRayCaster<EmbreeRayCaster>);
@@ -93,40 +91,31 @@ class EmbreeScene {
     std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene_;
 };
 
-inline bool EmbreeRayCaster::find(const Ray& ray, float after, float reach,
-                                  RTCRayHit& query) const {
-    query = {};
+inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray, float reach) const {
+    RTCRayHit query{};
     query.ray.org_x = ray.origin.x;
     query.ray.org_y = ray.origin.y;
     query.ray.org_z = ray.origin.z;
     query.ray.dir_x = ray.direction.x;
     query.ray.dir_y = ray.direction.y;
     query.ray.dir_z = ray.direction.z;
-    query.ray.tnear = after;
     query.ray.tfar = reach;
     query.ray.mask = detail::all_rays;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     detail::intersect1(scene, query);
-    return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-}
-
-/// Points by an edge that the ray's origin does not see are passed over, as find_surface() does.
-inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray, float reach) const {
-    constexpr int most_tries = 8;
-    constexpr float by_edge = 0x1p-16f;  // barycentric, beyond what Embree rounds where it is near
-    float after = 0.0f;
-    for (int i = 0; i < most_tries; ++i) {
-        RTCRayHit query;
-        if (!find(ray, after, reach, query)) return std::nullopt;
-        const float u = query.hit.u;
-        const float v = query.hit.v;
-        const SurfacePoint point = geometry->surface_point(query.hit.primID, {u, v}, ray);
-        const bool is_sure = std::min(std::min(u, v), 1.0f - u - v) > by_edge;
-        if (is_sure || EmbreeVisibility{scene}.visible(ray.origin, lift(point))) return point;
-        after = query.ray.tfar * (1.0f + 0x1p-20f);
-    }
-    return std::nullopt;
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const float u = query.hit.u;
+    const float v = query.hit.v;
+    SurfacePoint point = geometry->surface_point(query.hit.primID, {u, v}, ray);
+    // Beyond what Embree rounds where it is near.
+    constexpr float by_edge = 0x1p-16f;
+    if (std::min(std::min(u, v), 1.0f - u - v) <= by_edge)
+        keep_in_sight(point, geometry->view(), ray, query.ray.tfar,
+                      [sight = EmbreeVisibility{scene}](Vec3 from, Vec3 to) {
+                          return !sight.visible(from, to);
+                      });
+    return point;
 }
 
 inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
