@@ -59,7 +59,7 @@ void add_passes(FactRows& rows, const mir::RenderStatistics& s) {
 
 std::string bounce_text(const mir::RenderSettings& s, const mir::RenderStatistics& statistics) {
     if (s.integrator == mir::Integrator::path && !s.max_bounce) return "none";
-    const std::string limit = std::to_string(s.bounce_limit());
+    std::string limit = std::to_string(s.bounce_limit());
     if (!statistics.cut) return limit;
     return limit + ", cuts " + percent(statistics.cut->share) + error_of(statistics.cut) +
            " of the VPLs' light";
