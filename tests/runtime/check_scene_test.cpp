@@ -81,6 +81,7 @@ TEST_CASE("each bad value of a render is one worded warning") {
          }},
         {"0.5 % of the VPLs light no luxel", [](Statistics& s) { s.dropped_share = 0.005; }},
         {"3 triangles without area", [](Statistics& s) { s.dropped_triangles = 3; }},
+        {"4 triangles lie in one place", [](Statistics& s) { s.coinciding_triangles = 4; }},
         {"the bound removed 20.0 %",
          [](Statistics& s) {
              s.indirect_luminance = 0.8;

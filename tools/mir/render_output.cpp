@@ -322,6 +322,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["scheduler"] = s.scheduler;
     out["triangles"] = s.triangles;
     out["dropped_triangles"] = s.dropped_triangles;
+    out["coinciding_triangles"] = s.coinciding_triangles;
     out["passes"] = s.passes;
     out["complete"] = s.complete;
     out["relative_error"] = s.relative_error ? Json(*s.relative_error) : Json();

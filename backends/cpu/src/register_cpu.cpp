@@ -90,8 +90,7 @@ class CpuRenderer : public Renderer {
         check_places(scene, settings.camera, geometry.bounds());
         RenderResult result =
             trace({scene, settings, geometry, executor, monitor, clock, scheduler_});
-        result.statistics.triangles = geometry.triangles().size();
-        result.statistics.dropped_triangles = geometry.dropped_triangles();
+        count_triangles(geometry, result.statistics);
         return result;
     }
 

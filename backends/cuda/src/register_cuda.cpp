@@ -160,8 +160,7 @@ class CudaRenderer : public Renderer {
             is_lambertian(scene)
                 ? trace<Lambert>(scene, settings, geometry, executor, monitor, clock)
                 : trace<CookTorrance>(scene, settings, geometry, executor, monitor, clock);
-        result.statistics.triangles = geometry.triangles().size();
-        result.statistics.dropped_triangles = geometry.dropped_triangles();
+        count_triangles(geometry, result.statistics);
         return result;
     }
 

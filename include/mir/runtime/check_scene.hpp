@@ -140,6 +140,11 @@ inline void add_result_warnings(const RenderResult& result, std::vector<std::str
     if (s.dropped_triangles > 0)
         warnings.push_back(std::to_string(s.dropped_triangles) +
                            " triangles without area were left out");
+    if (s.coinciding_triangles > 0)
+        warnings.push_back(std::to_string(s.coinciding_triangles) +
+                           " triangles lie in one place with a lamp: the lamp is seen before a "
+                           "wall, and the first of several lamps before the others; move them "
+                           "apart if that is not meant");
     detail::add_missing_warnings(s, warnings);
     if (s.non_lambertian_share > 0.01f)
         warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.non_lambertian_share), 1) +

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/runtime/result.hpp"
 #include "mir/runtime/stage_clock.hpp"
 #include "mir/scene/recentre.hpp"
+#include "mir/scene/world_geometry.hpp"
 
 #include <string>
 #include <vector>
@@ -17,6 +19,13 @@ inline NearScene near_scene(const Scene& scene, StageClock& clock,
     NearScene near(scene);
     warnings.insert(warnings.end(), near.remarks().begin(), near.remarks().end());
     return near;
+}
+
+/// Writes how many triangles are rendered, how many are not, and how many lie in one place.
+inline void count_triangles(const WorldGeometry& geometry, RenderStatistics& s) {
+    s.triangles = geometry.triangles().size();
+    s.dropped_triangles = geometry.dropped_triangles();
+    s.coinciding_triangles = geometry.coinciding_triangles();
 }
 
 }  // namespace mir

@@ -16,9 +16,10 @@ namespace mir {
 
 /// Numbers about a render that a user may want to judge it by.
 struct RenderStatistics {
-    std::uint64_t triangles = 0;          ///< of all instances; those left out do not count
-    std::uint64_t dropped_triangles = 0;  ///< without area, left out
-    std::uint64_t luxels = 0;             ///< of the whole image
+    std::uint64_t triangles = 0;             ///< of all instances; those left out do not count
+    std::uint64_t dropped_triangles = 0;     ///< without area, left out
+    std::uint64_t coinciding_triangles = 0;  ///< in one place with a lamp's, and those lamps' own
+    std::uint64_t luxels = 0;                ///< of the whole image
     std::uint64_t light_paths = 0;    ///< of the sampler; of the bootstrap for Metropolis sampling
     std::uint64_t camera_paths = 0;   ///< of the reference integrator
     std::uint32_t vpls = 0;           ///< geometric VPLs placed

@@ -112,6 +112,7 @@ class LightTable {
  private:
     void add_triangles(std::vector<float>& power);
     void add_lamp_triangles();
+    [[nodiscard]] bool shines_from_both_sides(std::uint32_t triangle) const;
     void add_delta_lights(std::vector<float>& power);
     void add_environment(std::vector<float>& power) const;
 
@@ -163,8 +164,7 @@ inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     if (scene.environment) environment_ = EnvironmentTable(*scene.environment);
     for (const Material& m : scene.materials) {
         detail::check_emission(m.emission, "material", m.name);
-        lamps_.push_back({m.emission, m.emits_from_both_sides, m.light_group, m.textures.emission,
-                          alpha_mask_of(m)});
+        lamps_.push_back({m.emission, m.light_group, m.textures.emission, alpha_mask_of(m)});
     }
     for (const PointLight& l : scene.point_lights)
         detail::check_emission(l.intensity, "point light", l.name);
@@ -188,7 +188,7 @@ inline void LightTable::add_triangles(std::vector<float>& power) {
     for (std::uint32_t t = 0; t < geometry_->triangles().size(); ++t) {
         const Material& m = scene_->materials[geometry_->material_of(t)];
         if (!m.emits()) continue;
-        const float sides = m.emits_from_both_sides ? 2.0f : 1.0f;
+        const float sides = shines_from_both_sides(t) ? 2.0f : 1.0f;
         triangles_.push_back(t);
         power.push_back(luminance(radiance[geometry_->material_of(t)]) * pi * geometry_->area(t) *
                         sides);
@@ -199,7 +199,13 @@ inline void LightTable::add_lamp_triangles() {
     for (std::uint32_t i = 0; i < triangles_.size(); ++i)
         lamp_triangles_.push_back({geometry_->front_normal(triangles_[i]),
                                    1.0f / geometry_->area(triangles_[i]),
-                                   emitters_.empty() ? 0.0f : emitters_.probability(i)});
+                                   emitters_.empty() ? 0.0f : emitters_.probability(i),
+                                   shines_from_both_sides(triangles_[i])});
+}
+
+inline bool LightTable::shines_from_both_sides(std::uint32_t triangle) const {
+    return scene_->materials[geometry_->material_of(triangle)].emits_from_both_sides &&
+           !geometry_->is_split(triangle);
 }
 
 inline void LightTable::add_delta_lights(std::vector<float>& power) {

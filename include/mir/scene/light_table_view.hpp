@@ -51,7 +51,6 @@ struct DeltaSource {
 /// What the triangles of a material emit.
 struct LampEntry {
     Rgb radiance;                   ///< W m^-2 sr^-1
-    bool both_sides = false;        ///< the back shines as the front does
     std::uint16_t light_group = 0;  ///< group that its light is counted in
     Texture texture{};              ///< multiplies the radiance
     AlphaMask mask{};               ///< where it cuts away, nothing shines
@@ -62,6 +61,7 @@ struct LampTriangle {
     Vec3 normal{0};             ///< unit, of its front
     float inverse_area = 0.0f;  ///< m^-2
     float probability = 0.0f;   ///< with which it is picked among the emissive triangles
+    bool both_sides = false;    ///< the back shines as the front does
 };
 
 /// What kernels read of a LightTable. Lights are counted as there: first emissive triangles, then
@@ -145,7 +145,7 @@ struct LightTableView {
         s.position = geometry.place(t, s.barycentrics, s.offset);
         s.radiance = radiance_at(geometry, t, s.barycentrics);
         s.pdf_area = lamp_triangles[light].inverse_area;
-        s.both_sides = lamp.both_sides;
+        s.both_sides = lamp_triangles[light].both_sides;
         s.light_group = lamp.light_group;
         s.triangle = t;
         return s;

@@ -7,10 +7,12 @@
 #include "mir/scene/alpha_mask_table.hpp"
 #include "mir/scene/bounds.hpp"
 #include "mir/scene/detail/check_mesh.hpp"
+#include "mir/scene/detail/lifted_corners.hpp"
 #include "mir/scene/geometry_view.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 #include <utility>
@@ -23,7 +25,9 @@ namespace mir {
 /// from any thread.
 class WorldGeometry {
  public:
-    /// Places every instance. Triangles without area are left out and counted.
+    /// Places every instance. Triangles without area are left out and counted. A lamp that lies in
+    /// one place with a wall is lifted off it on every side from which it shines, and a lamp in one
+    /// place with later lamps off those: what is seen there is the first lamp.
     /// @throws Error(invalid_input) on an index out of range, a coordinate that is not finite and
     ///         what AlphaMaskTable refuses; Error(limit_exceeded) before memory is taken.
     template <Executor E>
@@ -63,7 +67,8 @@ class WorldGeometry {
     [[nodiscard]] std::span<const Vec2> texture_coordinates() const { return texture_coordinates_; }
     /// Of the vertices, white where their mesh has none; empty when no mesh has any.
     [[nodiscard]] std::span<const Rgb> colors() const { return colors_; }
-    /// Indices into positions(), in the order of instances and of their meshes.
+    /// Indices into positions(), in the order of instances and of their meshes; then the backs of
+    /// lamps that are split (is_split()).
     [[nodiscard]] std::span<const TriangleIndices> triangles() const { return triangles_; }
     /// Material of each triangle.
     [[nodiscard]] std::span<const std::uint32_t> materials() const { return materials_; }
@@ -75,6 +80,13 @@ class WorldGeometry {
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     /// Number of triangles that were left out, because they have no area.
     [[nodiscard]] std::uint64_t dropped_triangles() const { return dropped_; }
+    /// Number of triangles that lie in one place with a lamp's, and of those lamps' own.
+    [[nodiscard]] std::uint64_t coinciding_triangles() const { return coinciding_; }
+    /// True for one half of a lamp that shines from both sides and coincides with another surface:
+    /// each of its sides is a triangle that shines from its front only.
+    [[nodiscard]] bool is_split(std::uint32_t triangle) const {
+        return std::binary_search(split_.begin(), split_.end(), triangle);
+    }
 
     /// Corner `k` (0..2) of a triangle, metres.
     [[nodiscard]] Vec3 corner(std::uint32_t triangle, std::uint32_t k) const {
@@ -132,6 +144,9 @@ class WorldGeometry {
     [[nodiscard]] Bounds place_vertices(const Part& part);
     [[nodiscard]] std::uint32_t place_triangles(const Part& part);
     void close_gaps(const std::vector<Part>& parts, const std::vector<std::uint32_t>& kept);
+    void lift_lamps(const Scene& scene, const detail::CoincidingLamps& lamps);
+    [[nodiscard]] TriangleIndices add_corners(std::uint32_t triangle,
+                                              const std::array<Vec3, 3>& places);
 
     template <class T>
     using Array = std::vector<T, RawAllocator<T>>;
@@ -146,6 +161,8 @@ class WorldGeometry {
     Bounds bounds_;
     float ray_offset_ = 0.0f;
     std::uint64_t dropped_ = 0;
+    std::uint64_t coinciding_ = 0;
+    std::vector<std::uint32_t> split_;  ///< ascending
 };
 
 namespace detail {
@@ -155,6 +172,16 @@ inline float ray_offset_of(const Bounds& bounds) {
     const float magnitude = larger(max_abs(bounds.low), max_abs(bounds.high));
     const float unseen = max_abs(bounds.high - bounds.low) * 0x1p-14f;
     return smaller(magnitude * 0x1p-16f, unseen);
+}
+
+/// By material.
+inline std::vector<Shining> shining_of(const Scene& scene) {
+    std::vector<Shining> shining;
+    for (const Material& m : scene.materials)
+        shining.push_back(!m.emits()                ? Shining::none
+                          : m.emits_from_both_sides ? Shining::both
+                                                    : Shining::front);
+    return shining;
 }
 
 /// Elements that are placed together: enough to hide what a thread costs.
@@ -195,6 +222,9 @@ WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& execut
     // By way of a name: clang-tidy takes the member for one that the constructor could initialise.
     const Bounds& all = bounds_;
     ray_offset_ = detail::ray_offset_of(all);
+    lift_lamps(scene, detail::LampFaceFinder(view(), static_cast<std::uint32_t>(triangles_.size()),
+                                             detail::shining_of(scene))
+                          .find(executor));
 }
 
 inline WorldGeometry::Parts WorldGeometry::cut(const Scene& scene) {
@@ -289,6 +319,48 @@ inline void WorldGeometry::close_gaps(const std::vector<Part>& parts,
     dropped_ = triangles_.size() - end;
     triangles_.resize(end);
     materials_.resize(end);
+}
+
+/// Four times the distance at which surfaces coincide, so that what leaves a wall, or the lamp
+/// below, stays below the lamp before it.
+inline void WorldGeometry::lift_lamps(const Scene& scene, const detail::CoincidingLamps& lamps) {
+    coinciding_ = lamps.triangles;
+    const std::vector<std::array<Vec3, 3>> corners =
+        detail::lifted_corners(view(), lamps.faces, 4.0f * lamps.reach);
+    std::vector<std::uint32_t> backs;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto& [triangle, front, level] = lamps.faces[i];
+        TriangleIndices t = add_corners(triangle, corners[i]);
+        if (front) {
+            triangles_[triangle] = t;
+            if (scene.materials[materials_[triangle]].emits_from_both_sides)
+                split_.push_back(triangle);
+            continue;
+        }
+        std::swap(t[1], t[2]);
+        backs.push_back(static_cast<std::uint32_t>(triangles_.size()));
+        triangles_.push_back(t);
+        materials_.push_back(materials_[triangle]);
+    }
+    split_.insert(split_.end(), backs.begin(), backs.end());
+}
+
+/// Vertices with the attributes of those of `triangle`, at other places.
+inline TriangleIndices WorldGeometry::add_corners(std::uint32_t triangle,
+                                                  const std::array<Vec3, 3>& places) {
+    TriangleIndices t = triangles_[triangle];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto repeat = [v = t[k]](auto& values) {
+            if (!values.empty()) values.push_back(values[v]);
+        };
+        repeat(normals_);
+        repeat(texture_coordinates_);
+        repeat(colors_);
+        t[k] = static_cast<std::uint32_t>(positions_.size());
+        positions_.push_back(places[k]);
+        bounds_.add(places[k]);
+    }
+    return t;
 }
 
 }  // namespace mir

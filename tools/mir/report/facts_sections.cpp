@@ -108,6 +108,7 @@ std::string scene_section(const ReportInput& in) {
         {"triangles", std::to_string(s.triangles) + ", " + std::to_string(r.emitting_triangles) +
                           " of them emit"},
         {"triangles without area", std::to_string(s.dropped_triangles) + " left out"},
+        {"triangles in one place with a lamp", std::to_string(s.coinciding_triangles)},
         {"meshes", std::to_string(r.meshes) + ", placed " + std::to_string(r.instances) + " times"},
         {"materials", std::to_string(r.materials) + ", " + std::to_string(r.emitting_materials) +
                           " of them emit"},
