@@ -71,6 +71,7 @@ Wrong wrong_answers(Classify classify, int draws, bool lean = false) {
 struct NoMargins {
     static constexpr float plane = 0.0f;
     static constexpr float edge = 0.0f;
+    static constexpr float hit_share = 1.0f;
 };
 
 /// The third edge four times as far from the first corner as it is.

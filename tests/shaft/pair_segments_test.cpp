@@ -70,7 +70,10 @@ class FormedPair {
         rows_[place(form)] = mir::make_triangle_rows(a, b, at + aside());
         mir::SegmentForms made;
         static_cast<void>(mir::occlusion(rows_[place(form)], pyramid_, made));
-        forms_.put(form, mir::in_margins(made, mir::OcclusionMargins::plane * sigma), place(form));
+        forms_.put(form,
+                   mir::in_margins(made, mir::OcclusionMargins::plane * sigma,
+                                   mir::OcclusionMargins::hit_share),
+                   place(form));
     }
 
     mir::Random random_;

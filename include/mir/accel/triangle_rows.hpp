@@ -145,7 +145,7 @@ MIR_HD void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std::uint3
     const detail::MeetingPlace place = detail::meeting_place(rows, from, to, at, c);
     if (place.t > best.t || (place.t == best.t && triangle >= best.triangle)) return;
     if (mask.exists() && !mask.is_solid(triangle, place.barycentrics)) return;
-    const bool by_edge = !detail::is_above(c, detail::edge_doubt(from, to).of(rows));
+    const bool by_edge = !detail::EdgeDepths::of(c).reach(detail::edge_doubt(from, to).of(rows));
     best = {place.t, place.barycentrics, triangle, by_edge};
 }
 

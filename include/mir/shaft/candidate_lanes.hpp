@@ -59,9 +59,11 @@ struct CandidateLanes {
     }
 };
 
-/// Margin of U, V and W of lanes in units of sigma (1 + |u| + |v| at the apex + gradients times
-/// lengths): docs/shafts.md derives 4.2.
+/// Margin of U, V and W of lanes for misses, in units of sigma (1 + |u| + |v| at the apex +
+/// gradients times lengths): docs/shafts.md derives 4.2.
 inline constexpr float lane_margin = 4.5f;
+/// Share of it that hits need: docs/shafts.md derives 2.9 of 4.5.
+inline constexpr float lane_hit_share = 3.0f / 4.5f;
 
 /// Makes sixteen triangles ready. No point of a cluster that will be asked about is farther from
 /// the VPL at `apex` than `spread` in a coordinate, metres.
@@ -120,8 +122,9 @@ LaneOcclusion occlusion(const CandidateLanes& lanes, const ClusterBox& box, floa
         const float margin = lanes.margin.at[k];
         const int negative = static_cast<int>(s.y < -plane) | static_cast<int>(u.y < -margin) |
                              static_cast<int>(v.y < -margin) | static_cast<int>(w.y < -margin);
-        const int positive = static_cast<int>(s.x > plane) & static_cast<int>(u.x > margin) &
-                             static_cast<int>(v.x > margin) & static_cast<int>(w.x > margin);
+        const float least = lane_hit_share * margin;
+        const int positive = static_cast<int>(s.x > plane) & static_cast<int>(u.x > least) &
+                             static_cast<int>(v.x > least) & static_cast<int>(w.x > least);
         none.at[k] = -negative;
         full.at[k] = -positive;
     }

@@ -147,7 +147,9 @@ struct ClusterLists {
         group.each([&](std::uint32_t lane) {
             if ((partial >> lane & 1u) == 0) return;
             const std::uint32_t at = first_kept + LaneGroup::count_before(partial, lane);
-            space.forms.put(at, in_margins(forms[lane], OcclusionMargins::plane * sigma),
+            space.forms.put(at,
+                            in_margins(forms[lane], OcclusionMargins::plane * sigma,
+                                       OcclusionMargins::hit_share),
                             triangle[lane]);
         });
         return end_lists(group, batch, first, full, partial, progress, space);

@@ -64,12 +64,13 @@ struct alignas(16) Pyramid {
     return p;
 }
 
-/// How far from 0 a bound must be for hits_segment() to compute numbers of its sign: of the
-/// distance from the plane in units of sigma, of the edges in those of edge_margins().
-/// docs/shafts.md derives 1.3 and 2.49 of them.
+/// How far from 0 a bound must be for hits_segment() to say what its sign says: of the distance
+/// from the plane in units of sigma, of the edges in those of edge_margins(). docs/shafts.md
+/// derives 1.3, 0.98 and 2.49 of them.
 struct OcclusionMargins {
-    static constexpr float plane = 2.0f;  ///< of the distance from the plane
-    static constexpr float edge = 2.5f;   ///< of U, V and W
+    static constexpr float plane = 2.0f;      ///< of the distance from the plane
+    static constexpr float edge = 2.5f;       ///< of U, V and W, to be sure of a miss
+    static constexpr float hit_share = 0.4f;  ///< what hits need of it
 };
 
 namespace detail {
@@ -111,15 +112,15 @@ MIR_HD inline AffineForm subtract(const AffineForm& f, const AffineForm& g) {
              strict::sub(f.slope.z, g.slope.z)}};
 }
 
-/// Where an affine function keeps its sign: never above -margin, never below margin.
+/// Where an affine function keeps its sign: all of it beyond a margin.
 struct SureSign {
     bool negative = false;
     bool positive = false;
 };
 
-MIR_HD inline SureSign sure_sign(const AffineForm& f, Vec3 half, float margin) {
+MIR_HD inline SureSign sure_sign(const AffineForm& f, Vec3 half, float below, float above) {
     const float extent = f.extent(half);
-    return {strict::add(f.value, extent) < -margin, strict::sub(f.value, extent) > margin};
+    return {strict::add(f.value, extent) < -below, strict::sub(f.value, extent) > above};
 }
 
 /// The VPL as a triangle's rows see it.
@@ -129,7 +130,7 @@ struct ApexRows {
     float depth = 0.0f;  ///< distance from the plane, metres
 };
 
-/// Margins of U, V and W, metres.
+/// Margins of U, V and W, metres, `sigma` a multiple of the scene's.
 MIR_HD inline EdgeMargins edge_margins(const TriangleRows& rows, const Pyramid& p,
                                        const ApexRows& apex, float sigma) {
     const float way = strict::add(p.spread, apex.depth);
@@ -147,19 +148,19 @@ MIR_HD inline EdgeMargins edge_margins(const TriangleRows& rows, const Pyramid& 
 /// edges (positive). S is the VPL's depth, s'(p) the distance of p beyond the plane. With
 ///   U(p) = u(q) s'(p) + S u(p), V(p) = v(q) s'(p) + S v(p), W(p) = s'(p) + S - U(p) - V(p)
 /// the segment to p crosses inside when none is negative. They are affine in p, so their ranges
-/// over a box are known. Fills `forms`.
+/// over a box are known. Fills `forms`; inside it asks for `hit` of the margins.
 MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
                                   const AffineForm& beyond, const ApexRows& apex,
-                                  EdgeMargins margins, SegmentForms& forms) {
+                                  EdgeMargins margins, float hit, SegmentForms& forms) {
     const AffineForm u = combine(apex.u, beyond, apex.depth, affine_form(rows.u, p));
     const AffineForm v = combine(apex.v, beyond, apex.depth, affine_form(rows.v, p));
     const AffineForm d{strict::add(beyond.value, apex.depth), beyond.slope};
     const AffineForm w = subtract(subtract(d, u), v);
     forms = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), row_from_centre(w),
              margins};
-    const SureSign edge_u = sure_sign(u, p.half, margins.u);
-    const SureSign edge_v = sure_sign(v, p.half, margins.v);
-    const SureSign edge_w = sure_sign(w, p.half, margins.w);
+    const SureSign edge_u = sure_sign(u, p.half, margins.u, hit * margins.u);
+    const SureSign edge_v = sure_sign(v, p.half, margins.v, hit * margins.v);
+    const SureSign edge_w = sure_sign(w, p.half, margins.w, hit * margins.w);
     return {edge_u.negative || edge_v.negative || edge_w.negative,
             edge_u.positive && edge_v.positive && edge_w.positive};
 }
@@ -182,13 +183,15 @@ template <class Margins = OcclusionMargins>
     const bool is_near = !(depth > p.sigma);
     const detail::AffineForm beyond =
         detail::affine_form(s > 0.0f ? detail::negated(rows.s) : rows.s, p);
-    const detail::SureSign plane = detail::sure_sign(beyond, p.half, Margins::plane * p.sigma);
+    const float plane_margin = Margins::plane * p.sigma;
+    const detail::SureSign plane = detail::sure_sign(beyond, p.half, plane_margin, plane_margin);
     const detail::ApexRows apex{detail::loose_at(rows.u, p.apex), detail::loose_at(rows.v, p.apex),
                                 depth};
     // Where the apex is near no edge is sure.
     const float sigma = is_near ? INFINITY : Margins::edge * p.sigma;
     const EdgeMargins margins = detail::edge_margins(rows, p, apex, sigma);
-    const detail::SureSign edges = detail::sure_edges(rows, p, beyond, apex, margins, forms);
+    const detail::SureSign edges =
+        detail::sure_edges(rows, p, beyond, apex, margins, Margins::hit_share, forms);
     // Sums of products that overflow have any sign.
     const bool is_bounded = margins.w <= EdgeMargins::largest;
     if (is_near) return Occlusion::partial;

@@ -55,9 +55,10 @@ MIR_HD inline float quick_at(const PlainRow& row, Vec3 p) {
                           loose::mul_add(row.y, p.y, loose::mul_add(row.x, p.x, row.w)));
 }
 
-MIR_HD inline PlainRow scaled(const PlainRow& row, float factor) {
+/// `factor` times a row, plus `shift`.
+MIR_HD inline PlainRow scaled(const PlainRow& row, float factor, float shift) {
     return {strict::mul(row.x, factor), strict::mul(row.y, factor), strict::mul(row.z, factor),
-            strict::mul(row.w, factor)};
+            loose::mul_add(row.w, factor, shift)};
 }
 
 /// The least of four numbers; no number where all are none. Some alone are not left out to be none:
@@ -68,11 +69,11 @@ MIR_HD inline float least(float a, float b, float c, float d) {
 
 }  // namespace detail
 
-/// SegmentForms in units of margins, so that one number tells what is sure of a segment. Without
-/// defaults.
+/// SegmentForms scaled and shifted so that their margins of hits lie at 1 and those of misses at
+/// -1: one number tells what is sure of a segment. Without defaults.
 struct SureForms {
     PlainRow beyond;  ///< s'
-    PlainRow u;       ///< U; zero, as V and W, where nothing is sure of it
+    PlainRow u;       ///< U; constant and nearer to 0, as V and W, where nothing is sure of it
     PlainRow v;       ///< V
     PlainRow w;       ///< W
 
@@ -86,20 +87,36 @@ struct SureForms {
 
 namespace detail {
 
-MIR_HD inline PlainRow in_margins(const PlainRow& row, float margin) {
-    if (!(margin <= EdgeMargins::largest)) return {0.0f, 0.0f, 0.0f, 0.0f};
-    return scaled(row, loose::rough_reciprocal(margin));
+/// Margins of a form for hits and for misses, as shares of the one for misses: what lies between
+/// them is open.
+struct OpenRange {
+    float hit;  ///< of the margin, above 0 and at most 1
+
+    /// Of the margin: what is scaled to 1.
+    [[nodiscard]] MIR_HD constexpr float half() const { return 0.5f * (1.0f + hit); }
+    /// What moves the middle of the range to 0 then.
+    [[nodiscard]] MIR_HD constexpr float shift() const { return (1.0f - hit) / (1.0f + hit); }
+};
+
+MIR_HD inline PlainRow in_margins(const PlainRow& row, float margin, OpenRange range) {
+    if (!(margin <= EdgeMargins::largest)) return {0.0f, 0.0f, 0.0f, range.shift()};
+    return scaled(row, loose::rough_reciprocal(range.half() * margin), range.shift());
 }
 
 }  // namespace detail
 
-/// Forms in units of margins; `plane` is that of s', metres, 2^-120 or more like the others.
-/// docs/shafts.md derives them.
-[[nodiscard]] MIR_HD inline SureForms in_margins(const SegmentForms& forms, float plane) {
-    return {detail::scaled(forms.beyond, loose::rough_reciprocal(plane)),
-            detail::in_margins(forms.u, forms.margins.u),
-            detail::in_margins(forms.v, forms.margins.v),
-            detail::in_margins(forms.w, forms.margins.w)};
+/// Forms by which hits_segment() is sure to hit above 1 and to miss below -1. `plane` is the margin
+/// of s' for hits, metres, 2^-120 or more like the others, and `hit` the share of the other margins
+/// that hits need. docs/shafts.md derives them.
+[[nodiscard]] MIR_HD inline SureForms in_margins(const SegmentForms& forms, float plane,
+                                                 float hit) {
+    const detail::OpenRange range{hit};
+    const float plane_of_misses = plane / hit;
+    return {detail::scaled(forms.beyond, loose::rough_reciprocal(range.half() * plane_of_misses),
+                           range.shift()),
+            detail::in_margins(forms.u, forms.margins.u, range),
+            detail::in_margins(forms.v, forms.margins.v, range),
+            detail::in_margins(forms.w, forms.margins.w, range)};
 }
 
 }  // namespace mir

@@ -26,12 +26,30 @@ struct PlaneCrossing {
     [[nodiscard]] MIR_HD float w() const { return strict::sub(strict::sub(d, u), v); }
 };
 
-/// Inside the three closed edges, as computed.
-MIR_HD inline bool is_inside(PlaneCrossing c) {
-    const float w = c.w();
-    return c.d > 0.0f ? c.u >= 0.0f && c.v >= 0.0f && w >= 0.0f
-                      : c.u <= 0.0f && c.v <= 0.0f && w <= 0.0f;
+/// The smaller of two numbers. One instruction on a device; what comes of a NaN may differ.
+MIR_HD inline float lesser(float a, float b) {
+#if defined(__CUDA_ARCH__)
+    return fminf(a, b);
+#else
+    return smaller(a, b);
+#endif
 }
+
+/// U, V and W of a crossing, turned so that they are not negative inside of the edges.
+struct EdgeDepths {
+    float u_or_v = 0.0f;  ///< the smaller one of U and V
+    float w = 0.0f;       ///< no number if U or V is none
+
+    [[nodiscard]] MIR_HD static EdgeDepths of(PlaneCrossing c) {
+        const float side = c.d > 0.0f ? 1.0f : -1.0f;
+        return {lesser(side * c.u, side * c.v), side * c.w()};
+    }
+    /// All three are not below `least`.
+    [[nodiscard]] MIR_HD bool reach(float least) const { return u_or_v >= least && w >= least; }
+};
+
+/// Inside the three closed edges, as computed.
+MIR_HD inline bool is_inside(PlaneCrossing c) { return EdgeDepths::of(c).reach(0.0f); }
 
 /// The ends lie strictly on opposite sides. By the product, which also refuses segments so short
 /// that it vanishes: what follows would have no digits left.

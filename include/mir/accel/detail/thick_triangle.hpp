@@ -58,12 +58,6 @@ MIR_HD inline EdgeDoubt edge_doubt(Vec3 from, Vec3 to) {
     return edge_doubt(larger(max_abs(from), max_abs(to)), max_abs(to - from));
 }
 
-/// U, V and W are not below `least` where d is positive, which the crossing says by its sign.
-MIR_HD inline bool is_above(PlaneCrossing c, float least) {
-    const float side = c.d > 0.0f ? 1.0f : -1.0f;
-    return side * c.u >= least && side * c.v >= least && side * c.w() >= least;
-}
-
 /// An edge along the thin piece of a segment that lies in the plane: its barycentric coordinate is
 /// `middle` where the piece crosses the plane and changes by `slope` to the end of the piece.
 struct EdgeAlong {
@@ -138,8 +132,9 @@ MIR_HD inline ThinPiece thin_piece(const TriangleRows& rows, Vec3 from, Vec3 to,
 /// What hits_segment() says of a segment whose ends lie on opposite sides of the plane.
 MIR_HD inline bool is_crossed(const TriangleRows& rows, Vec3 from, Vec3 to, const RowsAtEnds& at,
                               PlaneCrossing c) {
-    if (is_inside(c)) return true;
-    return is_above(c, -edge_doubt(from, to).of(rows)) &&
+    const EdgeDepths depths = EdgeDepths::of(c);
+    if (depths.reach(0.0f)) return true;
+    return depths.reach(-edge_doubt(from, to).of(rows)) &&
            thin_piece(rows, from, to, at, c).keeps_edges();
 }
 
