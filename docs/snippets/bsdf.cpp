@@ -21,11 +21,12 @@ struct LommelSeeliger {
     };
 
     static mir::Rgb eval(const Params& p, mir::Vec3 n, mir::Vec3 wi, mir::Vec3 wo) {
+        if (!(glm::dot(n, wo) > 0.0f)) return {};
         const float sum = glm::dot(n, wi) + glm::dot(n, wo);
         return p.w * (0.25f * mir::inv_pi / mir::larger(sum, 1e-6f));
     }
-    static float pdf(const Params&, mir::Vec3 n, mir::Vec3 wi, mir::Vec3) {
-        return mir::cosine_hemisphere_pdf(glm::dot(n, wi));
+    static float pdf(const Params&, mir::Vec3 n, mir::Vec3 wi, mir::Vec3 wo) {
+        return glm::dot(n, wo) > 0.0f ? mir::cosine_hemisphere_pdf(glm::dot(n, wi)) : 0.0f;
     }
     static mir::BsdfSample sample(const Params& p, mir::Vec3 n, mir::Vec3 wo, mir::Vec2 u, float) {
         const mir::Vec3 wi = mir::Frame::around(n).to_world(mir::square_to_cosine_hemisphere(u));

@@ -22,11 +22,16 @@ struct ThreeWavelengths {
     using Params = Material;
 
     static mir::Rgb eval(const Params& p, mir::Vec3 n, mir::Vec3 wi, mir::Vec3 wo) {
+        if (!reflects(p, n, wo)) return {};
         const float factor = lobe_factor(p.lobe, glm::dot(n, wi), glm::dot(n, wo)) / pi;
         return albedo(p, n, wo) * factor;
     }
-    static float pdf(const Params&, mir::Vec3 n, mir::Vec3 wi, mir::Vec3) {
-        return mir::cosine_hemisphere_pdf(glm::dot(n, wi));
+    /// Below the normal only what has no lobe does.
+    static bool reflects(const Params& p, mir::Vec3 n, mir::Vec3 wo) {
+        return p.lobe == 0.0f || glm::dot(n, wo) > 0.0f;
+    }
+    static float pdf(const Params& p, mir::Vec3 n, mir::Vec3 wi, mir::Vec3 wo) {
+        return reflects(p, n, wo) ? mir::cosine_hemisphere_pdf(glm::dot(n, wi)) : 0.0f;
     }
     static mir::BsdfSample sample(const Params& p, mir::Vec3 n, mir::Vec3 wo, mir::Vec2 u, float) {
         const mir::Vec3 wi = mir::Frame::around(n).to_world(mir::square_to_cosine_hemisphere(u));

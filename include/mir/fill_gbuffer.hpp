@@ -48,7 +48,7 @@ void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t fir
             const auto point = caster.closest_hit(ray);
             if (!point) continue;
             gbuffer.store(row.tile, layout(x, row.y), {lift(*point), point->geometric_normal},
-                          surfaces.surface(*point, -ray.direction));
+                          surfaces.luxel_surface(*point, -ray.direction));
         }
     });
 }

@@ -54,10 +54,21 @@ TEST_CASE("a bent normal weighs the light that goes on by both directions") {
         mir::BsdfSample sample;
         sample.wi = wi;
         sample.weight = albedo;
-        return scatter(bent(), sample).power;
+        return scatter(bent(), sample, bent().point.shading_normal).power;
     };
     check_close(scattered({0.8660254f, 0, 0.5f}), power * albedo * (2.0f * 0.5f));
     check_close(scattered({0, 0, 1}), power * albedo * (2.0f * 2.0f));
     CHECK(is_black(scattered({-1, 0, 0.01f})));
     CHECK(is_black(scattered({1, 0, -0.01f})));
+}
+
+// f (wi.ns) (wo.ng) / (wi.ng) over (wo.ng) / pi, the density around the geometric normal.
+TEST_CASE("drawn around the geometric normal all directions carry the same light on") {
+    for (const Vec3 wi : {Vec3(0, 0, 1), Vec3(0.8660254f, 0, 0.5f), Vec3(-0.96f, 0, 0.28f)}) {
+        mir::BsdfSample sample;
+        sample.wi = wi;
+        sample.weight = albedo;
+        check_close(scatter(bent(), sample, bent().point.geometric_normal).power,
+                    power * albedo * 2.0f);
+    }
 }

@@ -242,7 +242,7 @@ TEST_CASE("a surface point turns its normals to the side that is looked at") {
     CHECK(back.triangle == 1);
 }
 
-TEST_CASE("shading normals are interpolated, on the viewer's side and never turned from the ray") {
+TEST_CASE("shading normals are interpolated, on the viewer's side, wherever they are seen from") {
     Mesh m;
     m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     m.normals = {glm::normalize(Vec3(1, 0, 1)), glm::normalize(Vec3(-1, 0, 1)), {0, 0, 1}};
@@ -254,7 +254,8 @@ TEST_CASE("shading normals are interpolated, on the viewer's side and never turn
     CHECK(glm::length(g.surface_point(0, {0, 0}, -down).shading_normal + m.normals[0]) < 1e-6f);
     // From the side that the normal of corner 0 turns away from.
     const Vec3 grazing = glm::normalize(Vec3(1, 0, -0.5f));
-    CHECK(g.surface_point(0, {0, 0}, grazing).shading_normal == Vec3(0, 0, 1));
+    CHECK(g.surface_point(0, {0, 0}, grazing).shading_normal ==
+          g.surface_point(0, {0, 0}, down).shading_normal);
 }
 
 TEST_CASE("normals that cancel or are missing fall back to the geometric one") {

@@ -119,6 +119,21 @@ TEST_CASE("a normal that would turn away, or has no direction, is that of the ve
     check_close(Seen(scene).surface(0.5f, 0.5f).normal, {0, 0, 1});
 }
 
+TEST_CASE("a bent normal is the same wherever it is seen from, but for luxels") {
+    const Seen seen(bumped(texel(255, 128, 160)));
+    const mir::SurfacePoint p = seen.point(0.5f, 0.5f);
+    const Vec3 bent = seen.surface(0.5f, 0.5f).normal;
+    const Vec3 along = glm::normalize(Vec3(1, 0, 0.1f));
+    const Vec3 against = glm::normalize(Vec3(-1, 0, 0.1f));
+    CHECK(seen.surfaces.surface(p, along).normal == bent);
+    CHECK(seen.surfaces.surface(p, against).normal == bent);
+    CHECK(seen.surfaces.luxel_surface(p, along).normal == bent);
+    CHECK(seen.surfaces.luxel_surface(p, against).normal == p.shading_normal);
+    mir::SurfacePoint leaning = p;
+    leaning.shading_normal = along;
+    CHECK(seen.surfaces.luxel_surface(leaning, against).normal == p.geometric_normal);
+}
+
 TEST_CASE("meshes with and without coordinates and colours stand beside each other") {
     mir::Scene scene = textured_triangle(matte());
     mir::Mesh plain = scene.meshes[0];

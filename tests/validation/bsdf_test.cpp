@@ -30,6 +30,11 @@ struct BrighterFromOneSide : Lambert {
         return s;
     }
 };
+struct StopsBelow : Lambert {
+    static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
+        return glm::dot(n, wo) > 0.0f ? Lambert::eval(p, n, wi, wo) : Rgb{};
+    }
+};
 struct TwiceAsBright : Lambert {
     static Rgb eval(const Params& p, Vec3, Vec3, Vec3) { return p.reflectance * (2 * mir::inv_pi); }
     static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u, float lobe) {
@@ -188,7 +193,10 @@ TEST_CASE("check_bsdf finds nothing wrong with a right model") {
 }
 
 TEST_CASE("check_bsdf finds each axiom that a model breaks, and no other") {
-    CHECK(finds_only(check<BrighterFromOneSide>(), "eval is reciprocal"));
+    CHECK(finds(check<BrighterFromOneSide>(), "eval is reciprocal"));
+    CHECK(finds(check<BrighterFromOneSide>(),
+                "below the normal it reflects as elsewhere, or nothing"));
+    CHECK(finds_only(check<StopsBelow>(), "below the normal it reflects as elsewhere, or nothing"));
     CHECK(finds_only(check<TwiceAsBright>(), "no more light is reflected than arrives"));
     CHECK(finds(check<NotANumberWhenGrazing>(), "eval and pdf are finite and not negative"));
     CHECK(finds(check<NotANumberInBlue>(), "eval is reciprocal"));

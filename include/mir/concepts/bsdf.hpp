@@ -17,9 +17,11 @@ namespace mir {
 ///  1. eval(wi, wo) = eval(wo, wi), finite and not negative;
 ///  2. the directional albedo is at most 1 (1.0025 where a model says so);
 ///  3. albedo() lies in [0, 1]; is_black() only where eval() is zero for all directions;
-///  4. sample() follows pdf(), and its weight is eval cos / pdf.
+///  4. sample() follows pdf(), and its weight is eval cos / pdf;
+///  5. where `wo` lies below `n`, a model that reflects alike in all directions still does, and any
+///     other reflects nothing: eval(), pdf() and the weight of sample() are zero.
 ///
-/// eval() means something where both directions lie above `n`. It is called for others, too, and
+/// eval() means something where `wi` lies above `n`. It is called for others, too, and
 /// for what is no number, a luxel that lies on a lamp: it must not fail there, and its result is
 /// thrown away.
 ///
@@ -38,7 +40,8 @@ concept Bsdf = WordCopyable<typename B::Params> &&
 
 /// A Bsdf that finds once what it makes of a point and of `wo` for all directions of light, and
 /// rounds its sums of products as it is told (core/rounding.hpp): with
-/// o = B::outgoing<SeparateRounding>(p, n, wo), o(wi, n.wi) is eval(p, n, wi, wo) in every bit;
+/// o = B::outgoing<SeparateRounding>(p, n, wo), o(wi, n.wi) is eval(p, n, wi, wo) in every bit where
+/// `wo` lies above `n`;
 /// with FusedRounding it is the same function, rounded otherwise. The type of `o` names B as its
 /// Model: what derives from B may reflect otherwise, so that its base's does not count.
 template <class B>

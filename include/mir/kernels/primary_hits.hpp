@@ -42,7 +42,7 @@ struct PrimaryHits {
  private:
     MIR_HD void store(TileIndex t, LuxelIndex i, const Ray& ray, const SurfacePoint& p) const {
         out.hits(t).store(i, {lift(p), p.geometric_normal});
-        out.surfaces(t).store(i, surfaces.surface(p, -ray.direction));
+        out.surfaces(t).store(i, surfaces.luxel_surface(p, -ray.direction));
     }
 
     MIR_HD void clear(TileIndex t, LuxelIndex i) const {

@@ -43,7 +43,7 @@ MIR_HD bool start_at_camera(const World& world, Numbers& u, Path& path) {
     const Ray ray = world.camera.ray(path.film, world.aspect, path.lens);
     path.eye = ray.origin;
     PathVertex first;
-    if (!world.hit(ray, first)) return false;
+    if (!world.hit_luxel(ray, first)) return false;
     path.vertices.push_back(first);
     return true;
 }

@@ -86,12 +86,12 @@ class PathMeasurer {
     [[nodiscard]] MIR_HD static bool above(Vec3 w, const PathVertex& x) {
         return glm::dot(w, x.normal) > 0.0f && glm::dot(w, x.shading_normal) > 0.0f;
     }
-    /// Every reflecting vertex must see both neighbours on its own side. x2 sends light as a VPL
-    /// does, so only its geometric normal counts towards the camera.
+    /// Every reflecting vertex must see both neighbours on its own side, and light above its
+    /// shading normal. Whether it reflects below that is the BSDF's matter.
     [[nodiscard]] MIR_HD bool suffix_sides_agree() const {
         for (std::uint32_t i = 2; i < k_; ++i) {
             if (!above(to_light(i), path_.x(i))) return false;
-            if (i > 2 && !above(to_eye(i), path_.x(i))) return false;
+            if (i > 2 && !(glm::dot(to_eye(i), path_.x(i).normal) > 0.0f)) return false;
         }
         const bool lamp_behind = k_ > 2 && path_.light.kind == LightEndKind::area;
         return !lamp_behind || glm::dot(to_eye(k_), end().normal) > 0.0f;

@@ -71,7 +71,15 @@ struct PathWorld {
     [[nodiscard]] MIR_HD bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find(ray, p)) return false;
-        vertex = {lift(p),        p.geometric_normal, surfaces.shading_normal(p, -ray.direction),
+        vertex = {lift(p),        p.geometric_normal, surfaces.shading_normal(p),
+                  p.barycentrics, p.triangle,         p.material};
+        return true;
+    }
+    /// The same of a camera ray: the vertex is a luxel.
+    [[nodiscard]] MIR_HD bool hit_luxel(const Ray& ray, PathVertex& vertex) const {
+        SurfacePoint p;
+        if (!find(ray, p)) return false;
+        vertex = {lift(p),        p.geometric_normal, surfaces.seen_normal(p, -ray.direction),
                   p.barycentrics, p.triangle,         p.material};
         return true;
     }

@@ -99,7 +99,6 @@ class PathTracer {
         Rgb throughput{1.0f, 1.0f, 1.0f};
     };
 
-    [[nodiscard]] Vertex vertex(const SurfacePoint& p, Vec3 direction) const;
     [[nodiscard]] std::uint32_t light_samples_at(std::uint32_t bounce) const;
     [[nodiscard]] std::uint32_t directions_at(std::uint32_t bounce) const;
     [[nodiscard]] Rgb sampled_light(const Vertex& at, std::uint32_t bounce, Random& random) const;
@@ -149,15 +148,11 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-auto PathTracer<B, R, V, Rules>::vertex(const SurfacePoint& p, Vec3 direction) const -> Vertex {
-    return {{lift(p), p.geometric_normal}, world_.surfaces.surface(p, -direction)};
-}
-
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 auto PathTracer<B, R, V, Rules>::first_vertex(const Ray& ray) const -> std::optional<Vertex> {
     const auto point = world_.caster.closest_hit(ray);
     if (!point) return std::nullopt;
-    return vertex(*point, ray.direction);
+    return Vertex{{lift(*point), point->geometric_normal},
+                  world_.surfaces.luxel_surface(*point, -ray.direction)};
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
@@ -211,7 +206,8 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
         return false;
     }
 
-    const Vertex next = vertex(*point, sample.wi);
+    const Vertex next{{lift(*point), point->geometric_normal},
+                      world_.surfaces.surface(*point, -sample.wi)};
     const Rgb found = found_light(walk, sample, *point, next);
     sum_of(bounces, walk.bounce) += walk.throughput * found * walk.share;
     if (last || B::is_black(next.surface.bsdf)) return false;

@@ -199,15 +199,17 @@ bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bo
     if (!point || is_black(light.power)) return false;
     Arrival<B> at{*point, -light.ray.direction, light.power * (1.0f / survival)};
     const SurfaceTableView<Space::host, B> surfaces = world_.surfaces.view();
-    at.point.shading_normal = surfaces.shading_normal(*point, at.towards_light);
+    at.point.shading_normal = surfaces.shading_normal(*point);
     const Vec2 uv = numbers.next_2d();
     const typename B::Params bsdf = surfaces.params(point->material, attributes_of(*point));
-    const BsdfSample sample =
-        B::sample(bsdf, at.point.shading_normal, at.towards_light, uv, numbers.next());
+    // What reflects alike in all directions does so below its shading normal, too.
+    const Vec3 n = surfaces.is_lambertian(point->material) ? at.point.geometric_normal
+                                                           : at.point.shading_normal;
+    const BsdfSample sample = B::sample(bsdf, n, at.towards_light, uv, numbers.next());
     record(at, bsdf, sample, bounce, light.light_group, path);
 
     const std::uint16_t group = light.light_group;
-    light = scatter(at, sample);
+    light = scatter(at, sample, n);
     light.light_group = group;
     const float roulette = numbers.next();
     if (options_.termination == Termination::levels) return true;

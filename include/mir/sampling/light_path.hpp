@@ -37,18 +37,17 @@ inline Vpl emitter_vpl(const Emission& e) {
     return {e.ray.origin, e.emitter_normal, e.emitter->radiance * (1.0f / e.pdf_point)};
 }
 
-/// Light that leaves an arrival along `sample`: its ray and power, which is black when the sampled
-/// direction and the geometric side disagree.
+/// Light that leaves an arrival along `sample`, which was drawn around the normal `n`: its ray and
+/// power, which is black when the sampled direction and the geometric side disagree.
 template <Bsdf B>
-Emission scatter(const Arrival<B>& at, const BsdfSample& sample) {
+Emission scatter(const Arrival<B>& at, const BsdfSample& sample, Vec3 n) {
     Emission out;
-    const Vec3 n = at.point.geometric_normal;
-    const float cos_geometric = glm::dot(sample.wi, n);
-    const float cos_shading = glm::dot(sample.wi, at.point.shading_normal);
-    if (cos_geometric <= 0.0f || cos_shading <= 0.0f) return out;
+    const float cos_geometric = glm::dot(sample.wi, at.point.geometric_normal);
+    const float cos_sampled = glm::dot(sample.wi, n);
+    if (cos_geometric <= 0.0f || cos_sampled <= 0.0f) return out;
     out.ray = {lift(at.point), sample.wi};
     out.power =
-        at.power * sample.weight * (at.shading_normal_factor() * (cos_geometric / cos_shading));
+        at.power * sample.weight * (at.shading_normal_factor() * (cos_geometric / cos_sampled));
     return out;
 }
 

@@ -194,8 +194,6 @@ MIR_HD SurfacePoint GeometryView<S>::surface_point(std::uint32_t triangle, Vec2 
     const float length = glm::length(smooth);
     p.shading_normal = length > 0.0f ? smooth / length : p.geometric_normal;
     if (glm::dot(p.shading_normal, p.geometric_normal) < 0.0f) p.shading_normal = -p.shading_normal;
-    // At silhouettes the smooth normal may turn away from the ray: shading would be undefined.
-    if (glm::dot(p.shading_normal, direction) >= 0.0f) p.shading_normal = p.geometric_normal;
     const VertexAttributes own = attributes(triangle, barycentrics);
     p.texture_coordinates = own.texture_coordinates;
     p.color = own.color;

@@ -27,8 +27,9 @@ struct CookTorrance {
         float alpha = 1.0f;  ///< GGX width, roughness squared
     };
 
-    /// f(wi, wo), sr^-1, where both lie above `n`.
+    /// f(wi, wo), sr^-1, where `wi` lies above `n`. An interface reflects nothing below `n`.
     [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
+        if (!reflects_towards(p, glm::dot(n, wo))) return {};
         return outgoing<SeparateRounding>(p, n, wo)(wi, glm::dot(n, wi));
     }
 
@@ -123,6 +124,11 @@ struct CookTorrance {
         return x2 * x2 * x;
     }
 
+    /// True where f is not zero in all directions of light: without an interface also below `n`.
+    MIR_HD static bool reflects_towards(const Params& p, float cos_o) {
+        return cos_o > 0.0f || (p.f90 <= 0.0f && mir::is_black(p.f0));
+    }
+
     /// Probability with which sample() picks the specular lobe: its share of the reflected light,
     /// kept away from 0 and 1 while both lobes exist.
     MIR_HD static float specular_share(const Params& p, float cos_o) {
@@ -137,7 +143,7 @@ struct CookTorrance {
 MIR_HD inline float CookTorrance::pdf(const Params& p, Vec3 n, Vec3 wi, Vec3 wo) {
     const float cos_i = glm::dot(n, wi);
     const float cos_o = glm::dot(n, wo);
-    if (cos_i <= 0.0f || cos_o <= 0.0f) return 0.0f;
+    if (cos_i <= 0.0f || !reflects_towards(p, cos_o)) return 0.0f;
     const float share = specular_share(p, cos_o);
     float density = (1.0f - share) * cosine_hemisphere_pdf(cos_i);
     if (share > 0.0f) {
@@ -151,7 +157,7 @@ MIR_HD inline BsdfSample CookTorrance::sample(const Params& p, Vec3 n, Vec3 wo, 
                                               float lobe) {
     const Frame frame = Frame::around(n);
     const Vec3 local_wo = frame.to_local(wo);
-    if (local_wo.z <= 0.0f) return {};
+    if (!reflects_towards(p, local_wo.z)) return {};
     const bool specular = lobe < specular_share(p, local_wo.z);
     const Vec3 local =
         specular ? ggx_sample_reflection(local_wo, p.alpha, u) : square_to_cosine_hemisphere(u);

@@ -15,7 +15,7 @@ struct Lambert {
         Rgb reflectance;  ///< hemispherical albedo, 0..1
     };
 
-    /// f(wi, wo), sr^-1, where both lie above `n`.
+    /// f(wi, wo), sr^-1, where `wi` lies above `n`.
     [[gnu::always_inline]] MIR_HD static Rgb eval(const Params& p, Vec3 /*n*/, Vec3 /*wi*/,
                                                   Vec3 /*wo*/) {
         return p.reflectance * inv_pi;

@@ -40,6 +40,10 @@ class SurfaceTable {
     [[nodiscard]] Surface surface(const SurfacePoint& p, Vec3 wo) const {
         return view().surface(p, wo);
     }
+    /// The same of a luxel that is seen from the direction `wo`.
+    [[nodiscard]] Surface luxel_surface(const SurfacePoint& p, Vec3 wo) const {
+        return view().luxel_surface(p, wo);
+    }
 
     /// How a material reflects without its textures and vertex colours.
     [[nodiscard]] const typename B::Params& params(std::uint32_t material) const {

@@ -44,9 +44,11 @@ struct SurfaceTableView {
 
     /// Surface data of a point for light that leaves along the unit vector `wo`.
     [[nodiscard]] MIR_HD Surface surface(const SurfacePoint& p, Vec3 wo) const {
-        const SurfaceEntry<B>& e = entries[p.material];
-        return {shading_normal(p, wo), wo, p.front || e.both_sides ? emission(e, p) : Rgb{},
-                params(p.material, attributes_of(p))};
+        return surface(p, wo, shading_normal(p));
+    }
+    /// The same of a luxel that is seen from the direction `wo`, with seen_normal().
+    [[nodiscard]] MIR_HD Surface luxel_surface(const SurfacePoint& p, Vec3 wo) const {
+        return surface(p, wo, seen_normal(p, wo));
     }
 
     /// Parameters of a point with these attributes.
@@ -58,10 +60,19 @@ struct SurfaceTableView {
     }
 
     /// Unit shading normal as the normal texture bends it, on the side of the geometric one. Where
-    /// it would turn away from `wo` or the surface, the one of the vertices.
-    [[nodiscard]] MIR_HD Vec3 shading_normal(const SurfacePoint& p, Vec3 wo) const {
+    /// it would turn away from the surface, the one of the vertices. It does not depend on where
+    /// the point is seen from: every way to sample a path means the same path.
+    [[nodiscard]] MIR_HD Vec3 shading_normal(const SurfacePoint& p) const {
         if (!entries[p.material].textures.normal.is_set()) return p.shading_normal;
-        return bent_normal(p, wo);
+        return bent_normal(p);
+    }
+    /// The shading normal of a luxel, which the camera sees from `wo`: shading_normal(), unless it
+    /// turns away from there; then that of the vertices, unless that does too; then the geometric
+    /// one. Luxels are the only points that every sampler sees from one direction.
+    [[nodiscard]] MIR_HD Vec3 seen_normal(const SurfacePoint& p, Vec3 wo) const {
+        const Vec3 bent = shading_normal(p);
+        if (glm::dot(bent, wo) > 0.0f) return bent;
+        return glm::dot(p.shading_normal, wo) > 0.0f ? p.shading_normal : p.geometric_normal;
     }
     /// True when the material reflects alike in all directions (Material::is_lambertian()).
     [[nodiscard]] MIR_HD bool is_lambertian(std::uint32_t material) const {
@@ -69,6 +80,11 @@ struct SurfaceTableView {
     }
 
  private:
+    [[nodiscard]] MIR_HD Surface surface(const SurfacePoint& p, Vec3 wo, Vec3 normal) const {
+        const SurfaceEntry<B>& e = entries[p.material];
+        return {normal, wo, p.front || e.both_sides ? emission(e, p) : Rgb{},
+                params(p.material, attributes_of(p))};
+    }
     [[nodiscard]] MIR_HD Rgb emission(const SurfaceEntry<B>& e, const SurfacePoint& p) const {
         const Texture& texture = e.textures.emission;
         if (!texture.is_set()) return e.emission;
@@ -76,7 +92,7 @@ struct SurfaceTableView {
     }
     [[nodiscard]] MIR_HD MaterialFactors factors(const SurfaceEntry<B>& e,
                                                  const VertexAttributes& at) const;
-    [[nodiscard]] MIR_HD Vec3 bent_normal(const SurfacePoint& p, Vec3 wo) const;
+    [[nodiscard]] MIR_HD Vec3 bent_normal(const SurfacePoint& p) const;
 };
 
 template <Space S, Bsdf B>
@@ -111,7 +127,7 @@ MIR_HD MaterialFactors SurfaceTableView<S, B>::factors(const SurfaceEntry<B>& e,
 
 /// Source: Khronos glTF 2.0 specification, 3.9.3 (normal textures).
 template <Space S, Bsdf B>
-MIR_HD Vec3 SurfaceTableView<S, B>::bent_normal(const SurfacePoint& p, Vec3 wo) const {
+MIR_HD Vec3 SurfaceTableView<S, B>::bent_normal(const SurfacePoint& p) const {
     const SurfaceEntry<B>& e = entries[p.material];
     const Rgb c = textures.color(e.textures.normal, p.texture_coordinates, TexelEncoding::linear);
     const Vec3 front = p.front ? p.shading_normal : -p.shading_normal;
@@ -126,8 +142,7 @@ MIR_HD Vec3 SurfaceTableView<S, B>::bent_normal(const SurfacePoint& p, Vec3 wo) 
     const float size = glm::length(bent);
     if (!(size > 0.0f)) return p.shading_normal;
     const Vec3 n = (p.front ? 1.0f : -1.0f) / size * bent;
-    const bool is_seen = glm::dot(n, wo) > 0.0f && glm::dot(n, p.geometric_normal) > 0.0f;
-    return is_seen ? n : p.shading_normal;
+    return glm::dot(n, p.geometric_normal) > 0.0f ? n : p.shading_normal;
 }
 
 }  // namespace mir

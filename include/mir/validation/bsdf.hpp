@@ -184,6 +184,46 @@ void expect_weights(const typename B::Params& p, Report& report) {
                       std::to_string(4000 - kept) + " of 4000 are thrown away");
 }
 
+/// Largest difference of a channel.
+inline float apart(Rgb a, Rgb b) {
+    const Rgb d = a - b;
+    return larger(std::fabs(d.r), larger(std::fabs(d.g), std::fabs(d.b)));
+}
+
+/// True when `p` reflects alike in all directions, as far as a grid of them tells.
+template <Bsdf B>
+bool reflects_alike(const typename B::Params& p) {
+    const Rgb f = B::eval(p, slanted_normal, slanted_normal, slanted_normal);
+    for (float cos_i : usual_cosines)
+        for (float cos_o : usual_cosines) {
+            const Rgb other =
+                B::eval(p, slanted_normal, at_angle(cos_i, 1.0f), at_angle(cos_o, 0.4f));
+            if (!(apart(f, other) <= 1e-5f * max_channel(f))) return false;
+        }
+    return true;
+}
+
+/// Axiom 5: towards a viewer below the normal.
+template <Bsdf B>
+void expect_below(const typename B::Params& p, Report& report) {
+    const bool alike = reflects_alike<B>(p);
+    Random random = numbers(34);
+    std::size_t bad = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Vec3 wo = at_angle(-usual_cosines[i % 7], 0.4f);
+        const Vec3 wi = at_angle(1.0f - random.next(), 2.0f * pi * random.next());
+        const Rgb above = B::eval(p, slanted_normal, wi, slanted_normal);
+        const Rgb below = B::eval(p, slanted_normal, wi, wo);
+        const BsdfSample sample = B::sample(p, slanted_normal, wo, random.next_2d(), random.next());
+        const bool reflects = B::pdf(p, slanted_normal, wi, wo) > 0.0f || !is_black(sample.weight);
+        const bool is_right = alike ? apart(below, above) <= 1e-5f * max_channel(above)
+                                    : is_black(below) && !reflects;
+        bad += is_right ? 0 : 1;
+    }
+    report.expect(bad == 0, "below the normal it reflects as elsewhere, or nothing",
+                  "not in " + std::to_string(bad) + " of 400 pairs of directions");
+}
+
 }  // namespace detail
 
 /// The axioms of Bsdf, and of PreparedBsdf if `B` is one, for a list of parameters that should
@@ -198,6 +238,7 @@ Report check_bsdf(std::span<const typename B::Params> list) {
         detail::expect_reciprocal<B>(list[i], one);
         detail::expect_energy<B>(list[i], one);
         detail::expect_albedo<B>(list[i], one);
+        detail::expect_below<B>(list[i], one);
         detail::expect_weights<B>(list[i], one);
         if constexpr (PreparedBsdf<B>) detail::expect_same_when_prepared<B>(list[i], one);
         report.add("parameters " + std::to_string(i), one);
