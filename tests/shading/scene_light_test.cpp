@@ -19,7 +19,7 @@ using mirtest::FreeSight;
 using mirtest::Moments;
 
 // Every test of a mean in this file belongs to one family of level 1 %.
-const double level = mirtest::sidak(0.01, 8);
+const double level = mirtest::sidak(0.01, 12);
 
 /// A scene with what light needs of it. Radiance of a receiver with f = 1 is its irradiance.
 struct Lit {
@@ -29,9 +29,10 @@ struct Lit {
 
     explicit Lit(Scene s) : scene(std::move(s)) {}
 
-    float from_emitters(Vec3 at, Vec3 normal, std::uint32_t samples, mir::Random& random) const {
+    float from_emitters(Vec3 at, Vec3 normal, std::uint32_t samples, mir::Random& random,
+                        mir::SharedSamples shared = {}) const {
         const mir::EmitterLight<Lambert, FreeSight> light{lights, {}, samples};
-        return light({at, normal}, receiver(normal), {}, random).r;
+        return light({at, normal}, receiver(normal), shared, random).r;
     }
     float from_deltas(Vec3 at, Vec3 normal) const {
         const mir::DeltaLight<Lambert, FreeSight> light{lights, {}};
@@ -46,11 +47,11 @@ const Vec3 up(0, 1, 0);
 
 /// Estimates of the irradiance at a point from independent seeds.
 Moments irradiance(const Lit& lit, Vec3 at, Vec3 normal, std::uint64_t seed,
-                   std::uint32_t samples = 16) {
+                   std::uint32_t samples = 16, mir::SharedSamples shared = {}) {
     Moments m;
     for (std::uint64_t i = 0; i < 4000; ++i) {
         mir::Random random(seed, mir::Stream::test, i);
-        m.add(static_cast<double>(lit.from_emitters(at, normal, samples, random)));
+        m.add(static_cast<double>(lit.from_emitters(at, normal, samples, random, shared)));
     }
     return m;
 }
@@ -100,6 +101,17 @@ TEST_CASE("a square lights the point below its centre as Lambert's formula says"
     const Moments m = irradiance(Lit(square_lamp()), {0, 0, 0}, up, 122);
     CHECK(mirtest::mean_p_value(m, 1.740839503, 2e-6) > level);
     CHECK(mirtest::mean_p_value(m, 1.01 * 1.740839503, 2e-6) < level);
+}
+
+// H0: the mean irradiance below the middle of an edge is Lambert's, for each of four luxels that
+// share samples. The two triangles of the lamp light it unequally.
+TEST_CASE("each luxel of a pixel gets the light of the whole lamp", "[statistical]") {
+    const Lit lit(square_lamp());
+    for (std::uint32_t share = 0; share < 4; ++share) {
+        const Moments m = irradiance(lit, {1, 0, 0}, up, 130, 1, {4, share});
+        CAPTURE(share, m.mean(), m.standard_error());
+        CHECK(mirtest::mean_p_value(m, 1.051648) > level);
+    }
 }
 
 TEST_CASE("an emitter of both sides lights both sides, another only its front", "[statistical]") {

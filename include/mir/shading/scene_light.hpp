@@ -52,14 +52,16 @@ class EmitterLight {
         std::uint32_t both_sides;  ///< 0 or 1
     };
 
-    /// Sample `k` of the luxel: its lamps interleave with those of the pixel's other luxels.
+    /// Sample `k` of the luxel: its lamps interleave with those of the pixel's other luxels. The
+    /// shift goes over all lamps: a share of its own for each luxel would light one corner of every
+    /// pixel by the same lamps.
     [[nodiscard]] MIR_HD LampPoint sample(Shift shift, SharedSamples shared,
                                           std::uint32_t k) const {
         const std::uint32_t i = k * shared.shares + shared.share;
         const auto n = static_cast<float>(samples_ * shared.shares);
-        const float lamp = (static_cast<float>(i) + shift.pick) / n;
-        const EmitterSample e = lights_.sample_emitter(geometry_, smaller(lamp, 0x1.fffffep-1f),
-                                                       kronecker_point(shift.uv, i));
+        const float lamp = wrapped(static_cast<float>(i) / n + shift.pick);
+        const EmitterSample e =
+            lights_.sample_emitter(geometry_, lamp, kronecker_point(shift.uv, i));
         return {e.position, e.offset, e.normal, e.radiance, e.pdf_area, e.both_sides ? 1u : 0u};
     }
 
