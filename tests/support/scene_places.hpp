@@ -38,7 +38,10 @@ class ScenePlaces {
     }
     [[nodiscard]] mir::Vec3 on_edge(mir::Random& random) const {
         const std::uint32_t t = triangle(random);
-        const std::uint32_t k = random_index(random, 3);
+        return on_edge(t, random_index(random, 3), random);
+    }
+    /// On the edge of triangle `t` that starts at corner k.
+    [[nodiscard]] mir::Vec3 on_edge(std::uint32_t t, std::uint32_t k, mir::Random& random) const {
         const float share = random.next();
         return (1.0f - share) * geometry_->corner(t, k) + share * geometry_->corner(t, (k + 1) % 3);
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cuda/segments/gpu_segment_bits.hpp"
 #include "mir/accel/kd_tree_visibility.hpp"
+#include "mir/accel/wide_bvh_visibility.hpp"
 #include "mir/cuda/backend.cuh"
 #include "mir/resident/uploaded_kd_tree.hpp"
+#include "mir/resident/uploaded_wide_bvh.hpp"
 #include "support/fused_visibility.hpp"
 #include "support/segment_bits.hpp"
 
@@ -18,6 +20,16 @@ std::vector<std::uint32_t> gpu_segment_bits(const mir::cuda::Backend& backend,
     if (rounding == Rounding::fused)
         return segment_bits(backend, FusedVisibility<mir::Space::device>{there.view()}, segments);
     return segment_bits(backend, mir::KdTreeVisibility<mir::Space::device>{there.view()}, segments);
+}
+
+std::vector<std::uint32_t> gpu_segment_bits(const mir::cuda::Backend& backend,
+                                            const mir::WideBvh& bvh,
+                                            std::span<const SegmentEnds> segments) {
+    auto queue = backend.queue();
+    const mir::UploadedWideBvh<mir::cuda::Backend> there(backend, queue, bvh);
+    queue.record().sync();
+    return segment_bits(backend, mir::WideBvhVisibility<mir::Space::device>{there.view()},
+                        segments);
 }
 
 }  // namespace mirtest

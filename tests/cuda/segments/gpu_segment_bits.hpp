@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/kd_tree.hpp"
+#include "mir/accel/wide_bvh.hpp"
 #include "mir/cuda/backend.hpp"
 #include "support/segment_ends.hpp"
 
@@ -21,5 +22,10 @@ std::vector<std::uint32_t> gpu_segment_bits(const mir::cuda::Backend& backend,
                                             const mir::KdTree& tree,
                                             std::span<const SegmentEnds> segments,
                                             Rounding rounding = Rounding::strict);
+
+/// The same of a wide hierarchy.
+std::vector<std::uint32_t> gpu_segment_bits(const mir::cuda::Backend& backend,
+                                            const mir::WideBvh& bvh,
+                                            std::span<const SegmentEnds> segments);
 
 }  // namespace mirtest
