@@ -74,7 +74,7 @@ void ray_caster_fills_in_surface_points() {
         REQUIRE(glm::length(p->geometric_normal) == Approx(1.0f).epsilon(1e-5));
         REQUIRE(glm::length(p->shading_normal) == Approx(1.0f).epsilon(1e-5));
         REQUIRE(glm::dot(p->geometric_normal, ray.direction) <= 0.0f);
-        REQUIRE(glm::dot(p->shading_normal, ray.direction) <= 0.0f);
+        REQUIRE(glm::dot(p->shading_normal, p->geometric_normal) >= 0.0f);
         REQUIRE(p->barycentrics.x >= -1e-5f);
         REQUIRE(p->barycentrics.y >= -1e-5f);
         REQUIRE(p->barycentrics.x + p->barycentrics.y <= 1.0f + 1e-5f);

@@ -11,8 +11,8 @@ struct Ray {
     Vec3 direction{0, 0, -1};  ///< unit
 };
 
-/// Where a ray met the scene. Both normals have unit length and lie on the side the ray came from;
-/// `front` says whether that is the side on which the triangle's vertices turn counter-clockwise.
+/// Where a ray met the scene. Normals are unit: the geometric one against the ray, the other on its
+/// side. `front` says whether that is the side on which vertices turn counter-clockwise.
 struct SurfacePoint {
     /// World space, metres: on the surface, not lifted, and off the triangle's edges by four times
     /// `offset` where the triangle is wide enough (GeometryView::place()).

@@ -11,7 +11,7 @@ namespace mir {
 /// Light that arrives at a surface along a light path, seen from there.
 template <Bsdf B>
 struct Arrival {
-    SurfacePoint point;     ///< its normals lie on the side that the light comes from
+    SurfacePoint point;     ///< its geometric normal lies on the side that the light comes from
     Vec3 towards_light{0};  ///< unit
     Rgb power;              ///< W, per path
 
