@@ -12,13 +12,13 @@ the extended ones. Results are lines "STATE TAB FAULT"; the state is found (a te
 one survived that tools/faults.txt does not explain. Takes about a minute a fault; not for CI.
 """
 import argparse
+import os
 import pathlib
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TABLE = ROOT / "tools" / "faults.txt"
-SECONDS = 300  # for the tests of a room
 
 
 class Fault:
@@ -65,15 +65,16 @@ def misfits(tree, listed):
     return [f for f in listed if source(tree, f).read_text().count(f.old) != 1]
 
 
-def run(tree, fault):
+def run(tree, fault, jobs, seconds):
     """Builds and runs the room's tests; the state of the fault."""
     build = tree / "build" / "cpu"
     target = f"test_{fault.room}"
-    if subprocess.run(["ninja", "-C", build, "-j2", target], capture_output=True).returncode != 0:
+    if subprocess.run(["ninja", "-C", build, f"-j{jobs}", target],
+                      capture_output=True).returncode != 0:
         return "refused"
     try:
         tests = subprocess.run([build / "bin" / target, "~[extended]", "--abort"],
-                               capture_output=True, timeout=SECONDS)
+                               capture_output=True, timeout=seconds)
     except subprocess.TimeoutExpired:
         return "stopped"
     if tests.returncode == 0:
@@ -81,13 +82,13 @@ def run(tree, fault):
     return "found" if tests.returncode > 0 else "stopped"
 
 
-def planted(tree, fault):
+def planted(tree, fault, jobs, seconds):
     """The same with the fault in the source, which is put back whatever happens."""
     path = source(tree, fault)
     right = path.read_text()
     path.write_text(right.replace(fault.old, fault.new))
     try:
-        return run(tree, fault)
+        return run(tree, fault, jobs, seconds)
     finally:
         path.write_text(right)
 
@@ -115,6 +116,9 @@ def main():
     parser.add_argument("--tree", type=pathlib.Path, help="configured clone to plant them in")
     parser.add_argument("--results", type=pathlib.Path, help="file of results, kept up to date")
     parser.add_argument("--room", help="only faults of include/mir/ROOM")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers at a time")
+    parser.add_argument("--seconds", type=float, default=300,
+                        help="longest time the tests of a room may take (%(default)s)")
     o = parser.parse_args()
     listed = [f for f in faults() if o.room in (None, f.room)]
     wrong = misfits(o.tree or ROOT, listed)
@@ -128,7 +132,7 @@ def main():
     for f in listed:
         if str(f) in results:
             continue
-        results[str(f)] = planted(o.tree, f)
+        results[str(f)] = planted(o.tree, f, o.jobs, o.seconds)
         with o.results.open("a") as out:
             out.write(f"{results[str(f)]}\t{f}\n")
         print(f"{results[str(f)]:9}{f}", flush=True)
