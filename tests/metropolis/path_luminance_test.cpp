@@ -38,3 +38,19 @@ TEST_CASE("equal weights have no spread, however many and large") {
     CHECK(path_luminance(weights).mean == Approx(1e200));
     CHECK(path_luminance(std::vector<double>(64, 0.5)).standard_error == 0.0);
 }
+
+TEST_CASE("moments of parts add up to those of the whole, whatever their sizes") {
+    const std::vector<double> weights{4, 0, 2, 0, 4, 7, 1};
+    const PathLuminance whole = path_luminance(weights);
+    for (std::size_t cut = 0; cut <= weights.size(); ++cut) {
+        CAPTURE(cut);
+        mir::WeightMoments parts[2];
+        for (std::size_t i = 0; i < weights.size(); ++i) parts[i < cut ? 0 : 1].add(weights[i]);
+        parts[0].add(parts[1]);
+        const PathLuminance sum = parts[0].estimate();
+        CHECK(sum.mean == Approx(whole.mean));
+        CHECK(sum.standard_error == Approx(whole.standard_error));
+        CHECK(sum.paths == whole.paths);
+        CHECK(sum.contributing == whole.contributing);
+    }
+}
