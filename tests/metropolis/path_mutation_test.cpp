@@ -171,3 +171,20 @@ TEST_CASE("the ends of the unit interval choose something possible") {
         }
     });
 }
+
+TEST_CASE("new vertices have the mean density of all ways to share them between camera and light") {
+    mir::PathMeasure m;  // primes, so that no two products are equal
+    m.from_eye[2] = 2;
+    m.from_eye[3] = 3;
+    m.from_eye[4] = 5;
+    m.from_light[1] = 7;
+    m.from_light[2] = 11;
+    m.from_light[3] = 13;
+    m.next_event = 17;
+    m.emission = 19;
+    using mirtest::Approx;
+    CHECK(refill_density(m, 4, 1, 2) == Approx((11 * 13 + 2 * 13 + 2 * 3) / 3.0));
+    CHECK(refill_density(m, 4, 2, 2) == Approx((13 * 19 + 3 * 17 + 3 * 5) / 3.0));
+    // x1 is what the film shows: it comes from the camera, and its density is left out.
+    CHECK(refill_density(m, 4, 0, 2) == Approx((11 + 2) / 2.0));
+}
