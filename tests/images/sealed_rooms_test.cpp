@@ -20,7 +20,7 @@ void light_from_outside(mir::Scene& scene, Vec3 centre, float size) {
     scene.place(mir::builtin::quad("lamp", lamp, above, {0, 0, size}, {size, 0, 0}));
     const float intensity = 10.0f * size * size;
     scene.point_lights.push_back(
-        {"bulb", centre + 2.0f * size * Vec3(1, 1, 0.5f), mir::Rgb(1, 1, 1) * intensity});
+        {"bulb", centre + 2.0f * size * Vec3(1, 1, 0.5f), mir::Rgb{1, 1, 1} * intensity});
     scene.directional_lights.push_back(
         {"sun", glm::normalize(Vec3(-1, -2, -1)), {3.0f, 3.0f, 3.0f}});
     scene.directional_lights.push_back({"low sun", {1, 0, 0}, {3.0f, 3.0f, 3.0f}});
@@ -53,8 +53,8 @@ mir::Scene ball_room(const mirtest::BallShape& ball) {
 std::size_t lit_pixels(const mir::Scene& scene, const mir::RenderSettings& settings) {
     const mir::RenderResult picture = mirtest::render(scene, settings);
     const auto pixels = picture.beauty.pixels();
-    return static_cast<std::size_t>(std::count_if(
-        pixels.begin(), pixels.end(), [](mir::Rgb p) { return !(p == mir::Rgb(0, 0, 0)); }));
+    return static_cast<std::size_t>(
+        std::count_if(pixels.begin(), pixels.end(), [](mir::Rgb p) { return !(p == mir::Rgb{}); }));
 }
 
 /// Of pictures by rays and by shafts, with VPLs of lamps outside, and by paths.
