@@ -12,6 +12,7 @@ namespace {
 using mir::DVec3;
 using mir::detail::coincide;
 using mir::detail::Corners;
+using mir::detail::Facet;
 
 const Corners lamp{DVec3(1, 0, 1), DVec3(2, 0, 1), DVec3(1, 0, 2)};
 
@@ -22,8 +23,8 @@ Corners moved(Corners t, DVec3 by) {
 
 /// Either way round.
 bool each_coincides(const Corners& a, const Corners& b) {
-    const bool found = coincide(a, b, 1e-5);
-    CHECK(coincide(b, a, 1e-5) == found);
+    const bool found = coincide(Facet(a), Facet(b), 1e-5);
+    CHECK(coincide(Facet(b), Facet(a), 1e-5) == found);
     return found;
 }
 

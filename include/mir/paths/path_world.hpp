@@ -71,16 +71,14 @@ struct PathWorld {
     [[nodiscard]] MIR_HD bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find(ray, p)) return false;
-        vertex = {lift(p),        p.geometric_normal, surfaces.shading_normal(p),
-                  p.barycentrics, p.triangle,         p.material};
+        vertex = vertex_at(p, surfaces.shading_normal(p));
         return true;
     }
     /// The same of a camera ray: the vertex is a luxel.
     [[nodiscard]] MIR_HD bool hit_luxel(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find(ray, p)) return false;
-        vertex = {lift(p),        p.geometric_normal, surfaces.seen_normal(p, -ray.direction),
-                  p.barycentrics, p.triangle,         p.material};
+        vertex = vertex_at(p, surfaces.seen_normal(p, -ray.direction));
         return true;
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.
@@ -91,6 +89,10 @@ struct PathWorld {
     }
 
  private:
+    [[nodiscard]] MIR_HD static PathVertex vertex_at(const SurfacePoint& p, Vec3 shading_normal) {
+        return {lift(p),        p.geometric_normal, shading_normal,
+                p.barycentrics, p.triangle,         p.material};
+    }
     [[nodiscard]] MIR_HD bool find(const Ray& ray, SurfacePoint& point) const {
         if constexpr (PointFinder<R>) {
             return caster.find_point(ray, point);

@@ -8,6 +8,7 @@
 #include "mir/scene/bounds.hpp"
 #include "mir/scene/detail/check_mesh.hpp"
 #include "mir/scene/detail/lifted_corners.hpp"
+#include "mir/scene/detail/mesh_parts.hpp"
 #include "mir/scene/geometry_view.hpp"
 #include "mir/scene/scene.hpp"
 
@@ -125,21 +126,8 @@ class WorldGeometry {
         return executor;
     }
 
-    /// Some vertices, or triangles, of an instance that are placed together.
-    struct Part {
-        const Instance* instance;
-        const Mesh* mesh;
-        std::uint32_t first;         ///< in the mesh
-        std::uint32_t count;         ///< at least 1
-        std::uint32_t first_vertex;  ///< of the instance among all
-        std::uint32_t to;            ///< place of the first among all
-    };
-    struct Parts {
-        std::vector<Part> vertices;
-        std::vector<Part> triangles;
-    };
+    using Part = detail::MeshPart;
 
-    static Parts cut(const Scene& scene);
     void place_attributes(const Scene& scene);
     [[nodiscard]] Bounds place_vertices(const Part& part);
     [[nodiscard]] std::uint32_t place_triangles(const Part& part);
@@ -174,19 +162,6 @@ inline float ray_offset_of(const Bounds& bounds) {
     return smaller(magnitude * 0x1p-16f, unseen);
 }
 
-/// By material.
-inline std::vector<Shining> shining_of(const Scene& scene) {
-    std::vector<Shining> shining;
-    for (const Material& m : scene.materials)
-        shining.push_back(!m.emits()                ? Shining::none
-                          : m.emits_from_both_sides ? Shining::both
-                                                    : Shining::front);
-    return shining;
-}
-
-/// Elements that are placed together: enough to hide what a thread costs.
-inline constexpr std::uint32_t placed_together = 8192;
-
 }  // namespace detail
 
 template <Executor E>
@@ -194,7 +169,7 @@ WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& execut
     : alpha_masks_(std::make_shared<const AlphaMaskTable>(scene)) {
     for (const Mesh& mesh : scene.meshes) detail::check_mesh(scene, mesh);
     detail::check_instances(scene, limits);
-    const Parts parts = cut(scene);
+    const detail::MeshParts parts = detail::mesh_parts(scene);
     const auto end_of = [](const std::vector<Part>& all) {
         return all.empty() ? 0u : all.back().to + all.back().count;
     };
@@ -225,26 +200,6 @@ WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& execut
     lift_lamps(scene, detail::LampFaceFinder(view(), static_cast<std::uint32_t>(triangles_.size()),
                                              detail::shining_of(scene))
                           .find(executor));
-}
-
-inline WorldGeometry::Parts WorldGeometry::cut(const Scene& scene) {
-    Parts parts;
-    std::uint32_t vertices = 0, triangles = 0;
-    for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshes[instance.mesh];
-        const auto append = [&](std::vector<Part>& to, std::size_t count, std::uint32_t place) {
-            for (std::size_t first = 0; first < count; first += detail::placed_together)
-                to.push_back({&instance, &mesh, static_cast<std::uint32_t>(first),
-                              static_cast<std::uint32_t>(
-                                  std::min<std::size_t>(detail::placed_together, count - first)),
-                              vertices, place + static_cast<std::uint32_t>(first)});
-        };
-        append(parts.vertices, mesh.positions.size(), vertices);
-        append(parts.triangles, mesh.triangles.size(), triangles);
-        vertices += static_cast<std::uint32_t>(mesh.positions.size());
-        triangles += static_cast<std::uint32_t>(mesh.triangles.size());
-    }
-    return parts;
 }
 
 /// Bounds of what was placed; none when some of it lies at infinity.

@@ -22,9 +22,11 @@ namespace mir::detail {
 class BoxTree {
  public:
     /// Element i is box i; none may be empty.
-    explicit BoxTree(const std::vector<Bounds>& boxes) : boxes_(boxes), order_(boxes.size()) {
-        for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
-        if (!boxes_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
+    explicit BoxTree(const std::vector<Bounds>& boxes) {
+        leaves_.reserve(boxes.size());
+        for (const Bounds& box : boxes)
+            leaves_.push_back({box, static_cast<std::uint32_t>(leaves_.size())});
+        if (!leaves_.empty()) build(0, static_cast<std::uint32_t>(leaves_.size()));
     }
 
     /// Calls visit(i) for every box i that touches `box`, in an order of the tree's own.
@@ -36,7 +38,12 @@ class BoxTree {
  private:
     static constexpr std::uint32_t leaf_size = 4;
 
-    /// Boxes [first, last) of the order; the first child follows its node.
+    struct Leaf {
+        Bounds box;
+        std::uint32_t index;
+    };
+
+    /// Leaves [first, last); the first child follows its node.
     struct Node {
         Bounds box;
         std::uint32_t first = 0;
@@ -48,19 +55,19 @@ class BoxTree {
         const auto at = static_cast<std::uint32_t>(nodes_.size());
         nodes_.push_back({{}, first, last});
         for (std::uint32_t i = first; i < last; ++i) {
-            nodes_[at].box.add(boxes_[order_[i]].low);
-            nodes_[at].box.add(boxes_[order_[i]].high);
+            nodes_[at].box.add(leaves_[i].box.low);
+            nodes_[at].box.add(leaves_[i].box.high);
         }
         if (last - first <= leaf_size) return at;
         const Vec3 size = nodes_[at].box.high - nodes_[at].box.low;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const std::uint32_t middle = first + (last - first) / 2;
-        const auto begin = order_.begin();
+        const auto begin = leaves_.begin();
         std::nth_element(begin + first, begin + middle, begin + last,
-                         [&](std::uint32_t a, std::uint32_t b) {
-                             const float place = boxes_[a].centre()[axis];
-                             const float other = boxes_[b].centre()[axis];
-                             return place != other ? place < other : a < b;
+                         [axis](const Leaf& a, const Leaf& b) {
+                             const float place = a.box.centre()[axis];
+                             const float other = b.box.centre()[axis];
+                             return place != other ? place < other : a.index < b.index;
                          });
         build(first, middle);
         const std::uint32_t second = build(middle, last);
@@ -78,11 +85,10 @@ class BoxTree {
             return;
         }
         for (std::uint32_t i = node.first; i < node.last; ++i)
-            if (touch(boxes_[order_[i]], box)) visit(order_[i]);
+            if (touch(leaves_[i].box, box)) visit(leaves_[i].index);
     }
 
-    std::vector<Bounds> boxes_;
-    std::vector<std::uint32_t> order_;
+    std::vector<Leaf> leaves_;
     std::vector<Node> nodes_;
 };
 

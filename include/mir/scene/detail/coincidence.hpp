@@ -12,16 +12,19 @@ namespace mir::detail {
 using Corners = std::array<DVec3, 3>;
 using FlatCorners = std::array<glm::dvec2, 3>;
 
-/// Along the front normal, as long as twice the area.
-[[nodiscard]] inline DVec3 area_vector(const Corners& t) {
-    return glm::cross(t[1] - t[0], t[2] - t[0]);
-}
+/// A triangle with an area.
+struct Facet {
+    explicit Facet(const Corners& t)
+        : corners(t), normal(glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]))) {}
+
+    Corners corners;
+    DVec3 normal;  ///< of the front, of length 1
+};
 
 /// True when no corner of `t` is further than `tolerance` from the plane of `other`.
-[[nodiscard]] inline bool lies_in_plane(const Corners& t, const Corners& other, double tolerance) {
-    const DVec3 normal = glm::normalize(area_vector(other));
+[[nodiscard]] inline bool lies_in_plane(const Corners& t, const Facet& other, double tolerance) {
     return std::all_of(t.begin(), t.end(), [&](DVec3 corner) {
-        return std::fabs(glm::dot(normal, corner - other[0])) <= tolerance;
+        return std::fabs(glm::dot(other.normal, corner - other.corners[0])) <= tolerance;
     });
 }
 
@@ -54,14 +57,14 @@ using FlatCorners = std::array<glm::dvec2, 3>;
     return least;
 }
 
-/// True when two triangles with an area lie in one plane, to `tolerance`, metres, where they
-/// overlap. Triangles that only share an edge or a corner do not.
+/// True when two triangles lie in one plane, to `tolerance`, metres, where they overlap. Triangles
+/// that only share an edge or a corner do not.
 /// Source: separating axes; Ericson, "Real-Time Collision Detection", 2005, 5.2.1.
-[[nodiscard]] inline bool coincide(const Corners& a, const Corners& b, double tolerance) {
-    if (!lies_in_plane(a, b, tolerance) && !lies_in_plane(b, a, tolerance)) return false;
-    const DVec3 normal = area_vector(a);
-    const FlatCorners flat_a = flattened(a, normal);
-    const FlatCorners flat_b = flattened(b, normal);
+[[nodiscard]] inline bool coincide(const Facet& a, const Facet& b, double tolerance) {
+    if (!lies_in_plane(a.corners, b, tolerance) && !lies_in_plane(b.corners, a, tolerance))
+        return false;
+    const FlatCorners flat_a = flattened(a.corners, a.normal);
+    const FlatCorners flat_b = flattened(b.corners, a.normal);
     return std::min(overlap_across_edges(flat_a, flat_b), overlap_across_edges(flat_b, flat_a)) >
            4.0 * tolerance;
 }

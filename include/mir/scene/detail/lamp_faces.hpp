@@ -5,6 +5,7 @@
 #include "mir/scene/detail/box_tree.hpp"
 #include "mir/scene/detail/coincidence.hpp"
 #include "mir/scene/geometry_view.hpp"
+#include "mir/scene/scene.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,6 +25,16 @@ struct LampFace {
 
 /// From which sides the triangles of a material shine.
 enum class Shining : std::uint8_t { none, front, both };
+
+/// By material.
+[[nodiscard]] inline std::vector<Shining> shining_of(const Scene& scene) {
+    std::vector<Shining> shining;
+    for (const Material& m : scene.materials)
+        shining.push_back(!m.emits()                ? Shining::none
+                          : m.emits_from_both_sides ? Shining::both
+                                                    : Shining::front);
+    return shining;
+}
 
 /// Lamps that coincide with other surfaces.
 struct CoincidingLamps {
@@ -73,9 +84,9 @@ class LampFaceFinder {
     [[nodiscard]] Shining shining_of(std::uint32_t triangle) const {
         return shining_[geometry_.materials[triangle]];
     }
-    [[nodiscard]] Corners corners_of(std::uint32_t triangle) const {
-        return {geometry_.corner(triangle, 0), geometry_.corner(triangle, 1),
-                geometry_.corner(triangle, 2)};
+    [[nodiscard]] Facet facet(std::uint32_t triangle) const {
+        return Facet({geometry_.corner(triangle, 0), geometry_.corner(triangle, 1),
+                      geometry_.corner(triangle, 2)});
     }
     [[nodiscard]] Bounds box_of(std::uint32_t triangle, float margin) const {
         Bounds box;
@@ -116,17 +127,17 @@ class LampFaceFinder {
 
     void append_pairs(const BoxTree& tree, std::uint32_t triangle, std::vector<Pair>& pairs) const {
         const bool shines = shining_of(triangle) != Shining::none;
+        const Facet own = facet(triangle);
         tree.each_touching(box_of(triangle, 0.0f), [&](std::uint32_t i) {
             const std::uint32_t lamp = lamps_[i];
             if (shines && lamp >= triangle) return;
-            if (coincide(corners_of(lamp), corners_of(triangle),
-                         static_cast<double>(reach_of(lamp))))
+            if (coincide(facet(lamp), own, static_cast<double>(reach_of(lamp))))
                 pairs.emplace_back(lamp, triangle);
         });
     }
 
     [[nodiscard]] bool look_alike(std::uint32_t a, std::uint32_t b) const {
-        return glm::dot(area_vector(corners_of(a)), area_vector(corners_of(b))) > 0.0;
+        return glm::dot(facet(a).normal, facet(b).normal) > 0.0;
     }
 
     /// Position of a lamp among the lamps.

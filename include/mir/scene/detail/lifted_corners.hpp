@@ -3,25 +3,39 @@
 
 #include "mir/scene/detail/lamp_faces.hpp"
 
+#include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
+#include <span>
 #include <tuple>
 #include <vector>
 
 namespace mir::detail {
 
-/// Direction that comes out of surfaces with these unit normals, with a component of one along the
-/// normal that it is furthest from. `own`, one of them, where the surfaces turn too far from each
-/// other for that.
-[[nodiscard]] inline Vec3 way_out(const std::vector<Vec3>& normals, Vec3 own) {
+/// A corner of a lifted face.
+struct FaceCorner {
+    Vec3 place;
+    std::uint32_t level;
+    bool front;
+    std::size_t face;
+    std::uint32_t corner;  ///< 0..2
+    Vec3 normal;           ///< of the face
+
+    /// Corners that are lifted to one place have equal keys.
+    [[nodiscard]] auto key() const { return std::tuple(place.x, place.y, place.z, level, front); }
+};
+
+/// Direction that comes out of the surfaces that meet in a place, with a component of one along
+/// that normal which it is furthest from. Zero where they turn too far from each other for that.
+[[nodiscard]] inline Vec3 way_out(std::span<const FaceCorner> corners) {
     Vec3 sum(0.0f);
-    for (const Vec3 n : normals) sum += n;
+    for (const FaceCorner& c : corners) sum += c.normal;
     const float length = glm::length(sum);
-    if (!(length > 0.0f)) return own;
+    if (!(length > 0.0f)) return Vec3(0.0f);
     const Vec3 mean = sum / length;
     float least = 1.0f;
-    for (const Vec3 n : normals) least = smaller(least, glm::dot(mean, n));
-    return least > 0.5f ? mean / least : own;
+    for (const FaceCorner& c : corners) least = smaller(least, glm::dot(mean, c.normal));
+    return least > 0.5f ? mean / least : Vec3(0.0f);
 }
 
 /// Where the corners of lifted faces lie, in the order of their triangles' corners: `step` metres a
@@ -29,26 +43,28 @@ namespace mir::detail {
 /// turn by more than 120 degrees.
 [[nodiscard]] inline std::vector<std::array<Vec3, 3>> lifted_corners(
     const GeometryView<Space::host>& geometry, const std::vector<LampFace>& faces, float step) {
-    using Place = std::tuple<float, float, float, std::uint32_t, bool>;
-    const auto normal_of = [&](const LampFace& f) {
-        const Vec3 normal = geometry.front_normal(f.triangle);
-        return f.front ? normal : -normal;
-    };
-    const auto place_of = [&](const LampFace& f, std::uint32_t k) {
-        const Vec3 p = geometry.corner(f.triangle, k);
-        return Place{p.x, p.y, p.z, f.level, f.front};
-    };
-    std::map<Place, std::vector<Vec3>> normals;
-    for (const LampFace& f : faces)
-        for (std::uint32_t k = 0; k < 3; ++k) normals[place_of(f, k)].push_back(normal_of(f));
-    std::vector<std::array<Vec3, 3>> corners(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const Vec3 way = way_out(normals.at(place_of(faces[i], k)), normal_of(faces[i]));
-            corners[i][k] = geometry.corner(faces[i].triangle, k) +
-                            (static_cast<float>(faces[i].level) * step) * way;
-        }
-    return corners;
+    std::vector<FaceCorner> all;
+    all.reserve(3 * faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const auto& [triangle, front, level] = faces[i];
+        const Vec3 normal = geometry.front_normal(triangle);
+        for (std::uint32_t k = 0; k < 3; ++k)
+            all.push_back(
+                {geometry.corner(triangle, k), level, front, i, k, front ? normal : -normal});
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.key() < b.key(); });
+    std::vector<std::array<Vec3, 3>> lifted(faces.size());
+    for (auto first = all.begin(); first != all.end();) {
+        const auto last =
+            std::find_if(first, all.end(), [&](const auto& c) { return c.key() != first->key(); });
+        const Vec3 way = way_out({first, last});
+        for (; first != last; ++first)
+            lifted[first->face][first->corner] =
+                first->place + (static_cast<float>(first->level) * step) *
+                                   (way == Vec3(0.0f) ? first->normal : way);
+    }
+    return lifted;
 }
 
 }  // namespace mir::detail
