@@ -104,6 +104,18 @@ TEST_CASE("normals are carried by the inverse transpose, mirrored or not") {
     }
 }
 
+TEST_CASE("the scale of an instance changes no digit of its normals and no side") {
+    const float scale = GENERATE(0x1p-50f, 0x1p-20f, 0x1p20f, 0x1p50f);
+    CAPTURE(scale);
+    const mir::Mat3 a({-2, 0.5f, 0}, {0, 1, 0}, {0, 0.3f, 4});
+    const WorldGeometry home(with(ball(), Mat4(a)));
+    const WorldGeometry scaled(with(ball(), Mat4(scale * a)));
+    CHECK(std::equal(home.normals().begin(), home.normals().end(), scaled.normals().begin(),
+                     scaled.normals().end()));
+    CHECK(std::equal(home.triangles().begin(), home.triangles().end(), scaled.triangles().begin(),
+                     scaled.triangles().end()));
+}
+
 TEST_CASE("triangles without area are dropped and counted, flattened instances too") {
     Mesh m = square();
     m.triangles.push_back({0, 0, 1});

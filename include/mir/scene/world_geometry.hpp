@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <utility>
@@ -162,6 +163,20 @@ inline float ray_offset_of(const Bounds& bounds) {
     return smaller(magnitude * 0x1p-16f, unseen);
 }
 
+/// `m` times the power of two that brings its largest element between 1 and 2. That rounds nothing,
+/// and no product of two or three elements vanishes or overflows because the scale of `m` is small
+/// or large.
+inline Mat3 of_size_one(const Mat3& m) {
+    const float size = larger(larger(max_abs(m[0]), max_abs(m[1])), max_abs(m[2]));
+    if (!(size > 0.0f) || !is_finite(static_cast<double>(size))) return m;
+    const int exponent = -std::ilogb(size);
+    Mat3 scaled(0.0f);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            scaled[column][row] = std::ldexp(m[column][row], exponent);
+    return scaled;
+}
+
 }  // namespace detail
 
 template <Executor E>
@@ -208,7 +223,7 @@ inline Bounds WorldGeometry::place_vertices(const Part& part) {
     const Mat4& to_world = part.instance->to_world;
     // Cofactors instead of the inverse transpose: they exist for flattened instances too. Their
     // sign does not matter, surface_point() turns normals to the geometric side.
-    const Mat3 m(to_world);
+    const Mat3 m = detail::of_size_one(Mat3(to_world));
     const Mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     Bounds bounds;
     for (std::uint32_t i = 0; i < part.count; ++i) {
@@ -244,7 +259,8 @@ inline void WorldGeometry::place_attributes(const Scene& scene) {
 
 /// Number of triangles that have an area; they lie at the front of the part's place.
 inline std::uint32_t WorldGeometry::place_triangles(const Part& part) {
-    const bool mirrored = glm::determinant(Mat3(part.instance->to_world)) < 0.0f;
+    const bool mirrored =
+        glm::determinant(detail::of_size_one(Mat3(part.instance->to_world))) < 0.0f;
     std::uint32_t to = part.to;
     for (std::uint32_t i = 0; i < part.count; ++i) {
         TriangleIndices t = part.mesh->triangles[part.first + i];
