@@ -104,7 +104,7 @@ double p_of_chains(Mutation mutation, std::uint64_t seed) {
 struct OneStrategy : ChainRules {
     static double refill(const mir::PathMeasure& m, std::uint32_t k, std::uint32_t left,
                          std::uint32_t n) {
-        double density = 1.0;
+        double density = left < 2 && left + n >= 2 ? m.area_unit : 1.0;
         for (std::uint32_t i = left + 1; i <= left + n && i < k; ++i)
             density *= i == 1 ? 1.0 : m.from_eye[i];
         return left + n == k ? density * m.next_event : density;

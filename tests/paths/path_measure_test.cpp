@@ -67,12 +67,13 @@ Rgb scaled(Rgb c, double by) { return c * static_cast<float>(by); }
 template <class World>
 Rgb leaving(const World& world, const Path& path) {
     const Rgb light = path.light.emission;
+    const auto term = [&](std::uint32_t i) {
+        return world.area_unit * geometry(path.x(i), path.x(i + 1));
+    };
     if (path.edges() == 2) return light;
-    if (path.edges() == 3)
-        return scaled(light * spread(world, path), geometry(path.x(2), path.x(3)));
+    if (path.edges() == 3) return scaled(light * spread(world, path), term(2));
     const Rgb third = bsdf(world, path.x(3), path.x(4).position, path.x(2).position);
-    return scaled(light * third * spread(world, path),
-                  geometry(path.x(2), path.x(3)) * geometry(path.x(3), path.x(4)));
+    return scaled(light * third * spread(world, path), term(2) * term(3));
 }
 
 void check_equal(const mir::WideRgb& a, const mir::WideRgb& b) {
@@ -181,14 +182,18 @@ TEST_CASE("the bounded kernel caps the term of x1 and x2 and no other") {
 
 TEST_CASE("between Lambertian surfaces a vertex has the density cos cos / (pi d^2)") {
     const PathLab<Lambert> lab(Wedge(WedgeLights::two_sided).scene());
+    const double unit = lab.world().area_unit;
     for_each_path(lab.world(), 4, [&](const Path& path, const PathMeasure& m) {
+        REQUIRE(m.area_unit == unit);
         for (std::uint32_t i = 2; i <= 4; ++i)
             REQUIRE(m.from_eye[i] ==
-                    Approx(cosine_density(path.x(i - 1), path.x(i), path.x(i - 1).shading_normal)));
+                    Approx((i > 2 ? unit : 1.0) *
+                           cosine_density(path.x(i - 1), path.x(i), path.x(i - 1).shading_normal)));
         REQUIRE(m.from_light[2] ==
                 Approx(cosine_density(path.x(3), path.x(2), path.x(3).shading_normal)));
         // Lamps send light about their geometric normal.
-        REQUIRE(m.from_light[3] == Approx(cosine_density(path.x(4), path.x(3), path.x(4).normal)));
+        REQUIRE(m.from_light[3] ==
+                Approx(unit * cosine_density(path.x(4), path.x(3), path.x(4).normal)));
     });
 }
 
@@ -206,9 +211,11 @@ TEST_CASE("glossy vertices are drawn from their lobe, but x3 as a VPL's light is
         REQUIRE(m.from_eye[2] == Approx(lobe(path.x(1), path.eye, path.x(2))).epsilon(1e-3));
         if (!world.surfaces.is_lambertian(path.x(2).material))
             REQUIRE(m.from_eye[3] ==
-                    Approx(cosine_density(path.x(2), path.x(3), path.x(2).shading_normal)));
-        REQUIRE(m.from_eye[4] ==
-                Approx(lobe(path.x(3), path.x(2).position, path.x(4))).epsilon(1e-3));
+                    Approx(world.area_unit *
+                           cosine_density(path.x(2), path.x(3), path.x(2).shading_normal)));
+        REQUIRE(
+            m.from_eye[4] ==
+            Approx(world.area_unit * lobe(path.x(3), path.x(2).position, path.x(4))).epsilon(1e-3));
         REQUIRE(m.from_light[2] ==
                 Approx(lobe(path.x(3), path.x(4).position, path.x(2))).epsilon(1e-3));
     });

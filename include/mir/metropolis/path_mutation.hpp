@@ -107,7 +107,8 @@ class GapChoices {
 
 /// Density of the `n` vertices between the ends of a gap in a path of k edges, over all splits of
 /// them into a camera's and a light's side. Leaving out splits that could have built the same
-/// vertices would break detailed balance.
+/// vertices would break detailed balance. x2 counts in PathMeasure::area_unit too: what is x2 of
+/// the one path may be x3 of the other.
 MIR_HD inline double refill_density(const PathMeasure& m, std::uint32_t k, std::uint32_t left,
                                     std::uint32_t n) {
     const std::uint32_t fewest = GapChoices::min_from_eye({left, left + n + 1});
@@ -121,7 +122,8 @@ MIR_HD inline double refill_density(const PathMeasure& m, std::uint32_t k, std::
             density *= i < k ? m.from_light[i] : from_light == 1 ? m.next_event : m.emission;
         sum += density;
     }
-    return sum / static_cast<double>(n - fewest + 1);
+    const bool holds_second = left < 2 && left + n >= 2;
+    return sum * (holds_second ? m.area_unit : 1.0) / static_cast<double>(n - fewest + 1);
 }
 
 /// Takes the gap out of `x` and puts `n` new vertices in, `from_eye` of them grown from the

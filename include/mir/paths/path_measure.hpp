@@ -7,12 +7,15 @@
 namespace mir {
 
 /// What a path carries and how likely each of its vertices is from either side. Visibility is not
-/// part of it. Film and lens are measured by their unit squares and x2 .. x_k by area (a light end
-/// without extent by counting, an environment by solid angle), so the camera's own terms are 1.
+/// part of it. Film and lens are measured by their unit squares, x2 by its area in m^2 and
+/// x3 .. x_k by theirs in PathWorld::area_unit (a light end without extent by counting, an
+/// environment by solid angle), so the camera's own terms are 1. Weights, F over a density, do not
+/// depend on the unit.
 struct PathMeasure {
     WideRgb contribution;  ///< F: image mean of the radiance that such paths bring, W m^-2 sr^-1
     WideRgb leaving;       ///< R: radiance that leaves x2 towards x1, W m^-2 sr^-1
     WideRgb response;      ///< F / R: what the image receives of R, a factor of x0, x1 and x2 alone
+    double area_unit = 1.0;  ///< PathWorld::area_unit, m^2
     // Plain arrays, because device code cannot index std::array.
     double from_eye[max_path_edges + 1] = {};    ///< density of x_i, drawn from x_(i-1)
     double from_light[max_path_edges + 1] = {};  ///< density of x_i, drawn from x_(i+1)
@@ -49,8 +52,9 @@ class PathMeasurer {
     /// x2 .. x_k alone. False when no light can leave x2, whatever is visible; `m` is unfinished
     /// then.
     MIR_HD bool run_suffix(PathMeasure& m) const {
-        m.next_event = path_.light.pdf_next_event;
-        m.emission = path_.light.pdf_emission;
+        m.area_unit = world_.area_unit;
+        m.next_event = path_.light.pdf_next_event * unit_of(k_);
+        m.emission = path_.light.pdf_emission * unit_of(k_);
         if (!is_representable() || !suffix_sides_agree()) return false;
         m.leaving = leaving_second();
         if (is_black(m.leaving)) return false;
@@ -75,6 +79,12 @@ class PathMeasurer {
     /// Unit vector from x_i towards the light, and towards the camera.
     [[nodiscard]] MIR_HD Vec3 to_light(std::uint32_t i) const { return edges_[i].w; }
     [[nodiscard]] MIR_HD Vec3 to_eye(std::uint32_t i) const { return -edges_[i - 1].w; }
+
+    /// What a density of x_i per m^2 is multiplied by; 1 where x_i is not measured by its area.
+    [[nodiscard]] MIR_HD double unit_of(std::uint32_t i) const {
+        const bool by_area = i < k_ || path_.light.kind == LightEndKind::area;
+        return i > 2 && by_area ? world_.area_unit : 1.0;
+    }
 
     /// Lights without extent and environments are no VPLs: they need a reflecting x2.
     [[nodiscard]] MIR_HD bool is_representable() const {
@@ -120,9 +130,9 @@ class PathMeasurer {
     /// Irradiance at x2, spread as a Lambertian surface would, or the emission of a lamp there.
     [[nodiscard]] MIR_HD WideRgb leaving_second() const {
         if (k_ == 2) return path_.light.emission;
-        WideRgb light = light_at(k_ - 1);
+        WideRgb light = WideRgb(light_at(k_ - 1)) * unit_of(k_);
         for (std::uint32_t i = k_ - 1; i > 2; --i)
-            light = light * bsdf(i) * static_cast<double>(geometry(i - 1));
+            light = light * bsdf(i) * (static_cast<double>(geometry(i - 1)) * unit_of(i));
         const PathVertex& x = path_.x(2);
         const BsdfSample sample = B::sample(world_.params(x), x.shading_normal, to_light(2),
                                             {path_.spread.x, path_.spread.y}, path_.spread.z);
@@ -136,14 +146,19 @@ class PathMeasurer {
         const float pdf =
             i == 3 ? cosine_hemisphere_pdf(glm::dot(e.w, from.shading_normal))
                    : B::pdf(world_.params(from), from.shading_normal, e.w, to_eye(i - 1));
-        return static_cast<double>(pdf) * static_cast<double>(cosine) / static_cast<double>(e.d2);
+        return per_area(pdf, cosine, e) * unit_of(i);
     }
     [[nodiscard]] MIR_HD double density_from_light(std::uint32_t i) const {
         const PathEdge& e = edges_[i];
         const float cosine = larger(glm::dot(e.w, path_.x(i).normal), 0.0f);
-        if (i + 1 == k_) return light_ray_density(world_, end(), path_.light, -e.w, cosine, e.d2);
+        if (i + 1 == k_)
+            return light_ray_density(world_, end(), path_.light, -e.w, cosine, e.d2) * unit_of(i);
         const PathVertex& from = path_.x(i + 1);
         const float pdf = B::pdf(world_.params(from), from.shading_normal, -e.w, to_light(i + 1));
+        return per_area(pdf, cosine, e) * unit_of(i);
+    }
+    /// Density per m^2 at the end of an edge, of a direction's density and the cosine there.
+    [[nodiscard]] MIR_HD static double per_area(float pdf, float cosine, const PathEdge& e) {
         return static_cast<double>(pdf) * static_cast<double>(cosine) / static_cast<double>(e.d2);
     }
 

@@ -9,6 +9,7 @@
 #include "mir/scene/light_table.hpp"
 #include "mir/shading/surface_table.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace mir {
@@ -43,6 +44,9 @@ struct PathWorld {
     CameraOptics camera;                              ///< what paths start from
     float aspect = 1.0f;                              ///< width / height of the film
     float bound = std::numeric_limits<float>::max();  ///< of the geometry term x1, x2; m^-2
+    /// In which areas behind x2 are measured, m^2: a power of four by the size of the scene. A
+    /// product over 64 vertices, each with its 1 / m^2, stays a number in scenes of any size.
+    double area_unit = 1.0;
 
     /// Views that lie in space `S`; `geometry_bound`, m^-2, limits the geometry term between x1 and
     /// x2.
@@ -57,7 +61,8 @@ struct PathWorld {
           visibility(sight),
           camera(optics),
           aspect(film_aspect),
-          bound(geometry_bound) {}
+          bound(geometry_bound),
+          area_unit(unit_for(geometry_view.ray_offset)) {}
 
     /// Views of what the host has.
     PathWorld(const WorldGeometry& world_geometry, const LightTable& light_table,
@@ -92,6 +97,11 @@ struct PathWorld {
     [[nodiscard]] MIR_HD static PathVertex vertex_at(const SurfacePoint& p, Vec3 shading_normal) {
         return {lift(p),        p.geometric_normal, shading_normal,
                 p.barycentrics, p.triangle,         p.material};
+    }
+    /// The square of 2^-4 of the scene's size, of which `ray_offset` is about 2^-16. A double holds
+    /// products over 64 edges of 2^-8 to 2^8 times its root, and over 33 of 2^-16 to 2^16.
+    [[nodiscard]] static double unit_for(float ray_offset) {
+        return ray_offset > 0.0f ? std::scalbn(1.0, 2 * (std::ilogb(ray_offset) + 12)) : 1.0;
     }
     [[nodiscard]] MIR_HD bool find(const Ray& ray, SurfacePoint& point) const {
         if constexpr (PointFinder<R>) {
