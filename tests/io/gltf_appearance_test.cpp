@@ -3,8 +3,11 @@
 #include "mir/io/gltf_reader.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
 #include <cstdint>
+#include <iomanip>
 #include <map>
+#include <sstream>
 #include <string>
 
 using namespace mirtest;
@@ -148,6 +151,24 @@ TEST_CASE("scale above a light or a camera tilts and mirrors it, at a point does
     check_aim(
         lamps_and_camera(R"("scale":[0.5,1,1],)", R"("rotation":[0,0.3826834324,0,0.9238795325],)"),
         Vec3(-0.4472136f, 0, -0.8944272f));
+}
+
+TEST_CASE("a scale by a power of two above a light or a camera changes no digit of its aim") {
+    const std::string turned = R"("rotation":[0.1,-0.2,0.3,0.9],)";
+    const mir::Scene home = lamps_and_camera("", turned).scene;
+    for (const int exponent : {-70, -20, 1, 20, 60}) {
+        CAPTURE(exponent);
+        std::ostringstream scale;
+        scale << std::setprecision(17) << std::scalbn(1.0, exponent);
+        const std::string s = scale.str();
+        const mir::Scene scene =
+            lamps_and_camera(R"("scale":[)" + s + "," + s + "," + s + "],", turned).scene;
+        CHECK(scene.spot_lights[0].direction == home.spot_lights[0].direction);
+        CHECK(scene.directional_lights[0].direction == home.directional_lights[0].direction);
+        CHECK(scene.cameras[0].right == home.cameras[0].right);
+        CHECK(scene.cameras[0].up == home.cameras[0].up);
+        CHECK(scene.cameras[0].back == home.cameras[0].back);
+    }
 }
 
 TEST_CASE("cameras keep their frame without the scale of their nodes") {

@@ -22,7 +22,11 @@ inline bool is_orthonormal(const GltfPose& p) {
 /// Axes of a camera: the node's, without scale and shear. A mirror among the nodes
 /// above mirrors the picture.
 /// @throws Error(invalid_input) when the node flattens space.
-inline void aim_camera(const GltfPose& pose, const std::string& place, Camera& camera) {
+inline void aim_camera(const GltfPose& given, const std::string& place, Camera& camera) {
+    const int exponent = given.z == Vec3(0.0f) ? 0 : exponent_to_unit(given.z);
+    const GltfPose pose{given.position, times_power_of_two(given.x, exponent),
+                        times_power_of_two(given.y, exponent),
+                        times_power_of_two(given.z, exponent)};
     camera.right = pose.x;
     camera.up = pose.y;
     camera.back = pose.z;
