@@ -133,9 +133,9 @@ MIR_HD inline ThinPiece thin_piece(const TriangleRows& rows, Vec3 from, Vec3 to,
 MIR_HD inline bool is_crossed(const TriangleRows& rows, Vec3 from, Vec3 to, const RowsAtEnds& at,
                               PlaneCrossing c) {
     const EdgeDepths depths = EdgeDepths::of(c);
-    if (depths.reach(0.0f)) return true;
-    return depths.reach(-edge_doubt(from, to).of(rows)) &&
-           thin_piece(rows, from, to, at, c).keeps_edges();
+    // First what most segments fail: by one to three hundredths the faster order on a GPU.
+    if (!depths.reach(-edge_doubt(from, to).of(rows))) return false;
+    return depths.reach(0.0f) || thin_piece(rows, from, to, at, c).keeps_edges();
 }
 
 /// Where a segment meets a triangle that it crosses.
