@@ -158,11 +158,10 @@ TEST_CASE("a scale by a power of two above a light or a camera changes no digit 
     const mir::Scene home = lamps_and_camera("", turned).scene;
     for (const int exponent : {-70, -20, 1, 20, 60}) {
         CAPTURE(exponent);
+        const double s = std::scalbn(1.0, exponent);
         std::ostringstream scale;
-        scale << std::setprecision(17) << std::scalbn(1.0, exponent);
-        const std::string s = scale.str();
-        const mir::Scene scene =
-            lamps_and_camera(R"("scale":[)" + s + "," + s + "," + s + "],", turned).scene;
+        scale << std::setprecision(17) << R"("scale":[)" << s << "," << s << "," << s << "],";
+        const mir::Scene scene = lamps_and_camera(scale.str(), turned).scene;
         CHECK(scene.spot_lights[0].direction == home.spot_lights[0].direction);
         CHECK(scene.directional_lights[0].direction == home.directional_lights[0].direction);
         CHECK(scene.cameras[0].right == home.cameras[0].right);

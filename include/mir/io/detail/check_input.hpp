@@ -40,7 +40,7 @@ inline float unit_factor(double value, const char* what, const std::string& plac
                          SceneReport& report) {
     const float narrow = checked_float(value, what, place);
     if (narrow >= 0.0f && narrow <= 1.0f) return narrow;
-    ++report.ignored[std::string(what) + " outside 0..1 (clamped)"];
+    ++report.ignored[std::string(what).append(" outside 0..1 (clamped)")];
     return narrow < 0.0f ? 0.0f : 1.0f;
 }
 
