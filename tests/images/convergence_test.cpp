@@ -11,7 +11,7 @@ using mir::SamplerKind;
 
 namespace {
 
-constexpr std::uint32_t side = 48;
+constexpr std::uint32_t side = 32;
 
 /// A sampler whose P_c is wrong by a factor.
 template <mir::Sampler S>
@@ -31,7 +31,7 @@ struct Brighter {
 template <mir::Sampler S>
 Brighter(S, double) -> Brighter<S>;
 
-/// Indirect light of the Cornell box at 48 x 48 luxels that are the same for every seed, bounces 2
+/// Indirect light of the Cornell box at 32 x 32 luxels that are the same for every seed, bounces 2
 /// to 5 under one bound for any number of VPLs.
 mir::RenderSettings box_settings(SamplerKind sampler, std::uint32_t vpls) {
     mir::RenderSettings s = small_settings(side, vpls);
@@ -142,9 +142,9 @@ std::vector<double> p_values(std::uint64_t experiments, double factor) {
 }  // namespace
 
 // H0: Welch's test of a right estimator gives uniform p-values. Kolmogorov and Smirnov's test over
-// 80 experiments, level 1 %, seeds 0 to 639. Bias would gather them near 0, replicates that are
+// 64 experiments, level 1 %, seeds 0 to 511. Bias would gather them near 0, replicates that are
 // not independent would spread them too far.
 TEST_CASE("p-values of Metropolis instant radiosity are uniform", "[statistical]") {
-    CHECK(uniform_p_value(p_values(80, 1.0)) > 0.01);
-    CHECK(uniform_p_value(p_values(40, 1.1)) < 0.01);
+    CHECK(uniform_p_value(p_values(64, 1.0)) > 0.01);
+    CHECK(uniform_p_value(p_values(24, 1.1)) < 0.01);
 }

@@ -23,6 +23,7 @@ RenderSettings usual(std::uint32_t vpls) {
     s.luxels_per_pixel = 4;
     s.direct_samples = 256;
     s.bound = {};
+    s.measure_missing = true;
     return s;
 }
 

@@ -31,6 +31,7 @@ struct Stated {
 
 mir::RenderSettings few_vpls(mir::SamplerKind sampler) {
     mir::RenderSettings s = small_settings(16, 64);
+    s.measure_missing = true;
     s.sampler = sampler;
     s.direct_samples = 1;
     s.metropolis.bootstrap = {1.0, 1u << 12, 1u << 12};
@@ -153,6 +154,20 @@ TEST_CASE("shares do not depend on threads, and sum up over passes") {
     both.removed.reset();
     add_pass(both, other, 2);
     CHECK_FALSE(both.removed);
+}
+
+TEST_CASE("a render that does not measure what is missing gives the same picture") {
+    const mir::Scene scene = mir::builtin::make("corner");
+    mir::RenderSettings s = few_vpls(mir::SamplerKind::metropolis);
+    s.bound = {mir::BoundPolicy::Kind::fixed, 0.5f};
+    const mir::RenderResult measured = render(scene, s);
+    s.measure_missing = false;
+    const mir::RenderResult told = render(scene, s);
+    CHECK(same_bits(measured.beauty, told.beauty));
+    CHECK(measured.statistics.cut);
+    CHECK_FALSE(told.statistics.cut);
+    CHECK_FALSE(told.statistics.removed);
+    CHECK(told.statistics.removed_share() > 0.0);
 }
 
 TEST_CASE("spheres and renders without bound lose nothing to it") {

@@ -9,6 +9,6 @@ foreach(package IN ITEMS embree TBB OpenEXR Imath PNG TinyGLTF tinyobjloader CUD
     list(APPEND disabled -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 build_project(${MIR_SOURCE_DIR}/examples/use_installed ${SCRATCH}/build ${SCRATCH}/prefix
-              -D USE_RENDERERS=OFF ${disabled})
+              -D USE_RENDERERS=OFF -D CMAKE_BUILD_TYPE=Debug ${disabled})
 run(said ${SCRATCH}/build/own_renderer)
 expect("${said}" "^below the VPL 0\\.25")

@@ -3,7 +3,7 @@
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 
 build_project(${CMAKE_CURRENT_LIST_DIR}/subdirectory ${SCRATCH}/build ""
-              -D MIR_SOURCE_DIR=${MIR_SOURCE_DIR})
+              -D MIR_SOURCE_DIR=${MIR_SOURCE_DIR} -D CMAKE_BUILD_TYPE=Debug)
 run(said ${SCRATCH}/build/own_renderer)
 expect("${said}" "^below the VPL 0\\.25")
 run(said ${CMAKE_COMMAND} --install ${SCRATCH}/build --prefix ${SCRATCH}/prefix)

@@ -43,7 +43,8 @@ TEST_CASE("a scene that nodes put 1 to 10 000 km away gives the picture that it 
     const std::string home = write_box(folder, "home", {0, 0, 0});
     for (const char* integrator : {"vpl", "path", "micro"}) {
         const std::string near = (folder / "near.exr").string();
-        const Words how{"--integrator", integrator, "--aov", "position,depth,direct,indirect"};
+        const Words how{"--integrator", integrator, "--surfels",
+                        "256",          "--aov",    "position,depth,direct,indirect"};
         REQUIRE(run_mir(small_render(near, home) + how).exit_code == 0);
         CHECK(origin_of(near) == mir::DVec3(0.0));
         for (const mir::DVec3 way :

@@ -152,8 +152,11 @@ struct RenderSettings {
     /// Luxels scheduled together, rounded up to whole blocks of 16 x 16, not larger than the image
     /// of luxels rounded likewise; none: the backend's choice.
     std::optional<Extent> tile;
-    bool bounce_layers = false;   ///< one image per bounce besides the sum
-    bool removed_layer = false;   ///< an image of the light that the bound removed
+    bool bounce_layers = false;  ///< one image per bounce besides the sum
+    bool removed_layer = false;  ///< an image of the light that the bound removed
+    /// Paths measure what the bound removes and the largest bounce cuts (MissingShares), for 2048
+    /// places however small the image; else the VPLs tell what the bound removes.
+    bool measure_missing = true;
     bool allow_no_light = false;  ///< a scene without light gives black, not an error
     Limits limits;                ///< checked before memory is taken
 

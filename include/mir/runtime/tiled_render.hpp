@@ -228,7 +228,7 @@ void TiledRender<B, Engine, E, MakeScheduler>::render(const VplRecords& records,
     Canvas canvas(
         job_, make_scheduler_,
         std::size_t{first_bounce_layer} + light.bounces() + (job_.settings.removed_layer ? 1 : 0));
-    measure_missing(canvas);
+    if (job_.settings.measure_missing) measure_missing(canvas);
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
         Band band = kept.empty() ? bands.make(i) : std::move(kept[i]);
         if (stores && !band.knows_visibility()) bands.find_visible(band, job_.result.vpls.span());
