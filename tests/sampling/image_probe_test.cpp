@@ -48,6 +48,19 @@ mir::SurfaceTable<Lambert> one_material(Rgb reflectance) {
     return mir::SurfaceTable<Lambert>(scene);
 }
 
+/// A wall in the plane z = 0 whose shading normals turn away from who stands before it.
+struct WallSeenFromBehindItsNormals {
+    [[nodiscard]] std::optional<mir::SurfacePoint> closest_hit(const mir::Ray& ray) const {
+        if (!(ray.direction.z < 0.0f)) return std::nullopt;
+        mir::SurfacePoint p;
+        p.position = ray.origin - ray.direction * (ray.origin.z / ray.direction.z);
+        p.geometric_normal = Vec3(0, 0, 1);
+        p.shading_normal = glm::normalize(Vec3(1.0f, 0.0f, -0.5f));
+        p.front = true;
+        return p;
+    }
+};
+
 /// The Cornell box seen from the side, so that a third of the luxels see nothing.
 struct Stage {
     mir::Scene scene = mir::builtin::make("cornell-box");
@@ -219,4 +232,29 @@ TEST_CASE("probes of no luxel or of no aspect are refused") {
     CHECK_THROWS_AS(make(0.0f, 16), mir::Error);
     CHECK_THROWS_AS(make(std::nanf(""), 16), mir::Error);
     CHECK_NOTHROW(make(1.0f, 1));
+}
+
+TEST_CASE("a probe sees a wall whose shading normals turn away as luxels do") {
+    mir::Scene scene;
+    mir::Material gloss = mir::lambertian("gloss", {0.5f, 0.4f, 0.3f});
+    gloss.specular = 1.0f;
+    gloss.roughness = 0.3f;
+    scene.add(gloss);
+    const mir::SurfaceTable<mir::CookTorrance> surfaces(scene);
+    const WallSeenFromBehindItsNormals wall;
+    const Camera camera = Camera::look_at({0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 0.2f);
+    const ImageProbe<mir::CookTorrance, mirtest::FreeSight> probe({camera, 1.0f, 64, 5}, wall,
+                                                                  surfaces, {});
+    const Vpl vpl{{1.5f, 0.0f, 1.0f}, glm::normalize(Vec3(-1.5f, 0, -1)), {1, 1, 1}};
+    REQUIRE(probe.receivers() == 64);
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const Vec3 wo = probe.surface(i).wo;
+        const auto luxel = surfaces.luxel_surface(*wall.closest_hit({camera.position, -wo}), wo);
+        CHECK(probe.surface(i).normal == luxel.normal);
+        sum += static_cast<double>(
+            luminance(mir::VplShading<mir::CookTorrance>{}(probe.hit(i), luxel, vpl)));
+    }
+    CHECK(sum > 0.0);
+    CHECK(static_cast<double>(luminance(probe.response(vpl))) == Approx(sum / 64).epsilon(1e-5));
 }

@@ -89,7 +89,7 @@ ImageProbe<B, V>::ImageProbe(const ProbeRays& rays, const R& caster,
         const Ray ray = rays(i % cells.width, i / cells.width);
         const auto point = caster.closest_hit(ray);
         if (!point) continue;
-        const auto surface = surfaces.surface(*point, -ray.direction);
+        const auto surface = surfaces.luxel_surface(*point, -ray.direction);
         if (shading.reflects(surface)) add({lift(*point), point->geometric_normal}, surface);
     }
 }
