@@ -168,6 +168,53 @@ TEST_CASE("chains whose repeated states are dropped are rejected", "[statistical
     CHECK(p_of_lengths(lengths) < 1e-6);
 }
 
+TEST_CASE("the longest stay is the longest run of rejected mutations") {
+    const Furnace furnace(103, 4);
+    const auto mutation = GENERATE(Mutation::primary, Mutation::bidirectional);
+    for (std::uint32_t c = 0; c < 4; ++c) {
+        auto chain = furnace.chain(c, mutation);
+        const auto accepted = [&] {
+            const mir::ChainHealth& h = chain.health();
+            return h.large.accepted + h.small.accepted + h.bidirectional.accepted;
+        };
+        std::uint64_t stay = 0;
+        std::uint64_t longest_stay = 0;
+        for (int i = 0; i < 200; ++i) {
+            const std::uint64_t before = accepted();
+            chain.step();
+            stay = accepted() == before ? stay + 1 : 0;
+            longest_stay = std::max(longest_stay, stay);
+        }
+        REQUIRE(accepted() > 10);
+        REQUIRE(accepted() < 190);
+        CHECK(chain.health().longest_stay == longest_stay);
+    }
+}
+
+TEST_CASE("the weights of large steps are those of all their tries") {
+    const Furnace furnace(104, 1);
+    auto chain = furnace.chain(0, Mutation::primary);
+    mir::WeightMoments wanted;
+    mir::WeightedPath p;
+    for (int i = 0; i < 300; ++i) {
+        const std::uint64_t before = chain.health().large.proposed;
+        chain.step();
+        if (chain.health().large.proposed == before) continue;
+        for (std::uint32_t attempt = 0; attempt < 4; ++attempt) {
+            const LargeStep step = mir::large_step(0, chain.steps(), attempt);
+            furnace.generator.generate(mir::Random(104, step.stream, step.index), p);
+            wanted.add(p.weight);
+        }
+    }
+    const mir::PathLuminance a = chain.large_step_weights().estimate();
+    const mir::PathLuminance b = wanted.estimate();
+    REQUIRE(b.contributing > 10);
+    CHECK(a.paths == b.paths);
+    CHECK(a.contributing == b.contributing);
+    CHECK(a.mean == b.mean);
+    CHECK(a.standard_error == b.standard_error);
+}
+
 // Where states lie, not only how long they are. Chains start from bootstraps of their own; what is
 // compared is P_c times an indicator with the weight of independent paths times the indicator.
 

@@ -115,6 +115,32 @@ TEST_CASE("refreshed suffixes have the law of the others between glossy walls", 
     CHECK(p_of_refresh(lab.world(), 200'000, right_density(lab.world())) > 0.0025);
 }
 
+TEST_CASE("the weight of a suffix is its light and the floor's share of R over its density") {
+    const PathLab<Lambert> lab(Wedge(WedgeLights::ceiling).scene());
+    const mir::PathGenerator generator(lab.world(), table);
+    constexpr double floor = 0.7;
+    const SuffixProposal proposal(lab.world(), table, floor);
+    const auto check = [&](const WeightedPath& p) {
+        const double target =
+            luminance(p.measure.contribution) + floor * luminance(p.measure.leaving);
+        const double density = proposal.density(p.measure, p.path.edges());
+        CHECK(proposal.weight(p.measure, p.path.edges()) == mirtest::Approx(target / density));
+    };
+    WeightedPath p;
+    WeightedPath q;
+    int found = 0;
+    for (std::uint64_t i = 0; i < 10'000; ++i) {
+        generator.generate(mir::Random(712, Stream::test, i), p);
+        if (!(p.weight > 0.0)) continue;
+        check(p);
+        proposal.draw(p, mir::Random(713, Stream::test, i), q);
+        if (!(q.weight > 0.0)) continue;
+        ++found;
+        CHECK(q.weight == proposal.weight(q.measure, q.path.edges()));
+    }
+    CHECK(found > 100);
+}
+
 TEST_CASE("suffixes weighed as if light paths drew x2 too are rejected", "[statistical]") {
     const PathLab<Lambert> lab(Wedge(WedgeLights::point).scene());
     const auto wrong = [](const PathMeasure& m, std::uint32_t k) {

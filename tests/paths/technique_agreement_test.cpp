@@ -114,6 +114,18 @@ TEST_CASE("all techniques agree between glossy surfaces", "[statistical]") {
     CHECK(agreement(lab.world(), shortest, 1700 + 100 * static_cast<std::uint64_t>(lights)) > 0.01);
 }
 
+// What leaves x2 from the camera's side is drawn by its cosine, whatever the lobe there is.
+TEST_CASE("all techniques agree between metals", "[statistical]") {
+    mir::Scene scene = Wedge(WedgeLights::two_sided).scene();
+    for (mir::Material& m : scene.materials) {
+        if (m.emits()) continue;
+        m.metallic = 1.0f;
+        m.roughness = 0.6f;
+    }
+    const PathLab<CookTorrance> lab(scene);
+    CHECK(agreement(lab.world(), 2, 3000) > 0.01);
+}
+
 TEST_CASE("all techniques agree through a thin lens and with a bounded kernel", "[statistical]") {
     mir::Scene scene = Wedge(WedgeLights::two_sided).scene();
     scene.cameras[0].lens_radius = 0.1f;

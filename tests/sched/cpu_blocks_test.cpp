@@ -124,6 +124,38 @@ TEMPLATE_TEST_CASE("sched::CpuBlocks adds more VPLs than it shades together", ""
     }
 }
 
+TEMPLATE_TEST_CASE("sched::CpuBlocks drops no VPL just within the reach of its shading", "",
+                   BruteStage<mir::Lambert>, ShaftStage<mir::Lambert>) {
+    const TestType stage({100, 70}, {48, 32}, 1);
+    const mir::RemovedByBound<mir::Lambert> removed{100.0f};
+    // Straight above every 50th luxel, where the geometry term is a quarter above the bound.
+    const float distance = std::sqrt(0.8f * removed.reach_squared());
+    std::vector<mir::Vpl> vpls;
+    for (mir::TileIndex t = 0; t < stage.gbuffer().tiles().size(); ++t)
+        for (mir::LuxelIndex i = 0; i < stage.gbuffer().view(t).size(); i += 50) {
+            const mir::Hit hit = stage.gbuffer().view(t).hit(i);
+            if (is_empty(hit)) continue;
+            vpls.push_back({hit.position + distance * hit.normal, -hit.normal, {1, 2, 3}});
+        }
+    mir::InlineExecutor executor;
+    const auto wanted = mir::reconstruct(mir::sched::Cpu{executor}, stage.gbuffer(),
+                                         mir::span_of(vpls), stage.visibility(), removed);
+    REQUIRE(mirtest::pixels_that_differ(wanted, mir::Image<mir::Rgb>(stage.gbuffer().extent())) >
+            100);
+    mir::VisibilityMatrix matrix(stage.gbuffer().tiles(), mir::span_of(vpls).size());
+    fill_visibility(matrix, stage.gbuffer(), mir::span_of(vpls), stage.visibility(), executor);
+    for (const mir::InstructionSet set : mirtest::instruction_sets()) {
+        INFO("instruction set " << static_cast<int>(set));
+        const mir::sched::CpuBlocks scheduler{executor, nullptr, set};
+        const auto traced = mir::reconstruct(scheduler, stage.gbuffer(), mir::span_of(vpls),
+                                             stage.visibility(), removed);
+        CHECK(mirtest::pixels_that_differ(traced, wanted) == 0);
+        const auto known =
+            mir::reshade(scheduler, stage.gbuffer(), mir::span_of(vpls), matrix, removed);
+        CHECK(mirtest::pixels_that_differ(known, wanted) == 0);
+    }
+}
+
 TEMPLATE_TEST_CASE("sched::CpuBlocks counts contributions and stops when it is told to", "",
                    BruteStage<mir::Lambert>, ShaftStage<mir::Lambert>) {
     const TestType stage({20, 20}, {16, 16}, 3);
