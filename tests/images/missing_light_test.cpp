@@ -2,6 +2,7 @@
 //
 // What a render says that its VPLs leave out, against closed forms and the path tracer.
 #include "bounce_means.hpp"
+#include "mir/runtime/pass_statistics.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;
