@@ -2,7 +2,7 @@
 #include "micro_scene.hpp"
 
 #include "mir/core/warp.hpp"
-#include "mir/micro/material_albedo.hpp"
+#include "mir/micro/surfel_albedo.hpp"
 #include "mir/micro/surfel_direct_light.hpp"
 
 #include <memory>
@@ -40,8 +40,9 @@ std::vector<mir::Surfel> surfels_of(const BenchScene& scene, double count) {
 mir::SurfelTree tree_of(const BenchScene& scene, double count,
                         const mir::SurfelTreeOptions& options) {
     mir::cpu::TbbExecutor executor;
-    return {surfels_of(scene, count), mir::material_albedo<mir::Lambert>(scene.scene), options,
-            executor};
+    const mir::SurfaceTable<mir::Lambert> surfaces(scene.scene);
+    return {surfels_of(scene, count), mir::SurfelAlbedo<mir::Lambert>(surfaces, scene.geometry),
+            options, executor};
 }
 
 std::vector<mir::SurfelRay> gather_rays(const BenchScene& scene, std::uint32_t count) {

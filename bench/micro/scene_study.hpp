@@ -5,7 +5,7 @@
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/micro/gather_light.hpp"
 #include "mir/micro/make_surfels.hpp"
-#include "mir/micro/material_albedo.hpp"
+#include "mir/micro/surfel_albedo.hpp"
 #include "mir/micro/surfel_bounces.hpp"
 #include "mir/micro/surfel_tree_build.hpp"
 #include "mir/reference/trace_reference.hpp"
@@ -54,7 +54,7 @@ inline mir::SurfelTree make_tree(SceneStudy& s, std::uint32_t surfels, mir::Disc
                                  const mir::SurfelTreeOptions& options = {}) {
     const auto area = static_cast<float>(surface_area(s.geometry) / surfels);
     return {make_surfels(s.geometry, {area, extent}, {}, s.executor),
-            mir::material_albedo<mir::Lambert>(s.scene), options, s.executor};
+            mir::SurfelAlbedo<mir::Lambert>(s.surfaces, s.geometry), options, s.executor};
 }
 
 /// How discs are lit.
@@ -77,7 +77,7 @@ inline std::vector<std::vector<mir::SurfelRadiance>> light_discs(SceneStudy& s,
     options.gather.threshold *= 32.0f / static_cast<float>(gather.rays);
     return surfel_bounces(
         tree, mir::SurfelDirectLight(s.lights, s.engine.visibility(), plan.lamp_samples, 1),
-        s.geometry.ray_offset(), options, s.executor);
+        mir::TreeRays<mir::Space::host>{tree.view()}, s.geometry.ray_offset(), options, s.executor);
 }
 
 /// `options` are those of rays or of a micro-buffer.

@@ -57,7 +57,7 @@ std::size_t lit_pixels(const mir::Scene& scene, const mir::RenderSettings& setti
         std::count_if(pixels.begin(), pixels.end(), [](mir::Rgb p) { return !(p == mir::Rgb{}); }));
 }
 
-/// Of pictures by rays and by shafts, with VPLs of lamps outside, and by paths.
+/// Of pictures by rays and by shafts, with VPLs of lamps outside, by paths, and from discs.
 std::size_t lit_pixels(const mir::Scene& scene, mir::Acceleration acceleration) {
     mir::RenderSettings s = mirtest::small_settings(65, 64);
     s.sampler = mir::SamplerKind::instant_radiosity;
@@ -69,6 +69,11 @@ std::size_t lit_pixels(const mir::Scene& scene, mir::Acceleration acceleration) 
         lit += lit_pixels(scene, s);
     }
     s.integrator = mir::Integrator::path;
+    lit += lit_pixels(scene, s);
+    s.integrator = mir::Integrator::micro;
+    s.micro.surfels = 256;
+    s.micro.surfel_rays = 8;
+    s.micro.gather.rays = 16;
     return lit + lit_pixels(scene, s);
 }
 

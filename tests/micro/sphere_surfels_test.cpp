@@ -73,7 +73,8 @@ TEST_CASE("Covering discs of a sphere leave no gap, those of equal area do") {
 
 TEST_CASE("Discs of a sphere make a hierarchy that rays meet where the sphere is") {
     mir::InlineExecutor executor;
-    const mir::SurfelTree tree(cut(1.0f, 1e-3f), std::vector<mir::Rgb>(6), {}, executor);
+    const mir::SurfelTree tree(
+        cut(1.0f, 1e-3f), [](const mir::Surfel&) { return mir::Rgb{}; }, {}, executor);
     mir::Random random = test_random(991);
     for (int i = 0; i < 200; ++i) {
         const Vec3 out = direction(random);

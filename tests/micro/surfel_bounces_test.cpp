@@ -28,7 +28,8 @@ mir::GatherOptions rays(std::uint32_t count) {
 SurfelLinks links_of(const SurfelTree& tree, const mir::GatherOptions& options,
                      const mir::Limits& limits = {}) {
     mir::InlineExecutor executor;
-    return {tree, options, 1e-4f, seed, limits, executor};
+    return {tree,    mir::TreeRays<mir::Space::host>{tree.view()}, options, 1e-4f, seed, limits,
+            executor};
 }
 
 /// The light of discs that reflect with `reflectance` in a room that shines alike everywhere.
@@ -39,18 +40,21 @@ std::vector<std::vector<SurfelRadiance>> bounces_in_furnace(float reflectance,
     const BruteForceScene traced(world.geometry);
     const mir::LightTable lights(world.scene, world.geometry);
     const mir::SurfelDirectLight direct(lights, traced.visibility(), 16, seed);
-    const std::vector<Rgb> albedo(world.scene.materials.size(),
-                                  Rgb{reflectance, reflectance, reflectance});
+    const auto albedo = [reflectance](const mir::Surfel&) {
+        return Rgb{reflectance, reflectance, reflectance};
+    };
     BackwardsExecutor executor{threads};
     const SurfelTree tree(surfels_of(world, 0.1f), albedo, {}, executor);
-    return mir::surfel_bounces(tree, direct, world.geometry.ray_offset(), options, executor);
+    return mir::surfel_bounces(tree, direct, mir::TreeRays<mir::Space::host>{tree.view()},
+                               world.geometry.ray_offset(), options, executor);
 }
 
 }  // namespace
 
 TEST_CASE("Links bring a side of a disc what its rays bring") {
     const World world = triangle_soup(40, seed);
-    const SurfelTree tree = tree_of(world, 0.01f);
+    // Rays of whole discs all begin at the centre, as those of a luxel do.
+    const SurfelTree tree = tree_of(world, 0.01f, {}, mir::DiscExtent::cover);
     mir::InlineExecutor executor;
     const auto random_light = [](const SurfelFace&, std::uint64_t number) {
         mir::Random random = test_random(seed + number);

@@ -225,7 +225,7 @@ TEST_CASE("No ray leaves a closed room between pieces, many do between discs of 
     const float omega = GENERATE(0.0f, 0.05f);
     mir::InlineExecutor executor;
     const auto lost = [&](mir::DiscExtent extent) {
-        const SurfelTree tree(surfels_of(world, 2e-3f, extent), base_colors(world), {}, executor);
+        const SurfelTree tree(surfels_of(world, 2e-3f, extent), base_color(world), {}, executor);
         mir::Random random = test_random(947);
         std::uint32_t count = 0;
         for (int i = 0; i < 4000; ++i) {

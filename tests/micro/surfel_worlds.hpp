@@ -14,17 +14,16 @@ inline std::vector<mir::Surfel> surfels_of(const World& world, float max_area,
     return mir::make_surfels(world.geometry, {max_area, extent}, {}, executor);
 }
 
-inline std::vector<mir::Rgb> base_colors(const World& world) {
-    std::vector<mir::Rgb> colors;
-    for (const mir::Material& m : world.scene.materials) colors.push_back(m.base_color);
-    return colors;
+/// The base colour of a disc's material. The world must outlive it.
+inline auto base_color(const World& world) {
+    return [&world](const mir::Surfel& s) { return world.scene.materials[s.material].base_color; };
 }
 
 inline mir::SurfelTree tree_of(const World& world, float max_area,
                                const mir::SurfelTreeOptions& options = {},
                                mir::DiscExtent extent = mir::DiscExtent::piece) {
     mir::InlineExecutor executor;
-    return {surfels_of(world, max_area, extent), base_colors(world), options, executor};
+    return {surfels_of(world, max_area, extent), base_color(world), options, executor};
 }
 
 /// A sheet of 1 m x 1 m with a front of two quads, back to back a tenth of a millimetre apart: the

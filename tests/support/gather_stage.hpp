@@ -3,7 +3,7 @@
 
 #include "mir/accel/kd_tree_scene.hpp"
 #include "mir/fill_gbuffer.hpp"
-#include "mir/micro/material_albedo.hpp"
+#include "mir/micro/surfel_albedo.hpp"
 #include "mir/micro/surfel_direct_light.hpp"
 #include "mir/micro/surfel_tree_build.hpp"
 #include "mir/resident/backend_gather.hpp"
@@ -34,7 +34,7 @@ struct GatherStage {
     mir::InlineExecutor executor;
     mir::LuxelBand band{0, {{45, 37}}, 5};
     mir::SurfelTree tree{make_surfels(geometry, {1e-3f}, {}, executor),
-                         mir::material_albedo<B>(scene),
+                         mir::SurfelAlbedo<B>(surfaces, geometry),
                          {},
                          executor};
     std::vector<mir::SurfelRadiance> radiance =

@@ -45,17 +45,29 @@ TEST_CASE("every option of micro-rendering changes its picture, its default does
     const auto usual = picture({});
     for (const Words& same : {Words{"--gather-rays", "128"}, Words{"--gather-directions", "cosine"},
                               Words{"--gather-threshold", "1"}, Words{"--threads", "1"},
-                              Words{"--gather", "rays"}, Words{"--buffer-size", "8"}}) {
+                              Words{"--gather", "exact"}, Words{"--buffer-size", "8"}}) {
         INFO(same[0] << " " << same[1]);
         CHECK(largest_difference(picture(same), usual) == 0.0f);
     }
     for (const Words& other :
          {Words{"--gather-rays", "64"}, Words{"--gather-directions", "uniform"},
-          Words{"--gather-threshold", "20"}, Words{"--seed", "1"}, Words{"--gather", "buffers"},
+          Words{"--gather", "rays"}, Words{"--seed", "1"}, Words{"--gather", "buffers"},
           Words{"--direct-samples", "4"}}) {
         INFO(other[0] << " " << other[1]);
         CHECK(largest_difference(picture(other), usual) > 0.0f);
     }
+}
+
+TEST_CASE("rays that stop have a threshold") {
+    const TemporaryFolder folder("tool_micro_threshold");
+    const auto picture = [&](const char* threshold) {
+        const Outcome outcome = run_mir(small_micro(folder / "a.exr") +
+                                        Words{"--gather", "rays", "--gather-threshold", threshold});
+        INFO(outcome.err);
+        REQUIRE(outcome.exit_code == 0);
+        return mir::read_exr(folder / "a.exr").image;
+    };
+    CHECK(largest_difference(picture("20"), picture("1")) > 0.0f);
 }
 
 TEST_CASE("micro-buffers of a picture have a size and a threshold, and no rays") {

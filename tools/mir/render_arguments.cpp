@@ -121,8 +121,11 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
         ->check(between(1, 1.6e7, "1 to 16000000"));
     add_choice<mir::MicroGather>(
         app, "--gather", m.luxels,
-        {{"rays", mir::MicroGather::rays}, {"buffers", mir::MicroGather::buffers}},
-        "How a luxel gathers: by rays (default) or by a micro-buffer");
+        {{"exact", mir::MicroGather::exact},
+         {"rays", mir::MicroGather::rays},
+         {"buffers", mir::MicroGather::buffers}},
+        "How a luxel gathers: by rays to the triangles (default), by rays that stop at "
+        "groups of discs, or by a micro-buffer of those");
     add_count(app, "--buffer-size", m.buffer_side, 1, mir::BufferGatherOptions::largest_side,
               "Texels of a micro-buffer in each direction (default 16)");
     add_choice<mir::BufferWarp>(

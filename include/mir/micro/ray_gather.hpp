@@ -44,16 +44,18 @@ MIR_HD inline LocalDirection gather_direction(GatherDirections kind, Vec2 u) {
     return {w, cosine_hemisphere_pdf(w.z)};
 }
 
-/// The rays of one gather and what they meet.
-template <Space S>
+/// The rays of one gather and what they meet: `rays(SurfelRay)` is a SurfelHit.
+template <class Rays>
 struct GatherRays {
-    SurfelTreeView<S> tree;
+    Rays rays;
     GatherOptions options;
 
     /// Calls found(k, wi, d, hit) for each ray k above the horizon that meets something: its
-    /// direction in the world and in the frame of `normal`, and what closest_surfel() says.
-    template <class Found>
-    MIR_HD void each(const Hit& from, Vec3 normal, Random random, const Found& found) const {
+    /// direction in the world and in the frame of `normal`, and what it meets. Ray k begins at
+    /// origin(k), metres, on the surface that `from` lies on.
+    template <class Origin, class Found>
+    MIR_HD void each(const Hit& from, Vec3 normal, Random random, const Origin& origin,
+                     const Found& found) const {
         const Frame frame = Frame::around(normal);
         const ShiftedPoints points(random);
         for (std::uint32_t k = 0; k < options.rays; ++k) {
@@ -61,10 +63,25 @@ struct GatherRays {
             const Vec3 wi = frame.to_world(d.w);
             if (!(d.pdf > 0.0f) || !(d.w.z > 0.0f) || !(glm::dot(wi, from.normal) > 0.0f)) continue;
             const float share = options.threshold / (static_cast<float>(options.rays) * d.pdf);
-            const SurfelHit hit =
-                closest_surfel(tree, {from.position, wi, from.normal, share}, options.shape);
+            const SurfelHit hit = rays(SurfelRay{origin(k), wi, from.normal, share});
             if (hit.node != SurfelHit::none) found(k, wi, d, hit);
         }
+    }
+
+    /// Radiance towards the viewer of the light that nodes send out, W m^-2 sr^-1.
+    template <Bsdf B>
+    [[nodiscard]] MIR_HD Rgb light(const SurfelRadiance* radiance, const Hit& hit,
+                                   const Surface<typename B::Params>& s, Random random) const {
+        Rgb sum;
+        if (is_empty(hit) || B::is_black(s.bsdf)) return sum;
+        const auto add = [&](std::uint32_t, Vec3 wi, const LocalDirection& d,
+                             const SurfelHit& met) {
+            sum += B::eval(s.bsdf, s.normal, wi, s.wo) * radiance[met.node].of(met.front) *
+                   (d.w.z / d.pdf);
+        };
+        each(
+            hit, s.normal, random, [&](std::uint32_t) { return hit.position; }, add);
+        return sum * (1.0f / static_cast<float>(options.rays));
     }
 };
 
@@ -85,15 +102,8 @@ struct RayGather {
     /// `random`.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
                                         Random random) const {
-        Rgb sum;
-        if (is_empty(hit) || B::is_black(s.bsdf)) return sum;
-        const auto add = [&](std::uint32_t, Vec3 wi, const detail::LocalDirection& d,
-                             const SurfelHit& met) {
-            sum += B::eval(s.bsdf, s.normal, wi, s.wo) * radiance[met.node].of(met.front) *
-                   (d.w.z / d.pdf);
-        };
-        detail::GatherRays<S>{tree, options}.each(hit, s.normal, random, add);
-        return sum * (1.0f / static_cast<float>(options.rays));
+        const detail::GatherRays<TreeRays<S>> rays{{tree, options.shape}, options};
+        return rays.template light<B>(radiance, hit, s, random);
     }
 };
 

@@ -29,21 +29,21 @@ inline double sent_power(const SurfelTree& tree, std::span<const SurfelRadiance>
 
 /// Light that discs send out, bounce by bounce: element b is that of b + 1 reflections, the first
 /// what they reflect of the lamps. Its length is options.last, or less where light runs out. Rays
-/// from disc to disc are traced once: every bounce goes along the same ones. 24 bytes for each node
-/// and bounce, and SurfelLinks::bytes() meanwhile.
+/// from disc to disc are traced once, by `rays` (SurfelLinks): every bounce goes along the same
+/// ones. 24 bytes for each node and bounce, and SurfelLinks::bytes() meanwhile.
 /// @throws Error(invalid_argument) on options out of range, Error(limit_exceeded) by
 ///     Limits::surfel_link_bytes.
-template <Visibility V, Executor E>
+template <Visibility V, class Rays, Executor E>
 std::vector<std::vector<SurfelRadiance>> surfel_bounces(const SurfelTree& tree,
                                                         const SurfelDirectLight<V>& direct,
-                                                        float ray_offset,
+                                                        const Rays& rays, float ray_offset,
                                                         const SurfelBounceOptions& options,
                                                         E& executor) {
     expects(options.last >= 1, "discs that reflect nothing send out nothing; ask for one bounce");
     std::vector<std::vector<SurfelRadiance>> bounces;
     bounces.push_back(light_surfels(tree, direct, ray_offset, executor));
     if (options.last == 1) return bounces;
-    const SurfelLinks links(tree, options.gather, ray_offset, options.seed, options.limits,
+    const SurfelLinks links(tree, rays, options.gather, ray_offset, options.seed, options.limits,
                             executor);
     double power = detail::sent_power(tree, bounces[0]);
     double added = power;

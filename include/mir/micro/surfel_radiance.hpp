@@ -22,11 +22,24 @@ struct SurfelRadiance {
     [[nodiscard]] MIR_HD Rgb of(bool front_side) const { return front_side ? front : back; }
 };
 
-/// One side of a disc as a luxel: its lifted centre, seen head-on, with the albedo of its material
-/// as Lambertian reflectance.
+/// One side of a disc as a luxel: its lifted centre, seen head-on, with the disc's albedo as
+/// Lambertian reflectance.
 struct SurfelFace {
-    Hit hit;                           ///< place and normal of the side
+    Hit hit;                           ///< place of the centre, and normal of the side
     Surface<Lambert::Params> surface;  ///< Lambertian, without emission
+    Vec3 corner1{0};                   ///< Surfel::corner1, metres
+    Vec3 corner2{0};                   ///< Surfel::corner2, metres
+
+    /// The point of the piece that a point of the unit square picks: uniform by area, lifted as the
+    /// centre is, and off the edges by a thousandth, where walls may meet at sharp angles. The
+    /// centre of whole discs.
+    [[nodiscard]] MIR_HD Vec3 place(Vec2 u) const {
+        const float root = sqrtf(u.x);
+        const float second = root * u.y;
+        const Vec3 corner0 = -(corner1 + corner2);
+        const Vec3 off = (1.0f - root) * corner0 + (root - second) * corner1 + second * corner2;
+        return hit.position + 0.999f * off;
+    }
 };
 
 /// The side of leaf `index`. `ray_offset` is WorldGeometry::ray_offset(), metres.
@@ -36,8 +49,11 @@ template <Space S>
     const SurfelNode& node = tree.nodes[index];
     const Vec3 normal = front ? node.axis : -node.axis;
     const float offset = larger(least_offset(node.centre), ray_offset);
+    const Surfel& disc = tree.surfels[node.first];
     return {{lift(node.centre, normal, offset), normal},
-            {normal, normal, {}, {tree.albedo[index]}}};
+            {normal, normal, {}, {tree.albedo[index]}},
+            disc.corner1,
+            disc.corner2};
 }
 
 /// Mean of the light of an inner node's children by area: relative error below 2^-22.

@@ -231,4 +231,16 @@ template <Space S>
     return hit;
 }
 
+/// closest_surfel() of one tree. A functor for host and device; thread-safe.
+template <Space S>
+struct TreeRays {
+    SurfelTreeView<S> tree;             ///< what is seen
+    StopShape shape = StopShape::disc;  ///< as what a node is met where a ray stops
+
+    /// What the ray sees first.
+    [[nodiscard]] MIR_HD SurfelHit operator()(const SurfelRay& ray) const {
+        return closest_surfel(tree, ray, shape);
+    }
+};
+
 }  // namespace mir

@@ -5,6 +5,7 @@
 #include "mir/micro/surfel.hpp"
 #include "mir/micro/surfel_tree_view.hpp"
 
+#include <concepts>
 #include <span>
 #include <vector>
 
@@ -15,15 +16,15 @@ namespace mir {
 /// in bytes for any number of threads. The constructor is defined in surfel_tree_build.hpp.
 class SurfelTree {
  public:
-    /// Builds from the root down, O(n log n). `albedo` is that of each material (Surfel::material),
-    /// 0..1. Sources: Ritschel et al. 2009 (the use), Conty Estevez and Kulla, "Importance sampling
-    /// of many lights with adaptive tree splitting", PACMCGIT 1(2), 2018 (the heuristic; here the
-    /// cone of a candidate is the one in which evenly spread normals would have the same mean).
-    /// @throws Error(invalid_argument) on options out of range, on discs without a material's
-    ///         albedo and on more than 2^31 discs.
-    template <Executor E>
-    SurfelTree(std::vector<Surfel> surfels, std::span<const Rgb> albedo,
-               const SurfelTreeOptions& options, E& executor);
+    /// Builds from the root down, O(n log n). `albedo(surfel)` is the reflectance of a disc, 0..1
+    /// (SurfelAlbedo); it is called from any thread. Sources: Ritschel et al. 2009 (the use), Conty
+    /// Estevez and Kulla, "Importance sampling of many lights with adaptive tree splitting",
+    /// PACMCGIT 1(2), 2018 (the heuristic; here the cone of a candidate is the one in which evenly
+    /// spread normals would have the same mean).
+    /// @throws Error(invalid_argument) on options out of range and on more than 2^31 discs.
+    template <std::invocable<const Surfel&> Albedo, Executor E>
+    SurfelTree(std::vector<Surfel> surfels, const Albedo& albedo, const SurfelTreeOptions& options,
+               E& executor);
 
     /// What kernels on the host read; valid until the tree ends.
     [[nodiscard]] SurfelTreeView<Space::host> view() const {
@@ -47,6 +48,8 @@ class SurfelTree {
     }
 
  private:
+    void average_albedo();
+
     std::vector<Surfel> surfels_;
     std::vector<SurfelNode> nodes_;
     std::vector<Rgb> albedo_;

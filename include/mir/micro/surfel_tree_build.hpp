@@ -23,15 +23,9 @@ struct SurfelJob {
 /// Makes nodes in their final places: n discs below one take 2 n - 1 of them, whatever the cuts.
 class SurfelGrower {
  public:
-    SurfelGrower(std::span<Surfel> surfels, std::span<const Rgb> material_albedo,
-                 const SurfelTreeOptions& options, std::span<SurfelNode> nodes,
-                 std::span<Rgb> albedo, std::span<float> area)
-        : surfels_(surfels),
-          material_albedo_(material_albedo),
-          options_(options),
-          nodes_(nodes),
-          albedo_(albedo),
-          area_(area) {}
+    SurfelGrower(std::span<Surfel> surfels, const SurfelTreeOptions& options,
+                 std::span<SurfelNode> nodes, std::span<float> area)
+        : surfels_(surfels), options_(options), nodes_(nodes), area_(area) {}
 
     /// Makes one node and returns its children, which have a count of 0 below leaves.
     [[nodiscard]] std::array<SurfelJob, 2> grow_one(const SurfelJob& job) const {
@@ -58,12 +52,7 @@ class SurfelGrower {
         const FittedSphere sphere = fit_sphere(range, options_.sphere);
         const NormalCone cone = normal_cone(range);
         double area = 0.0;
-        Double3 reflected(0.0);
-        for (const Surfel& s : range) {
-            const Rgb albedo = material_albedo_[s.material];
-            area += static_cast<double>(s.area);
-            reflected += static_cast<double>(s.area) * Double3(albedo.r, albedo.g, albedo.b);
-        }
+        for (const Surfel& s : range) area += static_cast<double>(s.area);
         nodes_[job.node] = {sphere.centre,
                             sphere.radius,
                             cone.axis,
@@ -73,15 +62,11 @@ class SurfelGrower {
                             job.first,
                             job.count};
         area_[job.node] = static_cast<float>(area);
-        const Vec3 mean(reflected / area);
-        albedo_[job.node] = {mean.x, mean.y, mean.z};
     }
 
     std::span<Surfel> surfels_;
-    std::span<const Rgb> material_albedo_;
     SurfelTreeOptions options_;
     std::span<SurfelNode> nodes_;
-    std::span<Rgb> albedo_;
     std::span<float> area_;
 };
 
@@ -107,27 +92,50 @@ void grow_tree(const SurfelGrower& grower, const SurfelJob& root, E& executor) {
 
 }  // namespace detail
 
-template <Executor E>
-SurfelTree::SurfelTree(std::vector<Surfel> surfels, std::span<const Rgb> albedo,
+template <std::invocable<const Surfel&> Albedo, Executor E>
+SurfelTree::SurfelTree(std::vector<Surfel> surfels, const Albedo& albedo,
                        const SurfelTreeOptions& options, E& executor)
     : surfels_(std::move(surfels)) {
     check(options);
     expects(surfels_.size() <= detail::most_surfels,
             "a surfel tree holds at most 2^31 discs (nodes are counted by 32 bits); make larger "
             "ones");
-    for (const Surfel& s : surfels_)
-        expects(s.material < albedo.size(),
-                "a surfel has a material without an albedo; give one for each material of the "
-                "scene");
     if (surfels_.empty()) return;
     nodes_.resize(2 * surfels_.size() - 1);
     albedo_.resize(nodes_.size());
     area_.resize(nodes_.size());
     const std::uint32_t depth =
         std::max(options.max_depth, detail::balanced_depth_of(surfels_.size()));
-    const detail::SurfelGrower grower(surfels_, albedo, options, nodes_, albedo_, area_);
+    const detail::SurfelGrower grower(surfels_, options, nodes_, area_);
     detail::grow_tree(grower, {0, static_cast<std::uint32_t>(surfels_.size()), 0, depth - 1},
                       executor);
+    constexpr std::size_t part = 1024;
+    detail::for_each_part(nodes_.size(), part, executor, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            if (nodes_[i].is_leaf()) albedo_[i] = albedo(surfels_[nodes_[i].first]);
+    });
+    average_albedo();
+}
+
+/// From the leaves up, in double precision: means by the area of discs, rounded once.
+inline void SurfelTree::average_albedo() {
+    struct Sum {
+        double area = 0.0;
+        detail::Double3 reflected{0.0};
+    };
+    std::vector<Sum> sums(nodes_.size());
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        if (nodes_[i].is_leaf()) {
+            const auto area = static_cast<double>(area_[i]);
+            sums[i] = {area, area * detail::Double3(albedo_[i].r, albedo_[i].g, albedo_[i].b)};
+            continue;
+        }
+        const Sum& left = sums[i + 1];
+        const Sum& right = sums[nodes_[i].right];
+        sums[i] = {left.area + right.area, left.reflected + right.reflected};
+        const Vec3 mean(sums[i].reflected / sums[i].area);
+        albedo_[i] = {mean.x, mean.y, mean.z};
+    }
 }
 
 }  // namespace mir

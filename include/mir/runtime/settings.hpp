@@ -50,6 +50,7 @@ struct PathSettings {
 
 /// How luxels gather light from discs.
 enum class MicroGather {
+    exact,   ///< TriangleGather; on a GPU RayGather with a threshold of 0
     rays,    ///< RayGather
     buffers  ///< BufferGather
 };
@@ -59,9 +60,10 @@ struct MicroSettings {
     /// Discs wanted: their largest area is that of the scene divided by it. There are one to four
     /// times as many, and at least one for each triangle.
     std::uint32_t surfels = 16384;
-    std::uint32_t surfel_rays = 32;          ///< of each side of a disc, for later bounces
-    MicroGather luxels = MicroGather::rays;  ///< by what luxels gather
-    GatherOptions gather;  ///< of rays, at each luxel; but for their number at discs too
+    std::uint32_t surfel_rays = 32;           ///< of each side of a disc, for later bounces
+    MicroGather luxels = MicroGather::exact;  ///< by what luxels gather, and discs if it is `exact`
+    /// Of rays, at each luxel; but for their number at discs too. `exact` has no threshold.
+    GatherOptions gather;
     std::uint32_t buffer_side = BufferGatherOptions{}.side;  ///< texels of MicroGather::buffers
     BufferWarp buffer_warp = BufferWarp::hemisphere;         ///< of MicroGather::buffers
 
@@ -72,7 +74,7 @@ struct MicroSettings {
 
     /// Directions in which a luxel looks.
     [[nodiscard]] std::uint32_t directions() const {
-        return luxels == MicroGather::rays ? gather.rays : buffer_side * buffer_side;
+        return luxels == MicroGather::buffers ? buffer_side * buffer_side : gather.rays;
     }
 };
 

@@ -33,6 +33,36 @@ inline PiecePlace piece_place(std::uint64_t index, std::uint32_t level) {
     return p;
 }
 
+/// The piece of 4^level that a point of the triangle lies in; `b` are the weights of the second and
+/// third corner. Inverse of piece_place().
+inline std::uint64_t piece_at(Vec2 b, std::uint32_t level) {
+    std::uint64_t index = 0;
+    for (std::uint32_t k = 0; k < level; ++k) {
+        std::uint64_t part = 3;
+        if (1.0f - b.x - b.y >= 0.5f)
+            part = 0, b = 2.0f * b;
+        else if (b.x >= 0.5f)
+            part = 1, b = 2.0f * b - Vec2(1.0f, 0.0f);
+        else if (b.y >= 0.5f)
+            part = 2, b = 2.0f * b - Vec2(0.0f, 1.0f);
+        else
+            b = Vec2(1.0f) - 2.0f * b;
+        index = 4 * index + part;
+    }
+    return index;
+}
+
+/// Weights of a triangle's second and third corner at a point of its plane.
+inline Vec2 barycentrics_at(const WorldGeometry& geometry, std::uint32_t triangle, Double3 point) {
+    const Double3 a(geometry.corner(triangle, 0));
+    const Double3 first = Double3(geometry.corner(triangle, 1)) - a;
+    const Double3 second = Double3(geometry.corner(triangle, 2)) - a;
+    const Double3 normal = glm::cross(first, second);
+    const double area2 = glm::dot(normal, normal);
+    return {glm::dot(glm::cross(point - a, second), normal) / area2,
+            glm::dot(glm::cross(first, point - a), normal) / area2};
+}
+
 /// A triangle as its pieces want it. Computed in double precision, so that needles and scenes far
 /// from the origin lose nothing.
 struct TrianglePieces {
