@@ -24,7 +24,12 @@ MicroLuxels luxels_of(const BenchScene& scene, const mir::LuxelGrid& grid) {
 
 std::vector<mir::SurfelRadiance> light_of(const BenchScene& scene, const mir::SurfelTree& tree) {
     mir::cpu::TbbExecutor executor;
-    const mir::SurfelDirectLight direct(scene.lights, scene.engine.visibility(), lamp_samples, 1);
+    const mir::SurfaceTable<mir::Lambert> surfaces(scene.scene);
+    const mir::SurfelDirectLight<mir::Lambert, mir::cpu::EmbreeRayCaster,
+                                 mir::cpu::EmbreeVisibility>
+        direct({scene.geometry, scene.lights, surfaces, scene.engine.ray_caster(),
+                scene.engine.visibility()},
+               lamp_samples, 1);
     return mir::light_surfels(tree, direct, scene.geometry.ray_offset(), executor);
 }
 

@@ -7,6 +7,7 @@
 #include "mir/micro/make_surfels.hpp"
 #include "mir/micro/surfel_albedo.hpp"
 #include "mir/micro/surfel_bounces.hpp"
+#include "mir/micro/surfel_direct_light.hpp"
 #include "mir/micro/surfel_tree_build.hpp"
 #include "mir/reference/trace_reference.hpp"
 #include "tools/mir/load_scene.hpp"
@@ -75,9 +76,12 @@ inline std::vector<std::vector<mir::SurfelRadiance>> light_discs(SceneStudy& s,
     options.gather.rays = 32;
     options.gather.directions = mir::GatherDirections::cosine;
     options.gather.threshold *= 32.0f / static_cast<float>(gather.rays);
-    return surfel_bounces(
-        tree, mir::SurfelDirectLight(s.lights, s.engine.visibility(), plan.lamp_samples, 1),
-        mir::TreeRays<mir::Space::host>{tree.view()}, s.geometry.ray_offset(), options, s.executor);
+    const mir::SurfelDirectLight<mir::Lambert, mir::cpu::EmbreeRayCaster,
+                                 mir::cpu::EmbreeVisibility>
+        direct({s.geometry, s.lights, s.surfaces, s.engine.ray_caster(), s.engine.visibility()},
+               plan.lamp_samples, 1);
+    return surfel_bounces(tree, direct, mir::TreeRays<mir::Space::host>{tree.view()},
+                          s.geometry.ray_offset(), options, s.executor);
 }
 
 /// `options` are those of rays or of a micro-buffer.

@@ -160,7 +160,7 @@ TEST_CASE("gathered bounces of both Cornell boxes are those of the path tracer")
         INFO("bounce " << b + 1);
         const double ratio = mean_luminance(discs.bounces[b]) / mean_luminance(paths.bounces[b]);
         CHECK(ratio > least[b - 1]);
-        CHECK(ratio < 1.02);
+        CHECK(ratio < (exact ? 1.02 : 1.03));
         CHECK(worst_tile(discs.bounces[b], paths.bounces[b]) < 0.3);
     }
 }

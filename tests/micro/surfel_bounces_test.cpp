@@ -3,6 +3,7 @@
 
 #include "conformance/brute_force.hpp"
 #include "micro/shining_discs.hpp"
+#include "mir/micro/surfel_direct_light.hpp"
 #include "mir/scene/builtin/check_rooms.hpp"
 #include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
@@ -39,7 +40,11 @@ std::vector<std::vector<SurfelRadiance>> bounces_in_furnace(float reflectance,
     const World world(mir::builtin::furnace_box(reflectance, 1.0f));
     const BruteForceScene traced(world.geometry);
     const mir::LightTable lights(world.scene, world.geometry);
-    const mir::SurfelDirectLight direct(lights, traced.visibility(), 16, seed);
+    const mir::SurfaceTable<Lambert> surfaces(world.scene);
+    const mir::SurfelDirectLight<Lambert, decltype(traced.ray_caster()),
+                                 decltype(traced.visibility())>
+        direct({world.geometry, lights, surfaces, traced.ray_caster(), traced.visibility()}, 16,
+               seed);
     const auto albedo = [reflectance](const mir::Surfel&) {
         return Rgb{reflectance, reflectance, reflectance};
     };

@@ -38,9 +38,14 @@ struct GatherStage {
                          {},
                          executor};
     std::vector<mir::SurfelRadiance> radiance =
-        light_surfels(tree, mir::SurfelDirectLight(lights, engine.visibility(), 4, 1),
-                      geometry.ray_offset(), executor);
+        light_surfels(tree, direct_light(), geometry.ray_offset(), executor);
     Luxels luxels{band.grid.luxels(), {32, 16}};
+
+    [[nodiscard]] auto direct_light() const {
+        return mir::SurfelDirectLight<B, decltype(engine.ray_caster()),
+                                      decltype(engine.visibility())>(
+            {geometry, lights, surfaces, engine.ray_caster(), engine.visibility()}, 4, 1);
+    }
 
     GatherStage() {
         const mir::CameraRays rays{scene.cameras.front(), band.grid, 0};

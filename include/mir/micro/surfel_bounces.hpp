@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/micro/surfel_direct_light.hpp"
 #include "mir/micro/surfel_links.hpp"
 
 namespace mir {
@@ -28,15 +27,16 @@ inline double sent_power(const SurfelTree& tree, std::span<const SurfelRadiance>
 }  // namespace detail
 
 /// Light that discs send out, bounce by bounce: element b is that of b + 1 reflections, the first
-/// what they reflect of the lamps. Its length is options.last, or less where light runs out. Rays
-/// from disc to disc are traced once, by `rays` (SurfelLinks): every bounce goes along the same
-/// ones. 24 bytes for each node and bounce, and SurfelLinks::bytes() meanwhile.
+/// what they reflect of the lamps, as `direct` (SurfelDirectLight) tells light_surfels(). Its
+/// length is options.last, or less where light runs out. Rays from disc to disc are traced once, by
+/// `rays` (SurfelLinks): every bounce goes along the same ones. 24 bytes for each node and bounce,
+/// and SurfelLinks::bytes() meanwhile.
 /// @throws Error(invalid_argument) on options out of range, Error(limit_exceeded) by
 ///     Limits::surfel_link_bytes.
-template <Visibility V, class Rays, Executor E>
+template <class Direct, class Rays, Executor E>
 std::vector<std::vector<SurfelRadiance>> surfel_bounces(const SurfelTree& tree,
-                                                        const SurfelDirectLight<V>& direct,
-                                                        const Rays& rays, float ray_offset,
+                                                        const Direct& direct, const Rays& rays,
+                                                        float ray_offset,
                                                         const SurfelBounceOptions& options,
                                                         E& executor) {
     expects(options.last >= 1, "discs that reflect nothing send out nothing; ask for one bounce");

@@ -2,45 +2,55 @@
 #pragma once
 
 #include "mir/micro/surfel_radiance.hpp"
-#include "mir/shading/environment_light.hpp"
-#include "mir/shading/scene_light.hpp"
+#include "mir/reference/path_tracer.hpp"
+#include "mir/shading/material_params.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mir {
 
-/// Light of the lamps that discs reflect, for light_surfels(), at up to sixteen places of each
-/// disc: of emissive triangles by `samples` points chosen by power, of the environment by as many
-/// directions, shared out among the places; of lights without extent at each of them.
-template <Visibility V>
+/// Light of the lamps and the environment that discs reflect, for light_surfels(), at up to sixteen
+/// places of each disc, by paths of one reflection: light samples and scattered directions weighed,
+/// so that a lamp that nearly touches a disc is not found by rare samples alone. Lights without
+/// extent count exactly at each place.
+template <Bsdf B, RayCaster R, Visibility V>
 class SurfelDirectLight {
  public:
-    /// `lights` must outlive it.
-    SurfelDirectLight(const LightTable& lights, V visibility, std::uint32_t samples,
-                      std::uint64_t seed)
+    using Tracer = PathTracer<B, R, V>;    ///< what finds light
+    using World = typename Tracer::World;  ///< what it needs of the scene, which must outlive it
+
+    /// `samples` of each side, at least 1.
+    /// @throws Error(invalid_argument) when there are more than a million.
+    SurfelDirectLight(const World& world, std::uint32_t samples, std::uint64_t seed)
         : places_(std::clamp(samples, 1u, most_places)),
-          emitters_(lights, visibility, (samples + places_ - 1) / places_),
-          deltas_(lights, visibility),
-          environment_(lights, visibility, (samples + places_ - 1) / places_),
+          tracer_(world, options((samples + places_ - 1) / places_)),
           seed_(seed) {}
 
     /// W m^-2 sr^-1. Safe to call from any thread.
     [[nodiscard]] Rgb operator()(const SurfelFace& face, std::uint64_t number) const {
-        const Random random(seed_, Stream::surfel_light, number);
+        Random random(seed_, Stream::surfel_light, number);
         const Vec2 shift = Random(seed_, Stream::surfel_place, number).next_2d();
-        Rgb sum;
-        for (std::uint32_t i = 0; i < places_; ++i) {
-            const Hit hit{face.place(point(shift, i)), face.hit.normal};
-            sum += emitters_(hit, face.surface, {places_, i}, random) + deltas_(hit, face.surface) +
-                   environment_(hit, face.surface, {places_, i}, random);
-        }
-        return sum * (1.0f / static_cast<float>(places_));
+        const Vec3 normal = face.hit.normal;
+        const auto params = material_params(
+            MaterialFactors{.base_color = face.surface.bsdf.reflectance, .specular = 0.0f}, B{});
+        std::array<RgbSum, 2> bounces{};
+        for (std::uint32_t i = 0; i < places_; ++i)
+            tracer_.trace({{face.place(point(shift, i)), normal}, {normal, normal, {}, params}},
+                          random, bounces);
+        return (bounces[1] * (1.0 / places_)).rgb();
     }
 
  private:
     static constexpr std::uint32_t most_places = 16;
 
+    static PathTracerOptions options(std::uint32_t samples) {
+        PathTracerOptions o;
+        o.light_samples = samples;
+        o.max_bounce = 1;
+        return o;
+    }
     /// Spread evenly, and not as the numbers of lamp samples are.
     [[nodiscard]] Vec2 point(Vec2 shift, std::uint32_t i) const {
         const float y = shift.y + 0.618034f * static_cast<float>(i);
@@ -48,9 +58,7 @@ class SurfelDirectLight {
     }
 
     std::uint32_t places_;
-    EmitterLight<Lambert, V> emitters_;
-    DeltaLight<Lambert, V> deltas_;
-    EnvironmentLight<Lambert, V> environment_;
+    Tracer tracer_;
     std::uint64_t seed_;
 };
 

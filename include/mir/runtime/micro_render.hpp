@@ -5,6 +5,7 @@
 #include "mir/micro/make_surfels.hpp"
 #include "mir/micro/surfel_albedo.hpp"
 #include "mir/micro/surfel_bounces.hpp"
+#include "mir/micro/surfel_direct_light.hpp"
 #include "mir/micro/surfel_tree_build.hpp"
 #include "mir/micro/triangle_gather.hpp"
 #include "mir/runtime/host_canvas.hpp"
@@ -105,8 +106,12 @@ auto MicroRender<B, Engine, E>::light(const Discs& discs) -> std::vector<Radianc
     options.seed = job_.settings.seed;
     options.limits = job_.settings.limits;
     const float offset = job_.geometry.ray_offset();
-    const SurfelDirectLight direct(job_.lights, job_.engine.visibility(),
-                                   job_.settings.direct_samples, job_.settings.seed);
+    using Caster = typename EngineRays::Caster;
+    using Sight = decltype(job_.engine.visibility());
+    const SurfelDirectLight<B, Caster, Sight> direct(
+        {job_.geometry, job_.lights, job_.surfaces, job_.engine.ray_caster(),
+         job_.engine.visibility()},
+        job_.settings.direct_samples, job_.settings.seed);
     const auto by = [&](const auto& rays) {
         return surfel_bounces(discs.tree, direct, rays, offset, options, job_.executor);
     };
