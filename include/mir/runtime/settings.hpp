@@ -62,7 +62,7 @@ struct MicroSettings {
     std::uint32_t surfels = 16384;
     std::uint32_t surfel_rays = 32;           ///< of each side of a disc, for later bounces
     MicroGather luxels = MicroGather::exact;  ///< by what luxels gather, and discs if it is `exact`
-    /// Of rays, at each luxel; but for their number at discs too. `exact` has no threshold.
+    /// Of rays at each luxel. All but their number holds at discs too. `exact` has no threshold.
     GatherOptions gather;
     std::uint32_t buffer_side = BufferGatherOptions{}.side;  ///< texels of MicroGather::buffers
     BufferWarp buffer_warp = BufferWarp::hemisphere;         ///< of MicroGather::buffers
