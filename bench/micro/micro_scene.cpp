@@ -30,7 +30,8 @@ std::vector<mir::SurfelRadiance> light_of(const BenchScene& scene, const mir::Su
         direct({scene.geometry, scene.lights, surfaces, scene.engine.ray_caster(),
                 scene.engine.visibility()},
                lamp_samples, 1);
-    return mir::light_surfels(tree, direct, scene.geometry.ray_offset(), executor);
+    return mir::light_surfels(mir::SurfelPatches(tree), direct, scene.geometry.ray_offset(),
+                              executor);
 }
 
 }  // namespace

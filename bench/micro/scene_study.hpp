@@ -80,8 +80,9 @@ inline std::vector<std::vector<mir::SurfelRadiance>> light_discs(SceneStudy& s,
                                  mir::cpu::EmbreeVisibility>
         direct({s.geometry, s.lights, s.surfaces, s.engine.ray_caster(), s.engine.visibility()},
                plan.lamp_samples, 1);
-    return surfel_bounces(tree, direct, mir::TreeRays<mir::Space::host>{tree.view()},
-                          s.geometry.ray_offset(), options, s.executor);
+    return surfel_bounces(mir::SurfelPatches(tree), direct,
+                          mir::TreeRays<mir::Space::host>{tree.view()}, s.geometry.ray_offset(),
+                          options, s.executor);
 }
 
 /// `options` are those of rays or of a micro-buffer.

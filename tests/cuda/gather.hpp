@@ -4,6 +4,7 @@
 #include "mir/cuda/backend.hpp"
 #include "mir/resident/backend_gather.hpp"
 #include "mir/shading/cook_torrance.hpp"
+#include "mir/shading/lambert.hpp"
 
 // What the tests start on the GPU: declared for files with assertions, defined in gather.cu.
 

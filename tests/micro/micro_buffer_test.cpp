@@ -204,7 +204,7 @@ TEST_CASE(
     for (std::uint64_t i = 0; i < 20; ++i) {
         const mir::SurfacePoint p = random_surface_point(world.geometry, random);
         const Vec3 n = world.geometry.front_normal(p.triangle);
-        const mir::SurfelFace at = luxel(mir::lift(p.position, n, p.offset), n);
+        const TestLuxel at = luxel(mir::lift(p.position, n, p.offset), n);
         const Gather gather{tree.view(), radiance.data(), options};
         CHECK(double(gather(at.hit, at.surface, test_random(i)).g) == Approx(1.0).epsilon(1e-5));
     }
@@ -212,7 +212,7 @@ TEST_CASE(
     const SurfelTree square = tree_of(above, 1e-3f);
     const auto light = shining(square);
     const Gather gather{square.view(), light.data(), options};
-    const mir::SurfelFace at = luxel({0, 0, 0});
+    const TestLuxel at = luxel({0, 0, 0});
     double sum = 0.0;
     for (std::uint64_t i = 0; i < 64; ++i)
         sum += double(gather(at.hit, at.surface, test_random(i)).g) / 64;
@@ -225,7 +225,7 @@ TEST_CASE(
 TEST_CASE("Micro-buffers of an empty scene are dark, sides out of range are refused") {
     const SurfelTree none = tree_of(World{mir::Scene{}}, 1.0f);
     const mir::BufferGather<mir::Space::host, mir::Lambert> gather{none.view(), nullptr, {}};
-    const mir::SurfelFace at = luxel({0, 0, 0});
+    const TestLuxel at = luxel({0, 0, 0});
     CHECK(mir::is_black(gather(at.hit, at.surface, test_random(983))));
     CHECK_THROWS_AS(mir::check(mir::BufferGatherOptions{.side = 0}), mir::Error);
     CHECK_THROWS_AS(mir::check(mir::BufferGatherOptions{.side = 25}), mir::Error);

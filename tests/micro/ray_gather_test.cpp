@@ -20,7 +20,7 @@ namespace {
 using Gather = mir::RayGather<mir::Space::host, Lambert>;
 
 float gathered(const SurfelTree& tree, std::span<const SurfelRadiance> radiance,
-               const mir::GatherOptions& options, const SurfelFace& at, std::uint64_t index) {
+               const mir::GatherOptions& options, const TestLuxel& at, std::uint64_t index) {
     const Gather gather{tree.view(), radiance.data(), options};
     return gather(at.hit, at.surface, test_random(index)).g;
 }
@@ -111,11 +111,12 @@ TEST_CASE("The light of a node is the mean of the discs below, both sides apart"
     const World world = triangle_soup(50, 966);
     const SurfelTree tree = tree_of(world, 1e-3f);
     mir::InlineExecutor executor;
-    const auto light = [](const SurfelFace&, std::uint64_t number) {
+    const mir::SurfelPatches discs(tree);
+    const auto light = [](const SurfelFace& face, std::uint64_t number) {
         mir::Random random = test_random(1000 + number);
-        return Rgb{random.next(), random.next(), float(number % 2)};
+        return light_for(face, {random.next(), random.next(), float(number % 2)});
     };
-    const auto radiance = mir::light_surfels(tree, light, 1e-4f, executor);
+    const auto radiance = mir::light_surfels(discs, light, 1e-4f, executor);
     std::vector<long double> sums(tree.nodes().size());
     double worst = 0.0;
     for (std::size_t i = sums.size(); i-- > 0;) {
@@ -131,7 +132,7 @@ TEST_CASE("The light of a node is the mean of the discs below, both sides apart"
     for (std::size_t threads : {2u, 3u}) {
         BackwardsExecutor others{threads};
         CHECK(
-            equal_bytes<SurfelRadiance>(radiance, mir::light_surfels(tree, light, 1e-4f, others)));
+            equal_bytes<SurfelRadiance>(radiance, mir::light_surfels(discs, light, 1e-4f, others)));
     }
 }
 
@@ -140,7 +141,7 @@ TEST_CASE("Empty luxels, black ones and empty scenes gather nothing") {
     CHECK(gathered(none, {}, {}, luxel({0, 0, 0}), 967) == 0.0f);
     const SurfelTree tree = tree_of(shining_room(), 0.1f);
     const auto radiance = shining(tree);
-    SurfelFace black = luxel({0, 0, 0});
+    TestLuxel black = luxel({0, 0, 0});
     black.surface.bsdf.reflectance = {};
     CHECK(gathered(tree, radiance, {}, black, 968) == 0.0f);
     CHECK(gathered(tree, radiance, {}, {}, 969) == 0.0f);

@@ -3,6 +3,7 @@
 
 #include "micro/surfel_worlds.hpp"
 #include "mir/micro/surfel_radiance.hpp"
+#include "mir/shading/lambert.hpp"
 
 // Scenes whose discs shine by themselves, for tests of gatherers.
 
@@ -25,17 +26,29 @@ inline World shining_ceiling() {
     return World(std::move(scene));
 }
 
+/// The light under which a face sends out `radiance`; its albedo must not be black.
+inline mir::Rgb light_for(const mir::SurfelFace& face, mir::Rgb radiance) {
+    const mir::Rgb albedo = face.tree.albedo[face.node];
+    return {radiance.r / albedo.r, radiance.g / albedo.g, radiance.b / albedo.b};
+}
+
 /// Fronts of all discs shine with radiance 1.
 inline std::vector<mir::SurfelRadiance> shining(const mir::SurfelTree& tree) {
     mir::InlineExecutor executor;
-    const auto light = [](const mir::SurfelFace&, std::uint64_t number) {
-        return number % 2 == 0 ? mir::Rgb{1, 1, 1} : mir::Rgb{};
+    const auto light = [](const mir::SurfelFace& face, std::uint64_t number) {
+        return number % 2 == 0 ? light_for(face, {1, 1, 1}) : mir::Rgb{};
     };
-    return mir::light_surfels(tree, light, 1e-4f, executor);
+    return mir::light_surfels(mir::SurfelPatches(tree), light, 1e-4f, executor);
 }
 
+/// A point that gathers.
+struct TestLuxel {
+    mir::Hit hit;
+    mir::Surface<mir::Lambert::Params> surface;
+};
+
 /// A white luxel, its position lifted already.
-inline mir::SurfelFace luxel(mir::Vec3 position, mir::Vec3 normal = {0, 1, 0}) {
+inline TestLuxel luxel(mir::Vec3 position, mir::Vec3 normal = {0, 1, 0}) {
     return {{position, normal}, {normal, normal, {}, {{1, 1, 1}}}};
 }
 

@@ -29,14 +29,20 @@ mir::GatherOptions rays(std::uint32_t count) {
 SurfelLinks links_of(const SurfelTree& tree, const mir::GatherOptions& options,
                      const mir::Limits& limits = {}) {
     mir::InlineExecutor executor;
-    return {tree,    mir::TreeRays<mir::Space::host>{tree.view()}, options, 1e-4f, seed, limits,
+    return {mir::SurfelPatches(tree),
+            mir::TreeRays<mir::Space::host>{tree.view()},
+            options,
+            1e-4f,
+            seed,
+            limits,
             executor};
 }
 
 /// The light of discs that reflect with `reflectance` in a room that shines alike everywhere.
 std::vector<std::vector<SurfelRadiance>> bounces_in_furnace(float reflectance,
                                                             const mir::SurfelBounceOptions& options,
-                                                            std::size_t threads = 1) {
+                                                            std::size_t threads = 1,
+                                                            float patch_area = 0.0f) {
     const World world(mir::builtin::furnace_box(reflectance, 1.0f));
     const BruteForceScene traced(world.geometry);
     const mir::LightTable lights(world.scene, world.geometry);
@@ -50,7 +56,8 @@ std::vector<std::vector<SurfelRadiance>> bounces_in_furnace(float reflectance,
     };
     BackwardsExecutor executor{threads};
     const SurfelTree tree(surfels_of(world, 0.1f), albedo, {}, executor);
-    return mir::surfel_bounces(tree, direct, mir::TreeRays<mir::Space::host>{tree.view()},
+    const mir::SurfelPatches patches(tree, mir::SurfelPatchOptions{patch_area});
+    return mir::surfel_bounces(patches, direct, mir::TreeRays<mir::Space::host>{tree.view()},
                                world.geometry.ray_offset(), options, executor);
 }
 
@@ -65,19 +72,21 @@ TEST_CASE("Links bring a side of a disc what its rays bring") {
         mir::Random random = test_random(seed + number);
         return Rgb{random.next(), random.next(), random.next()};
     };
-    const auto radiance = mir::light_surfels(tree, random_light, 1e-4f, executor);
+    const mir::SurfelPatches discs(tree);
+    const auto radiance = mir::light_surfels(discs, random_light, 1e-4f, executor);
     const SurfelLinks links = links_of(tree, rays(32));
     const mir::RayGather<mir::Space::host, Lambert> gather{tree.view(), radiance.data(), rays(32)};
     std::size_t lit = 0;
     const auto compare = [&](const SurfelFace& face, std::uint64_t number) {
-        const Rgb traced =
-            gather(face.hit, face.surface, {seed, mir::Stream::surfel_gather, number});
-        const Rgb linked = links(face, number, radiance);
+        const mir::Hit hit = face.place({0.5f, 0.5f});
+        const TestLuxel white = luxel(hit.position, hit.normal);
+        const Rgb traced = gather(hit, white.surface, {seed, mir::Stream::surfel_gather, number});
+        const Rgb linked = links(number, radiance);
         CHECK(double(linked.g) == Approx(double(traced.g)).epsilon(1e-4).margin(1e-7));
         lit += linked.g > 0.0f ? 1 : 0;
         return linked;
     };
-    mir::light_surfels(tree, compare, 1e-4f, executor);
+    mir::light_surfels(discs, compare, 1e-4f, executor);
     CHECK(lit > 100);
     CHECK(links.bytes() == tree.surfels().size() * 2 * 32 * 4);
 }
@@ -88,7 +97,8 @@ TEST_CASE("In a room that shines alike everywhere each bounce is the reflectance
     options.least = 0.0f;
     options.gather = rays(16);
     const float reflectance = GENERATE(0.25f, 0.5f);
-    const auto bounces = bounces_in_furnace(reflectance, options);
+    const float patch_area = GENERATE(0.0f, 1.0f);
+    const auto bounces = bounces_in_furnace(reflectance, options, 1, patch_area);
     REQUIRE(bounces.size() == 6);
     // The first bounce has the noise of lamp samples, and the second sees it unevenly.
     CHECK(double(bounces[0][0].front.g) == Approx(double(reflectance)).epsilon(0.05));

@@ -38,7 +38,7 @@ struct GatherStage {
                          {},
                          executor};
     std::vector<mir::SurfelRadiance> radiance =
-        light_surfels(tree, direct_light(), geometry.ray_offset(), executor);
+        light_surfels(mir::SurfelPatches(tree), direct_light(), geometry.ray_offset(), executor);
     Luxels luxels{band.grid.luxels(), {32, 16}};
 
     [[nodiscard]] auto direct_light() const {

@@ -43,16 +43,17 @@ TEST_CASE("every option of micro-rendering changes its picture, its default does
         return mir::read_exr(folder / "a.exr").image;
     };
     const auto usual = picture({});
-    for (const Words& same : {Words{"--gather-rays", "128"}, Words{"--gather-directions", "cosine"},
-                              Words{"--gather-threshold", "1"}, Words{"--threads", "1"},
-                              Words{"--gather", "exact"}, Words{"--buffer-size", "8"}}) {
+    for (const Words& same :
+         {Words{"--gather-rays", "128"}, Words{"--gather-directions", "cosine"},
+          Words{"--gather-threshold", "1"}, Words{"--threads", "1"}, Words{"--gather", "exact"},
+          Words{"--buffer-size", "8"}, Words{"--gather-check", "correct"}}) {
         INFO(same[0] << " " << same[1]);
         CHECK(largest_difference(picture(same), usual) == 0.0f);
     }
     for (const Words& other :
          {Words{"--gather-rays", "64"}, Words{"--gather-directions", "uniform"},
           Words{"--gather", "rays"}, Words{"--seed", "1"}, Words{"--gather", "buffers"},
-          Words{"--direct-samples", "4"}}) {
+          Words{"--direct-samples", "4"}, Words{"--gather-check", "none"}}) {
         INFO(other[0] << " " << other[1]);
         CHECK(largest_difference(picture(other), usual) > 0.0f);
     }

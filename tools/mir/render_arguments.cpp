@@ -146,6 +146,13 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
         ->check(between(0, 1e6, "0 to 1000000"));
     add_count(app, "--surfel-rays", m.surfel_rays, 1, 65536,
               "Rays with which each side of a disc gathers later bounces (default 32)");
+    add_choice<mir::GatherCheck>(app, "--gather-check", m.check,
+                                 {{"none", mir::GatherCheck::none},
+                                  {"measure", mir::GatherCheck::measure},
+                                  {"correct", mir::GatherCheck::correct}},
+                                 "Light of discs against that of paths at 2048 places: none, "
+                                 "measure the difference, or also "
+                                 "correct it (default)");
 }
 
 void add_sampling(CLI::App& app, RenderOptions& o) {

@@ -71,9 +71,12 @@ void append_missing_attributes(const mir::RenderStatistics& s, mir::ExrAttribute
     };
     add("mir:removed_share", s.removed_share());
     if (s.removed) add("mir:removed_share_error", s.removed->standard_error);
-    if (!s.cut) return;
-    add("mir:cut_share", s.cut->share);
-    add("mir:cut_share_error", s.cut->standard_error);
+    if (s.cut) add("mir:cut_share", s.cut->share);
+    if (s.cut) add("mir:cut_share_error", s.cut->standard_error);
+    if (!s.gather_difference) return;
+    add("mir:gather_difference", s.gather_difference->mean);
+    add("mir:gather_difference_error", s.gather_difference->standard_error);
+    add("mir:gather_difference_spread", s.gather_difference->spread);
 }
 
 void append_pass_attributes(const mir::RenderStatistics& s, mir::ExrAttributes& all) {
@@ -170,6 +173,12 @@ void add_missing(Json& out, const mir::RenderStatistics& s) {
     out["removed_share_error"] = s.removed ? Json(s.removed->standard_error) : Json();
     out["cut_share"] = s.cut ? Json(s.cut->share) : Json();
     out["cut_share_error"] = s.cut ? Json(s.cut->standard_error) : Json();
+    if (!s.gather_difference) return;
+    const mir::LightDifference& d = *s.gather_difference;
+    out["gather_difference"] = {{"mean", d.mean},
+                                {"standard_error", d.standard_error},
+                                {"spread", d.spread},
+                                {"corrected", s.gather_corrected}};
 }
 
 /// True when both names lead to the same place; an empty name leads nowhere.
@@ -199,6 +208,10 @@ std::string missing_text(const mir::ShareEstimate& e, const char* by) {
 }
 
 void print_missing(const mir::RenderStatistics& s) {
+    if (const auto& d = s.gather_difference)
+        std::fprintf(stderr,
+                     "mir: light of discs against paths: %+.3g +- %.1g %%, spread %.3g %%\n",
+                     100.0 * d->mean, 100.0 * d->standard_error, 100.0 * d->spread);
     if (!s.removed || !s.cut) return;
     std::fprintf(stderr, "mir: missing of the VPLs' light: %s, %s\n",
                  missing_text(*s.removed, "by the bound").c_str(),
@@ -332,6 +345,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["camera_paths"] = s.camera_paths;
     out["vpls"] = s.vpls;
     out["surfels"] = s.surfels;
+    out["patches"] = s.patches;
     out["contributions"] = s.contributions;
     out["contributions_per_second"] = contributions_per_second(s);
     out["emitted_power"] = s.emitted_power;

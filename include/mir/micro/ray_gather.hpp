@@ -50,21 +50,24 @@ struct GatherRays {
     Rays rays;
     GatherOptions options;
 
-    /// Calls found(k, wi, d, hit) for each ray k above the horizon that meets something: its
-    /// direction in the world and in the frame of `normal`, and what it meets. Ray k begins at
-    /// origin(k), metres, on the surface that `from` lies on.
-    template <class Origin, class Found>
-    MIR_HD void each(const Hit& from, Vec3 normal, Random random, const Origin& origin,
-                     const Found& found) const {
+    /// What a ray that leaves `from` meets, whose direction the point `u` of the unit square picks
+    /// above the plane.
+    [[nodiscard]] SurfelHit along(const Hit& from, Vec2 u) const {
+        const LocalDirection d = gather_direction(options.directions, u);
+        return along(from, Frame::around(from.normal).to_world(d.w), d);
+    }
+
+    /// Calls found(wi, d, hit) for each ray above the horizon that meets something: its direction
+    /// in the world and in the frame of `normal`, and what it meets.
+    template <class Found>
+    MIR_HD void each(const Hit& from, Vec3 normal, Random random, const Found& found) const {
         const Frame frame = Frame::around(normal);
         const ShiftedPoints points(random);
         for (std::uint32_t k = 0; k < options.rays; ++k) {
             const LocalDirection d = gather_direction(options.directions, points[k]);
             const Vec3 wi = frame.to_world(d.w);
-            if (!(d.pdf > 0.0f) || !(d.w.z > 0.0f) || !(glm::dot(wi, from.normal) > 0.0f)) continue;
-            const float share = options.threshold / (static_cast<float>(options.rays) * d.pdf);
-            const SurfelHit hit = rays(SurfelRay{origin(k), wi, from.normal, share});
-            if (hit.node != SurfelHit::none) found(k, wi, d, hit);
+            const SurfelHit hit = along(from, wi, d);
+            if (hit.node != SurfelHit::none) found(wi, d, hit);
         }
     }
 
@@ -74,14 +77,19 @@ struct GatherRays {
                                    const Surface<typename B::Params>& s, Random random) const {
         Rgb sum;
         if (is_empty(hit) || B::is_black(s.bsdf)) return sum;
-        const auto add = [&](std::uint32_t, Vec3 wi, const LocalDirection& d,
-                             const SurfelHit& met) {
+        const auto add = [&](Vec3 wi, const LocalDirection& d, const SurfelHit& met) {
             sum += B::eval(s.bsdf, s.normal, wi, s.wo) * radiance[met.node].of(met.front) *
                    (d.w.z / d.pdf);
         };
-        each(
-            hit, s.normal, random, [&](std::uint32_t) { return hit.position; }, add);
+        each(hit, s.normal, random, add);
         return sum * (1.0f / static_cast<float>(options.rays));
+    }
+
+ private:
+    [[nodiscard]] MIR_HD SurfelHit along(const Hit& from, Vec3 wi, const LocalDirection& d) const {
+        if (!(d.pdf > 0.0f) || !(d.w.z > 0.0f) || !(glm::dot(wi, from.normal) > 0.0f)) return {};
+        const float share = options.threshold / (static_cast<float>(options.rays) * d.pdf);
+        return rays(SurfelRay{from.position, wi, from.normal, share});
     }
 };
 

@@ -34,24 +34,25 @@ inline double sent_power(const SurfelTree& tree, std::span<const SurfelRadiance>
 /// @throws Error(invalid_argument) on options out of range, Error(limit_exceeded) by
 ///     Limits::surfel_link_bytes.
 template <class Direct, class Rays, Executor E>
-std::vector<std::vector<SurfelRadiance>> surfel_bounces(const SurfelTree& tree,
+std::vector<std::vector<SurfelRadiance>> surfel_bounces(const SurfelPatches& patches,
                                                         const Direct& direct, const Rays& rays,
                                                         float ray_offset,
                                                         const SurfelBounceOptions& options,
                                                         E& executor) {
     expects(options.last >= 1, "discs that reflect nothing send out nothing; ask for one bounce");
     std::vector<std::vector<SurfelRadiance>> bounces;
-    bounces.push_back(light_surfels(tree, direct, ray_offset, executor));
+    bounces.push_back(light_surfels(patches, direct, ray_offset, executor));
     if (options.last == 1) return bounces;
-    const SurfelLinks links(tree, rays, options.gather, ray_offset, options.seed, options.limits,
+    const SurfelLinks links(patches, rays, options.gather, ray_offset, options.seed, options.limits,
                             executor);
+    const SurfelTree& tree = patches.tree();
     double power = detail::sent_power(tree, bounces[0]);
     double added = power;
     while (bounces.size() < options.last && added > options.least * power) {
-        const auto reflected = [&](const SurfelFace& face, std::uint64_t number) {
-            return links(face, number, bounces.back());
+        const auto reflected = [&](const SurfelFace&, std::uint64_t number) {
+            return links(number, bounces.back());
         };
-        bounces.push_back(light_surfels(tree, reflected, ray_offset, executor));
+        bounces.push_back(light_surfels(patches, reflected, ray_offset, executor));
         added = detail::sent_power(tree, bounces.back());
         power += added;
     }

@@ -120,6 +120,16 @@ inline void add_missing_warnings(const RenderStatistics& s, std::vector<std::str
                            "path nothing");
 }
 
+/// More than 5 %, beyond what the noise of the paths explains.
+inline void add_gather_warning(const LightDifference& d, std::vector<std::string>& warnings) {
+    if (std::fabs(d.mean) - 2.0 * d.standard_error <= 0.05) return;
+    warnings.push_back("the light gathered from discs is " + rounded(100.0 * std::fabs(d.mean), 1) +
+                       " +- " + rounded(100.0 * d.standard_error, 1) + " % too " +
+                       (d.mean > 0.0 ? "bright" : "dark") +
+                       " in the mean; more --surfels or --gather exact may lie nearer, "
+                       "--gather-check correct brings it nearer, --integrator path is right");
+}
+
 }  // namespace detail
 
 /// Adds what Markov chains have to say about themselves.
@@ -146,6 +156,8 @@ inline void add_result_warnings(const RenderResult& result, std::vector<std::str
                            "wall, and the first of several lamps before the others; move them "
                            "apart if that is not meant");
     detail::add_missing_warnings(s, warnings);
+    if (s.gather_difference && !s.gather_corrected)
+        detail::add_gather_warning(*s.gather_difference, warnings);
     if (s.non_lambertian_share > 0.01f)
         warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.non_lambertian_share), 1) +
                            " % of the VPLs' light comes from glossy surfaces and is spread as if "

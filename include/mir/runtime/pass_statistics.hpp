@@ -36,6 +36,16 @@ inline void add_pass(std::optional<ShareEstimate>& all, const std::optional<Shar
         std::hypot(all->standard_error * earlier, pass->standard_error) / (earlier + 1.0);
 }
 
+/// Independent estimates of one difference; the spread stays that of one pass.
+inline void add_pass(std::optional<LightDifference>& all,
+                     const std::optional<LightDifference>& pass, std::uint32_t earlier) {
+    if (!all || !pass) return all.reset();
+    all->mean = mean_with(all->mean, pass->mean, earlier);
+    all->spread = mean_with(all->spread, pass->spread, earlier);
+    all->standard_error =
+        std::hypot(all->standard_error * earlier, pass->standard_error) / (earlier + 1.0);
+}
+
 inline void add_pass(ChainHealth& all, const ChainHealth& pass, std::uint32_t earlier) {
     all.add(pass);
     all.chains += pass.chains - 1;  // that pass counts as one there
@@ -70,6 +80,7 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
             static_cast<double>(all.*share), static_cast<double>(pass.*share), earlier));
     detail::add_pass(all.removed, pass.removed, earlier);
     detail::add_pass(all.cut, pass.cut, earlier);
+    detail::add_pass(all.gather_difference, pass.gather_difference, earlier);
     if (all.health && pass.health) detail::add_pass(*all.health, *pass.health, earlier);
     for (const RenderStage& stage : render_stages)
         all.seconds.*stage.seconds += pass.seconds.*stage.seconds;

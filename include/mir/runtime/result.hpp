@@ -5,6 +5,7 @@
 #include "mir/data/vpl_list.hpp"
 #include "mir/film/guides.hpp"
 #include "mir/metropolis/chain_health.hpp"
+#include "mir/runtime/light_difference.hpp"
 #include "mir/runtime/share_estimate.hpp"
 #include "mir/runtime/stage_seconds.hpp"
 
@@ -24,6 +25,7 @@ struct RenderStatistics {
     std::uint64_t camera_paths = 0;   ///< of the reference integrator
     std::uint32_t vpls = 0;           ///< geometric VPLs placed
     std::uint64_t surfels = 0;        ///< discs of the micro-rendering integrator
+    std::uint64_t patches = 0;        ///< of those, each lit as a whole (SurfelPatches)
     std::uint64_t contributions = 0;  ///< luxels x VPLs
     float emitted_power = 0.0f;       ///< luminance, W
     float non_lambertian_share = 0.0f;  ///< of VPL intensity spread as Lambertian
@@ -41,11 +43,14 @@ struct RenderStatistics {
     double residual_luminance = 0.0;    ///< mean over luxels of what they found
     std::optional<ShareEstimate> removed;  ///< MissingShares::removed, where it was measured
     std::optional<ShareEstimate> cut;      ///< MissingShares::cut, likewise
-    std::string backend;                   ///< "cpu" or "cuda"
-    std::string device;                    ///< name of the GPU; empty on the processor
-    std::string acceleration;              ///< "bvh", "embree", "kdtree" or "kdtree+shafts"
-    std::string scheduler;                 ///< its name in the Registry
-    std::string scene_hash;                ///< SceneHash::hex()
+    /// Light of discs against that of paths, before any correction, where it was measured.
+    std::optional<LightDifference> gather_difference;
+    bool gather_corrected = false;  ///< by what of it is no noise (LightCorrection)
+    std::string backend;            ///< "cpu" or "cuda"
+    std::string device;             ///< name of the GPU; empty on the processor
+    std::string acceleration;       ///< "bvh", "embree", "kdtree" or "kdtree+shafts"
+    std::string scheduler;          ///< its name in the Registry
+    std::string scene_hash;         ///< SceneHash::hex()
     DVec3 origin{0.0};     ///< Scene::origin of what was rendered, metres: positions of guides and
                            ///< VPLs are counted from it
     StageSeconds seconds;  ///< of wall time, by stage

@@ -55,6 +55,13 @@ enum class MicroGather {
     buffers  ///< BufferGather
 };
 
+/// What becomes of the difference between the light of discs and that of paths.
+enum class GatherCheck {
+    none,     ///< it is not measured
+    measure,  ///< at 2048 places of the image, however small that is
+    correct   ///< and the light of discs is brought nearer (LightCorrection)
+};
+
 /// Of Integrator::micro.
 struct MicroSettings {
     /// Discs wanted: their largest area is that of the scene divided by it. There are one to four
@@ -66,6 +73,7 @@ struct MicroSettings {
     GatherOptions gather;
     std::uint32_t buffer_side = BufferGatherOptions{}.side;  ///< texels of MicroGather::buffers
     BufferWarp buffer_warp = BufferWarp::hemisphere;         ///< of MicroGather::buffers
+    GatherCheck check = GatherCheck::correct;                ///< against paths
 
     /// Of MicroGather::buffers, whose threshold is that of rays.
     [[nodiscard]] BufferGatherOptions buffer() const {

@@ -63,9 +63,9 @@ class SettingsHash {
         add(samples, light, directions);
     }
     void add_micro(const MicroSettings& settings) {
-        const auto& [surfels, surfel_rays, luxels, gather, side, warp] = settings;
+        const auto& [surfels, surfel_rays, luxels, gather, side, warp, check] = settings;
         const auto& [rays, directions, threshold, shape] = gather;
-        add(surfels, surfel_rays, luxels, rays, directions, threshold, shape, side, warp);
+        add(surfels, surfel_rays, luxels, rays, directions, threshold, shape, side, warp, check);
     }
     void add_metropolis(const MetropolisTuning& tuning) {
         const auto& [chains, stride, refresh, stop, chain, bootstrap, techniques] = tuning;

@@ -23,7 +23,7 @@ struct StageSeconds {
     double direct = 0.0;          ///< next-event light, emission
     double reconstruction = 0.0;  ///< contributions of the VPLs
     double gather = 0.0;          ///< light from discs
-    double ledger = 0.0;          ///< measuring what VPLs leave out
+    double ledger = 0.0;          ///< measuring what VPLs leave out, discs differ by
     double residual = 0.0;        ///< tracing that back
     double film = 0.0;            ///< filtering
     double guides = 0.0;          ///< albedo, normal, position and depth

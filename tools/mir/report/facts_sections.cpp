@@ -51,6 +51,17 @@ void add_vpl_settings(FactRows& rows, const mir::RenderSettings& s,
         rows.push_back({"stride", std::to_string(s.metropolis.stride) + " mutations"});
 }
 
+void add_micro_settings(FactRows& rows, const mir::RenderStatistics& s) {
+    rows.push_back({"discs", std::to_string(s.surfels) + ", lit as " + std::to_string(s.patches) +
+                                 " patches"});
+    if (!s.gather_difference) return;
+    rows.push_back({"light of discs against paths, in the mean",
+                    percent(s.gather_difference->mean) + " ± " +
+                        percent(s.gather_difference->standard_error) +
+                        (s.gather_corrected ? ", corrected" : "")});
+    rows.push_back({"and its spread over luxels", percent(s.gather_difference->spread)});
+}
+
 void add_passes(FactRows& rows, const mir::RenderStatistics& s) {
     if (!s.relative_error) return;
     rows.push_back({"passes", std::to_string(s.passes) + (s.complete ? "" : ", interrupted")});
@@ -83,8 +94,7 @@ std::string settings_section(const ReportInput& in) {
     if (s.integrator == mir::Integrator::vpl) add_vpl_settings(rows, s, statistics);
     if (s.integrator == mir::Integrator::path)
         rows.push_back({"camera paths per luxel", std::to_string(s.path.samples)});
-    if (s.integrator == mir::Integrator::micro)
-        rows.push_back({"discs", std::to_string(statistics.surfels)});
+    if (s.integrator == mir::Integrator::micro) add_micro_settings(rows, statistics);
     add_passes(rows, statistics);
     rows.insert(rows.end(),
                 {{"lamp samples per pixel", std::to_string(s.direct_samples)},
