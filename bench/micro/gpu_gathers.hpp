@@ -6,6 +6,7 @@
 #include "mir/kernels/luxel_light.hpp"
 #include "mir/micro/buffer_gather.hpp"
 #include "mir/micro/ray_gather.hpp"
+#include "mir/shading/lambert.hpp"
 
 #include <memory>
 #include <string>

@@ -250,8 +250,8 @@ TEST_CASE("light gathered from discs does not depend on threads, tiles or layers
     s.bounce_layers = true;
     mir::Monitor monitor;
     CHECK(mirtest::same_bits(mirtest::render(scene, s, &monitor).beauty, usual.beauty));
-    // Bounces 2 and 3 of the luxels, and of the places of the check.
-    CHECK(monitor.planned_gathers == 2 * (16 * 16 + 46 * 45));
+    // Bounces 2 and 3 of the luxels, and the places of the check.
+    CHECK(monitor.planned_gathers == 2 * 16 * 16 + 46 * 45);
     CHECK(monitor.gathers == monitor.planned_gathers);
 }
 

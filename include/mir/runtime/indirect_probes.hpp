@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/frame.hpp"
+#include "mir/core/warp.hpp"
 #include "mir/for_each_luxel.hpp"
 #include "mir/kernels/luxel_light.hpp"
 #include "mir/reference/path_tracer.hpp"
@@ -8,13 +10,14 @@
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/scene/light_table.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 namespace mir {
 
-/// Some two thousand luxels, spread over the image, whose indirect light paths find. What else
-/// finds that light is compared with them. Bits depend on scene, settings and seed alone.
+/// Some two thousand luxels, spread over the image, at which the light that discs send is compared
+/// with that of paths. Bits depend on scene, settings, seed and the discs alone.
 template <Bsdf B, class Engine, Executor E>
 class IndirectProbes {
  public:
@@ -40,9 +43,12 @@ class IndirectProbes {
         return {0, luxel_grid(luxels_.extent(), 1), context_.settings.seed};
     }
 
-    /// Light of 2 to bounce_limit() scattering events towards the viewer, W m^-2 sr^-1, in two
-    /// estimates independent of each other.
-    [[nodiscard]] std::array<Image<Rgb>, 2> light() const {
+    /// By how much light gathered from discs exceeds that of paths, of 2 to bounce_limit()
+    /// scattering events towards the viewer, W m^-2 sr^-1, in two estimates independent of each
+    /// other. Both go along the same rays to what the luxel sees, `sent(point)` being the radiance
+    /// that the discs send out there: so what few rays find is in both, and its noise in neither.
+    template <class Sent>
+    [[nodiscard]] std::array<Image<Rgb>, 2> excess(const Sent& sent) const {
         std::array<Image<Rgb>, 2> halves{Image<Rgb>(luxels_.extent()),
                                          Image<Rgb>(luxels_.extent())};
         for_each_luxel(luxels_, context_.executor,
@@ -51,7 +57,7 @@ class IndirectProbes {
                            if (is_empty(hit)) return;
                            Random random = numbers().luxel_numbers(x, y, Stream::missing);
                            for (Image<Rgb>& half : halves)
-                               half(x, y) = trace({hit, luxels.surface(i)}, random);
+                               half(x, y) = mean_excess(hit, luxels.surface(i), sent, random);
                        });
         return halves;
     }
@@ -61,17 +67,34 @@ class IndirectProbes {
                               decltype(std::declval<const Engine&>().visibility())>;
     static constexpr std::uint32_t places = 2048;
 
+    static constexpr std::uint32_t rays_each = 24;
+
     static PathTracerOptions options_of(const RenderSettings& settings) {
         PathTracerOptions options;
-        options.directions = 24;
-        options.max_bounce = settings.bounce_limit();
+        options.max_bounce = static_cast<std::uint8_t>(std::max(settings.bounce_limit() - 1, 1));
         return options;
     }
 
-    [[nodiscard]] Rgb trace(const typename Tracer::Vertex& luxel, Random& random) const {
-        std::array<RgbSum, 3> bounces{};
-        tracer_.trace(luxel, random, bounces);
-        return bounces[2].rgb();
+    /// Over rays by the cosine, as luxels gather.
+    template <class Sent>
+    [[nodiscard]] Rgb mean_excess(const Hit& hit, const Surface<typename B::Params>& s,
+                                  const Sent& sent, Random& random) const {
+        const Frame frame = Frame::around(s.normal);
+        RgbSum sum;
+        for (std::uint32_t k = 0; k < rays_each; ++k) {
+            const Vec3 local = square_to_cosine_hemisphere(random.next_2d());
+            const Ray ray{hit.position, frame.to_world(local)};
+            if (!(local.z > 0.0f) || !(glm::dot(ray.direction, hit.normal) > 0.0f)) continue;
+            const auto point = context_.engine.ray_caster().closest_hit(ray);
+            const auto next = tracer_.first_vertex(ray);
+            if (!point || !next) continue;
+            std::array<RgbSum, 2> bounces{};
+            tracer_.trace(*next, random, bounces);
+            sum += (sent(*point) - bounces[1].rgb()) *
+                   B::eval(s.bsdf, s.normal, ray.direction, s.wo) *
+                   (local.z / cosine_hemisphere_pdf(local.z));
+        }
+        return (sum * (1.0 / rays_each)).rgb();
     }
 
     Context context_;

@@ -52,7 +52,7 @@ class MicroRender {
     using Canvas = HostCanvas<B, Engine, E, NoScheduler>;
     using Band = typename Canvas::Band;
 
-    /// The discs, and where they lie if rays go to the triangles.
+    /// The discs, and where they lie if rays go to the triangles, now or for a check.
     struct Discs {
         SurfelTree tree;
         std::optional<SurfelPlaces> places;
@@ -72,6 +72,11 @@ class MicroRender {
     [[nodiscard]] Image<Rgb> gather(const BlockedGBuffer<typename B::Params>& gbuffer,
                                     const LuxelBand& rows, const Discs& discs,
                                     const Radiance& source);
+    template <class Done = decltype(no_progress)>
+    [[nodiscard]] Image<Rgb> gather_by_triangles(const BlockedGBuffer<typename B::Params>& gbuffer,
+                                                 const LuxelBand& rows, const Discs& discs,
+                                                 const Radiance& source,
+                                                 const Done& done = no_progress);
     void correct(Image<Rgb>& light, const LuxelBand& rows);
     void append_indirect(const Band& band, const Sources& sources, std::vector<Image<Rgb>>& layers);
 
@@ -109,7 +114,7 @@ auto MicroRender<B, Engine, E>::make_discs() -> Discs {
                  SurfelAlbedo<B>(job_.surfaces, job_.geometry), SurfelTreeOptions{}, job_.executor},
                 std::nullopt,
                 area > 0.0 ? static_cast<float>(area) : options.max_area};
-    if (job_.settings.micro.luxels == MicroGather::exact)
+    if (exact || job_.settings.micro.check != GatherCheck::none)
         discs.places.emplace(discs.tree, job_.geometry);
     return discs;
 }
@@ -148,28 +153,44 @@ auto MicroRender<B, Engine, E>::light(const Discs& discs) -> std::vector<Radianc
         return surfel_bounces(patches, direct, rays, offset, options, job_.executor);
     };
     std::vector<Radiance> bounces =
-        discs.places ? by(EngineRays{job_.engine.ray_caster(), &*discs.places})
-                     : by(TreeRays<Space::host>{discs.tree.view(), options.gather.shape});
+        m.luxels == MicroGather::exact
+            ? by(EngineRays{job_.engine.ray_caster(), &*discs.places})
+            : by(TreeRays<Space::host>{discs.tree.view(), options.gather.shape});
     if (job_.settings.bounce_layers) return bounces;
     return {sum_of(bounces)};
 }
 
-/// Gathers and traces paths at the same luxels.
+/// Compares gathered light with that of paths at some luxels. Where rays do not end at triangles,
+/// what that changes is found along the rays of the gather, the rest along those of the paths.
 template <Bsdf B, class Engine, Executor E>
 void MicroRender<B, Engine, E>::check(const Sources& sources) {
     const auto stage = job_.clock.measure(&StageSeconds::ledger);
     const IndirectProbes<B, Engine, E> probes(job_.context(), job_.lights);
-    Image<Rgb> gathered(probes.luxels().extent());
-    if (job_.monitor != nullptr)
-        job_.monitor->planned_gathers += gathered.extent().area() * sources.light.size();
-    for (const Radiance& source : sources.light)
-        add(gathered, gather(probes.luxels(), probes.numbers(), sources.discs, source));
-    auto [truth, other] = probes.light();
+    const SurfelPlaces& places = *sources.discs.places;
+    const Radiance sum = sum_of(sources.light);
+    auto [first, second] = probes.excess([&](const SurfacePoint& point) {
+        return sum[places.leaf(point.triangle, point.barycentrics)].of(point.front);
+    });
+    if (job_.monitor != nullptr) job_.monitor->planned_gathers += probes.luxels().extent().area();
+    const Image<Rgb> gathered = gather(probes.luxels(), probes.numbers(), sources.discs, sum);
+    if (job_.settings.micro.luxels != MicroGather::exact) {
+        const Image<Rgb> exact =
+            gather_by_triangles(probes.luxels(), probes.numbers(), sources.discs, sum);
+        for (std::size_t i = 0; i < exact.pixels().size(); ++i) {
+            const Rgb stopped = gathered.pixels()[i] - exact.pixels()[i];
+            first.pixels()[i] += stopped;
+            second.pixels()[i] += stopped;
+        }
+    }
+    Image<Rgb> truth(gathered.extent());
+    for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
+        first.pixels()[i] = gathered.pixels()[i] - first.pixels()[i];
+        second.pixels()[i] = gathered.pixels()[i] - second.pixels()[i];
+        truth.pixels()[i] = (first.pixels()[i] + second.pixels()[i]) * 0.5f;
+    }
     job_.result.statistics.gather_difference =
-        light_difference(luminances_of(gathered), luminances_of(truth), luminances_of(other));
+        light_difference(luminances_of(gathered), luminances_of(first), luminances_of(second));
     if (job_.settings.micro.check != GatherCheck::correct) return;
-    add(truth, other);
-    for (Rgb& light : truth.pixels()) light = light * 0.5f;
     correction_.emplace(gathered, truth, job_.executor);
     job_.result.statistics.gather_corrected = true;
 }
@@ -211,16 +232,27 @@ Image<Rgb> MicroRender<B, Engine, E>::gather(const BlockedGBuffer<typename B::Pa
         };
         return m.luxels == MicroGather::buffers ? by(m.buffer()) : by(options);
     } else {
-        if (m.luxels == MicroGather::exact) {
-            const TriangleGather<typename EngineRays::Caster, B> by_triangles{
-                {job_.engine.ray_caster(), &*discs.places}, source.data(), options};
-            return gather_light(gbuffer, by_triangles, rows, job_.executor, done);
-        }
+        if (m.luxels == MicroGather::exact)
+            return gather_by_triangles(gbuffer, rows, discs, source, done);
         const auto by = [&](const auto& with) {
             return gather_light<B>(gbuffer, discs.tree, source, with, rows, job_.executor, done);
         };
         return m.luxels == MicroGather::buffers ? by(m.buffer()) : by(options);
     }
+}
+
+template <Bsdf B, class Engine, Executor E>
+template <class Done>
+Image<Rgb> MicroRender<B, Engine, E>::gather_by_triangles(
+    const BlockedGBuffer<typename B::Params>& gbuffer, const LuxelBand& rows, const Discs& discs,
+    const Radiance& source, const Done& done) {
+    // Micro-buffers have no rays of their own.
+    const bool by_rays = job_.settings.micro.luxels != MicroGather::buffers;
+    GatherOptions options = by_rays ? job_.settings.micro.gather : GatherOptions{};
+    options.threshold = 0.0f;
+    const TriangleGather<typename EngineRays::Caster, B> by_triangles{
+        {job_.engine.ray_caster(), &*discs.places}, source.data(), options};
+    return gather_light(gbuffer, by_triangles, rows, job_.executor, done);
 }
 
 template <Bsdf B, class Engine, Executor E>
