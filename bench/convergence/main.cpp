@@ -88,7 +88,7 @@ class SceneStudy {
         pictures_.push_back(reference_.indirect);
         const float exposure = mir::auto_exposure(reference_.indirect);
         const float white = std::exp2(-exposure);
-        mir::write_png(options_.montage, montage(pictures_, 4, {white, white, white}), exposure);
+        mir::write_png(options_.montage, montage(pictures_, 4, {white, white, white}), {exposure});
     }
 
  private:

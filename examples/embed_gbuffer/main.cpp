@@ -216,7 +216,7 @@ int main(int argc, char** argv) {
         frame(world, light, vpls, engine::Camera::look_at({0, 1, 3.4f}, {0, 0.9f, 0}, 0.45f));
         const mir::Image<mir::Rgb> second = frame(
             world, light, vpls, engine::Camera::look_at({0.7f, 1.3f, 3.0f}, {0, 0.8f, 0}, 0.5f));
-        if (argc > 1) mir::write_png(argv[1], second, mir::auto_exposure(second));
+        if (argc > 1) mir::write_png(argv[1], second);
     } catch (const std::exception& e) {
         std::cerr << "embed_gbuffer: " << e.what() << '\n';
         return 1;

@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
         pass(offline::check_shading(), "shading");
         check_furnace();
         const auto picture = preview(render(offline::World(lit_room()), 512));
-        if (argc > 1) mir::write_png(argv[1], picture, mir::auto_exposure(picture));
+        if (argc > 1) mir::write_png(argv[1], picture);
     } catch (const std::exception& e) {
         std::cerr << "embed_offline: " << e.what() << '\n';
         return 1;

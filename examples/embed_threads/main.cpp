@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
             different += picture.pixels()[i] == alone.pixels()[i] ? 0 : 1;
         require(different == 0, std::to_string(different) + " pixels depend on the threads");
         std::cout << "the same picture on " << executor.concurrency() << " threads and on one\n";
-        if (argc > 1) mir::write_png(argv[1], picture, mir::auto_exposure(picture));
+        if (argc > 1) mir::write_png(argv[1], picture);
     } catch (const std::exception& e) {
         std::cerr << "embed_threads: " << e.what() << '\n';
         return 1;

@@ -4,7 +4,7 @@
 #include <mir/io/exr.hpp>
 #include <mir/io/scene_reader.hpp>
 #include <mir/runtime/all_renderers.hpp>
-#include <mir/scene/framing.hpp>
+#include <mir/runtime/frame_scene.hpp>
 
 #include <exception>
 #include <iostream>
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
         mir::RenderSettings settings;
         settings.image = {320, 240};
         if (scene.cameras.empty())
-            scene.cameras.push_back(mir::frame_bounds(report.bounds, settings.aspect()));
+            scene.cameras.push_back(mir::frame_scene(scene, settings.aspect()).camera);
         scene.directional_lights.push_back({"sun", {0.0f, -0.6f, -0.8f}, {3.0f, 3.0f, 3.0f}});
 
         mir::Registry renderers;

@@ -29,7 +29,7 @@ void render_sphere(const std::string& scheduler, const std::filesystem::path& pi
     auto preview = picture;
     preview.replace_extension(".png");
     mir::write_exr(picture, settings.image, {{"", &result.beauty}});
-    mir::write_png(preview, result.beauty, mir::auto_exposure(result.beauty));
+    mir::write_png(preview, result.beauty);
     std::cout << picture.string() << ": " << result.statistics.vpls << " VPLs\n";
     for (const std::string& warning : result.warnings)
         std::cerr << "render_sphere: warning: " << warning << '\n';

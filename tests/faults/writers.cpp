@@ -56,7 +56,7 @@ std::vector<Writer> all_writers(int variant) {
                                       {{"mir:a", "text"}});
                    }),
             writer("a.png", [](const Contents& c,
-                               const Path& path) { mir::write_png(path, c.result->beauty, 0.0f); }),
+                               const Path& path) { mir::write_png(path, c.result->beauty); }),
             writer("a.html",
                    [](const Contents& c, const Path& path) {
                        const mir::HtmlReport report{

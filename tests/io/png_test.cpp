@@ -5,6 +5,7 @@
 
 #include <png.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -68,18 +69,31 @@ TEST_CASE("a preview holds exposed, clamped sRGB codes and an sRGB chunk") {
     Image<Rgb> image({3, 2});
     image(0, 0) = {0.25f, 0.09f, 0.5f};
     image(2, 1) = {-1.0f, 1e9f, 0.0f};
-    mir::write_png(file.path, image, 1.0f);
+    mir::write_png(file.path, image, {1.0f});
     const std::vector<std::uint8_t> codes = decode(file.path, 3, 2);
     CHECK(codes == std::vector<std::uint8_t>{188, 118, 255, 0, 0, 0, 0, 0, 0,  //
                                              0, 0, 0, 0, 0, 0, 0, 255, 0});
     CHECK(bytes_of(file.path).find("sRGB") != std::string::npos);
 }
 
+TEST_CASE("dithered codes have the mean of what they stand for, and leave black and white alone") {
+    const File file("dither");
+    Image<Rgb> image({64, 64}, Rgb{0.0f, 0.002f, 1.0f});
+    mir::write_png(file.path, image, {0.0f, mir::ToneCurve::none, true});
+    std::array<double, 3> sums{};
+    const std::vector<std::uint8_t> codes = decode(file.path, 64, 64);
+    for (std::size_t i = 0; i < codes.size(); ++i) sums[i % 3] += codes[i];
+    CHECK(sums[0] == 0.0);
+    // 12.92 0.002 255 codes, between 6 and 7.
+    CHECK(sums[1] / 4096 == Approx(6.5892).margin(0.02));
+    CHECK(sums[2] / 4096 == 255.0);
+}
+
 TEST_CASE("equal input gives equal bytes of PNG") {
     const File a("a"), b("b");
     const Image<Rgb> image({20, 10}, Rgb{0.1f, 0.2f, 0.3f});
-    mir::write_png(a.path, image, 0.0f);
-    mir::write_png(b.path, image, 0.0f);
+    mir::write_png(a.path, image);
+    mir::write_png(b.path, image);
     CHECK(bytes_of(a.path) == bytes_of(b.path));
 }
 
@@ -107,11 +121,11 @@ TEST_CASE("automatic exposure of a black image is 0 and of a small bright object
 TEST_CASE("a preview that cannot be written is an error that names the file") {
     const Image<Rgb> image({2, 2});
     try {
-        mir::write_png(fs::temp_directory_path() / "mir_png_test_missing" / "a.png", image, 0.0f);
+        mir::write_png(fs::temp_directory_path() / "mir_png_test_missing" / "a.png", image);
         FAIL("nothing was thrown");
     } catch (const mir::Error& error) {
         CHECK(error.code() == mir::ErrorCode::io);
         CHECK(std::string(error.what()).find("a.png") != std::string::npos);
     }
-    CHECK_THROWS_AS(mir::write_png("a.png", Image<Rgb>{}, 0.0f), mir::Error);
+    CHECK_THROWS_AS(mir::write_png("a.png", Image<Rgb>{}), mir::Error);
 }

@@ -94,7 +94,7 @@ TEST_CASE("a scene without camera is framed, and a word says so") {
     CHECK(quiet.err.empty());
     Words loud = small_render(folder / "a.exr", lamp.scene());
     loud.pop_back();
-    CHECK(has(run_mir(loud).err, "no usable camera; the bounding box is framed"));
+    CHECK(has(run_mir(loud).err, "no usable camera; it is seen from outside"));
     float brightest = 0.0f;
     const auto emission = mir::read_exr(folder / "a.exr", "emission").image;
     for (const mir::Rgb& pixel : emission.pixels()) brightest = std::max(brightest, pixel.g);

@@ -3,6 +3,8 @@
 #include "tool/exr_file.hpp"
 #include "tool/mir_program.hpp"
 
+#include <set>
+
 using namespace mirtest;
 
 namespace {
@@ -100,6 +102,36 @@ TEST_CASE("exposure changes the preview, not the picture") {
     render(small_render(folder / "b.exr") + Words{"--exposure", "-1.5"});
     CHECK((file_bytes(folder / "a.exr") == file_bytes(folder / "b.exr")));
     CHECK((file_bytes(folder / "a.png") != file_bytes(folder / "b.png")));
+}
+
+TEST_CASE("tone curves change the preview, not the picture") {
+    const TemporaryFolder folder("render_tone");
+    render(small_render(folder / "usual.exr"));
+    std::set<std::string> previews;
+    for (const std::string name : {"agx", "aces", "reinhard", "none"}) {
+        render(small_render(folder / (name + ".exr")) + Words{"--tone", name});
+        CHECK(file_bytes(folder / (name + ".exr")) == file_bytes(folder / "usual.exr"));
+        previews.insert(file_bytes(folder / (name + ".png")));
+    }
+    CHECK(previews.size() == 4);
+    CHECK(previews.contains(file_bytes(folder / "usual.png")));
+}
+
+TEST_CASE("a render says whether chains mutated, and which options then did nothing") {
+    const TemporaryFolder folder("render_chains");
+    const auto said = [&](const Words& more) {
+        Words words = small_render(folder / "a.exr");
+        words.pop_back();
+        return run_mir(words + more).err;
+    };
+    CHECK(has(said({}), "16 independent starts drawn from "));
+    CHECK_FALSE(has(said({}), "had no effect"));
+    CHECK(has(said({"--stride", "8", "--mutation", "bidirectional"}),
+              "so --stride, --mutation had no effect"));
+    const std::string mutated = said({"--stride", "8", "--chains", "2"});
+    CHECK(has(mutated, "2 chains, "));
+    CHECK(has(mutated, " mutations ("));
+    CHECK_FALSE(has(mutated, "had no effect"));
 }
 
 TEST_CASE("a side that is not given follows from the camera") {

@@ -150,7 +150,7 @@ void write_outputs(const Comparison& c, const CompareOptions& o) {
     const mir::Image<mir::Rgb> errors = mir::difference(c.image, c.reference);
     const float range = mir::error_range(errors);
     const mir::Image<mir::Rgb> picture = mir::signed_error_picture(errors, range);
-    if (o.error.ends_with(".png")) mir::write_png(o.error, picture, 0.0f);
+    if (o.error.ends_with(".png")) mir::write_png(o.error, picture, {});
     if (o.error.ends_with(".exr")) mir::write_exr(o.error, errors.extent(), {{"", &errors}});
     if (!o.report.empty()) write_report(c, o, picture, range);
 }

@@ -3,6 +3,7 @@
 
 #include "mir/compare/flip.hpp"
 #include "mir/compare/metrics.hpp"
+#include "mir/io/tone_curve.hpp"
 #include "mir/runtime/settings.hpp"
 
 #include <optional>
@@ -52,8 +53,9 @@ struct RenderOptions {
     std::optional<std::uint32_t> height;
     std::vector<std::string> layers{"albedo", "normal",   "position", "depth",
                                     "direct", "indirect", "emission"};
-    std::optional<float> exposure;  ///< EV of the preview; none: automatic
-    bool no_layers = false;         ///< --aov none
+    std::optional<float> exposure;              ///< EV of the preview; none: automatic
+    mir::ToneCurve tone = mir::ToneCurve::agx;  ///< of the preview
+    bool no_layers = false;                     ///< --aov none
     bool no_preview = false;
     bool record_seconds = false;  ///< seconds in the EXR: its bytes then differ every time
     bool quiet = false;

@@ -52,7 +52,8 @@ void add_sampler(CLI::App& app, mir::RenderSettings& s) {
                s.termination = found->second.termination;
                s.vpl_roulette = found->second.vpl_roulette;
            },
-           "How VPLs are placed: mir, Metropolis sampling (default); bir, bidirectional with "
+           "How VPLs are placed: mir, Metropolis sampling (default; up to --chains VPLs are "
+           "independent draws, further ones mutations of those); bir, bidirectional with "
            "resampling; ir, instant radiosity; roulette, the same with roulette on what a VPL "
            "gives to the image; keller, a fixed share survives each bounce")
         ->type_name("mir|bir|ir|roulette|keller");
@@ -252,6 +253,10 @@ void add_output(CLI::App& app, RenderOptions& o) {
     app.add_option("-o,--output", o.output, "Picture to write (default SCENE.exr)");
     app.add_option("--png", o.preview, "Preview to write (default: beside the EXR)");
     app.add_flag("--no-png", o.no_preview, "Write no preview");
+    std::map<std::string, mir::ToneCurve> curves;
+    for (const mir::ToneCurveName& t : mir::tone_curve_names) curves.emplace(t.name, t.curve);
+    add_choice<mir::ToneCurve>(app, "--tone", o.tone, curves,
+                               "Tone curve of the preview (default agx)");
     app.add_option("--exposure", o.exposure, "Exposure of the preview, EV (default: automatic)")
         ->check(between(-100, 100, "-100 to 100"));
     app.add_option("--aov", o.layers,

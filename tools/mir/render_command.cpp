@@ -5,7 +5,7 @@
 #include "load_scene.hpp"
 #include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/check_scene.hpp"
-#include "mir/scene/framing.hpp"
+#include "mir/runtime/frame_scene.hpp"
 #include "progress.hpp"
 #include "render_output.hpp"
 #include "render_passes.hpp"
@@ -86,10 +86,12 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
     add_to_scene(o.added, loaded);
     const auto camera = choose_camera(o, loaded);
     o.settings.image = choose_size(o, camera, loaded.scene);
+    bool inside = false;
     if (!camera) {
-        const float aspect = static_cast<float>(o.settings.image.width) /
-                             static_cast<float>(o.settings.image.height);
-        loaded.scene.cameras.push_back(mir::frame_bounds(loaded.report.bounds, aspect));
+        const mir::FramedScene framed =
+            mir::frame_scene(loaded.scene, o.settings.aspect(), o.settings.limits);
+        inside = framed.inside;
+        loaded.scene.cameras.push_back(framed.camera);
         o.settings.camera = static_cast<std::uint32_t>(loaded.scene.cameras.size() - 1);
     }
     const auto wants = [&o](const char* layer) {
@@ -104,18 +106,41 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
         std::fprintf(stderr, "mir: %s: ignored: %s (%llu)\n", o.scene.c_str(), what.c_str(),
                      static_cast<unsigned long long>(times));
     if (!camera)
-        std::fprintf(stderr, "mir: %s: no usable camera; the bounding box is framed\n",
-                     o.scene.c_str());
+        std::fprintf(stderr, "mir: %s: no usable camera; %s (--eye chooses another view)\n",
+                     o.scene.c_str(),
+                     inside ? "it is a room, seen from inside" : "it is seen from outside");
+}
+
+/// Names options of chains that were given and changed nothing, because no chain mutated.
+void note_idle_options(const mir::RenderSettings& s, mir::RenderResult& result) {
+    if (!result.statistics.health || result.statistics.health->mutations > 0) return;
+    const mir::MetropolisTuning& m = s.metropolis;
+    const mir::MetropolisTuning usual;
+    std::string idle;
+    const auto add = [&idle](bool is_given, const char* option) {
+        if (is_given) idle += (idle.empty() ? "" : ", ") + std::string(option);
+    };
+    add(m.stride != usual.stride, "--stride");
+    add(m.chain.tries != usual.chain.tries, "--tries");
+    add(m.chain.large_step_probability != usual.chain.large_step_probability, "--large-steps");
+    add(m.chain.mutation != usual.chain.mutation, "--mutation");
+    if (!idle.empty())
+        result.warnings.push_back("no chain mutated (there are as many chains as VPLs), so " +
+                                  idle + " had no effect; fewer --chains than --vpls mutate");
 }
 
 mir::RenderResult render(const RenderOptions& o, const mir::Scene& scene, const OutputPaths& paths,
                          mir::Monitor& monitor, Convergence& convergence) {
     mir::Registry registry;
     mir::add_all_to(registry);
-    const auto renderer = registry.make(o.settings.backend, o.settings.scheduler);
+    const mir::Registry::Choice choice = registry.make_for(o.settings);
     std::optional<Progress> progress;
     if (!o.quiet) progress.emplace(monitor);
-    return render_passes(*renderer, scene, o, paths, monitor, convergence);
+    mir::RenderResult result =
+        render_passes(*choice.renderer, scene, o, paths, monitor, convergence);
+    result.warnings.insert(result.warnings.begin(), choice.remarks.begin(), choice.remarks.end());
+    note_idle_options(o.settings, result);
+    return result;
 }
 
 /// Does `work`; a failure that is the fault of the scene names it.

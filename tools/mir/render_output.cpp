@@ -4,7 +4,6 @@
 #include "load_scene.hpp"
 #include "mir/compare/tile_luminances.hpp"
 #include "mir/io/exr.hpp"
-#include "mir/io/png.hpp"
 #include "mir/io/vpl_glb.hpp"
 #include "mir/io/vpl_ply.hpp"
 #include "mir/version.hpp"
@@ -189,7 +188,27 @@ bool are_one_file(const std::string& a, const std::string& b) {
     return !a.empty() && !b.empty() && place(a) == place(b);
 }
 
+/// What Metropolis sampling came to: draws of the bootstrap alone, or chains that mutate.
+void print_chains(const mir::ChainHealth& h) {
+    const auto states = static_cast<unsigned long long>(h.recorded_states);
+    if (h.mutations == 0) {
+        std::fprintf(stderr,
+                     "mir: Metropolis: %llu independent starts drawn from %llu paths, no mutation "
+                     "needed\n",
+                     states, static_cast<unsigned long long>(h.luminance.paths));
+        return;
+    }
+    std::fprintf(
+        stderr,
+        "mir: Metropolis: %llu chains, %llu mutations (%.0f %% of the large and %.0f %% of "
+        "the other steps accepted), %llu states recorded\n",
+        static_cast<unsigned long long>(h.chains), static_cast<unsigned long long>(h.mutations),
+        100.0 * h.large.rate(), 100.0 * (h.small.proposed > 0 ? h.small : h.bidirectional).rate(),
+        states);
+}
+
 void print_health(const mir::ChainHealth& h) {
+    print_chains(h);
     std::fprintf(stderr, "mir: P_c %.4g +- %.2g from %llu paths; %llu states worth %.0f",
                  h.luminance.mean, h.luminance.standard_error,
                  static_cast<unsigned long long>(h.luminance.paths),
@@ -280,11 +299,17 @@ OutputPaths choose_outputs(const RenderOptions& o) {
     return paths;
 }
 
+mir::PreviewLook preview_look(const RenderOptions& o, const mir::Image<mir::Rgb>& picture) {
+    const auto automatic = [&] {
+        return o.tone == mir::ToneCurve::none ? mir::auto_exposure(picture)
+                                              : mir::tone_exposure(picture);
+    };
+    return {o.exposure ? *o.exposure : automatic(), o.tone, true};
+}
+
 void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o) {
     mir::write_exr(paths.exr, r.beauty.extent(), layers_of(r, o), attributes_of(r, o));
-    if (!paths.png.empty())
-        mir::write_png(paths.png, r.beauty,
-                       o.exposure ? *o.exposure : mir::auto_exposure(r.beauty));
+    if (!paths.png.empty()) mir::write_png(paths.png, r.beauty, preview_look(o, r.beauty));
     if (o.vpls_out.ends_with(".glb")) mir::write_vpls_glb(o.vpls_out, r.vpls, r.statistics.origin);
     if (o.vpls_out.ends_with(".ply")) mir::write_vpls_ply(o.vpls_out, r.vpls, r.statistics.origin);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "convergence.hpp"
+#include "mir/io/png.hpp"
 #include "mir/runtime/result.hpp"
 #include "options.hpp"
 
@@ -18,6 +19,9 @@ struct OutputPaths {
 /// Decides the names and makes sure that both can be written, before any work is done.
 /// @throws mir::Error(io or invalid_argument).
 OutputPaths choose_outputs(const RenderOptions& options);
+
+/// How the preview of a picture looks.
+mir::PreviewLook preview_look(const RenderOptions& options, const mir::Image<mir::Rgb>& picture);
 
 /// Writes EXR and preview. Both appear complete or not at all.
 void write_outputs(const OutputPaths& paths, const mir::RenderResult& result,

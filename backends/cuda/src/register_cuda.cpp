@@ -91,10 +91,8 @@ class CudaRenderer : public Renderer {
     RenderResult render(const Scene& scene, const RenderSettings& settings,
                         Monitor* monitor) const override {
         settings.validate();
-        if (settings.acceleration == Acceleration::embree)
-            throw Error(ErrorCode::unsupported,
-                        "Embree traces on the processor only (this backend traces on a GPU); use "
-                        "--accel bvh, or --backend cpu");
+        if (const std::string reason = host_only(settings); !reason.empty())
+            throw Error(ErrorCode::unsupported, reason);
         std::vector<std::string> warnings = check_scene(scene, settings);
         StageClock clock;
         // Beside the GPU: it takes as long as a stage.
@@ -215,6 +213,8 @@ class CudaRenderer : public Renderer {
 void add_to(Registry& registry) {
     Registry::Backend backend{
         BackendKind::cuda, "cuda", [] { static_cast<void>(select_device()); }, "rcvp", {}};
+    backend.refuses = host_only;
+    backend.is_present = [] { return versions().driver != 0; };
     for (const auto& [name, scheduler] : schedulers)
         backend.schedulers.emplace(name, [name = name, scheduler = scheduler] {
             return std::make_unique<CudaRenderer>(name, scheduler);

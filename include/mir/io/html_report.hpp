@@ -36,7 +36,7 @@ inline std::string html_figure(const HtmlFigure& figure, const std::filesystem::
     return "<figure><img alt=\"" + caption + "\" width=\"" +
            std::to_string(figure.picture->width()) + "\" height=\"" +
            std::to_string(figure.picture->height()) + "\" src=\"data:image/png;base64," +
-           base64(encode_png(*figure.picture, figure.exposure_ev, path)) + "\"><figcaption>" +
+           base64(encode_png(*figure.picture, {figure.exposure_ev}, path)) + "\"><figcaption>" +
            caption + "</figcaption></figure>\n";
 }
 

@@ -73,7 +73,7 @@ inline void note_absences(const Scene& scene, SceneReport& report) {
     if (report.triangles == 0) report.notes.emplace_back("no triangles: there is nothing to see");
     if (report.is_dark()) report.notes.emplace_back(no_light_note);
     if (scene.cameras.empty())
-        report.notes.emplace_back("no usable camera: the bounding box can be framed instead");
+        report.notes.emplace_back("no usable camera: one is chosen, or given by --eye");
 }
 
 }  // namespace detail

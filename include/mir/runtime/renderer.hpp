@@ -39,6 +39,16 @@ class Registry {
         std::function<void()> require;  ///< throws Error(no_device) where there is no such machine
         std::string default_scheduler;  ///< one of `schedulers`
         std::map<std::string, Factory, std::less<>> schedulers;  ///< by name, as users write it
+        /// Why it cannot render such settings, empty where it can; null: it can render all.
+        std::function<std::string(const RenderSettings&)> refuses = nullptr;
+        /// Whether something of the machine is there, though it may be unusable; null: it is.
+        std::function<bool()> is_present = nullptr;
+    };
+
+    /// A renderer, and a sentence for each machine that is there and was passed over for it.
+    struct Choice {
+        std::unique_ptr<Renderer> renderer;  ///< never null
+        std::vector<std::string> remarks;    ///< of BackendKind::automatic alone
     };
 
     /// Backends that are added first are preferred by BackendKind::automatic.
@@ -52,6 +62,24 @@ class Registry {
         const Backend& backend = choose(kind, scheduler);
         const std::string_view name = scheduler.empty() ? backend.default_scheduler : scheduler;
         return backend.schedulers.find(name)->second();
+    }
+
+    /// The renderer for these settings: of the first backend that is there and can render them,
+    /// where they leave it open.
+    /// @throws what make() throws.
+    [[nodiscard]] Choice make_for(const RenderSettings& settings) const {
+        Choice choice;
+        if (settings.backend == BackendKind::automatic)
+            for (const Backend& b : backends_) {
+                if (!offers(b, settings.scheduler)) continue;
+                const std::string reason = reason_against(b, settings);
+                if (reason.empty())
+                    return {make(b.kind, settings.scheduler), std::move(choice.remarks)};
+                if (!b.is_present || b.is_present())
+                    choice.remarks.push_back("backend " + b.name + " was not used: " + reason);
+            }
+        choice.renderer = make(settings.backend, settings.scheduler);
+        return choice;
     }
 
     /// The names of the schedulers of a backend, or of all, each once, separated by commas.
@@ -76,6 +104,16 @@ class Registry {
         } catch (const Error&) {
             return false;
         }
+    }
+    /// Empty where the backend can render.
+    [[nodiscard]] static std::string reason_against(const Backend& backend,
+                                                    const RenderSettings& settings) {
+        try {
+            backend.require();
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return backend.refuses ? backend.refuses(settings) : "";
     }
 
     [[nodiscard]] const Backend& choose(BackendKind kind, std::string_view scheduler) const {

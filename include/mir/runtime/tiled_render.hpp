@@ -3,6 +3,7 @@
 
 #include "mir/runtime/engine_canvas.hpp"
 #include "mir/runtime/host_canvas.hpp"
+#include "mir/runtime/host_only.hpp"
 #include "mir/runtime/normalisation_pass.hpp"
 #include "mir/runtime/render_job.hpp"
 #include "mir/runtime/sampler_choice.hpp"
@@ -40,25 +41,14 @@ class TiledRender {
  public:
     /// Chooses the bound, for which AreaRays are traced where the settings leave it open. What is
     /// passed in must outlive it; `monitor` may be null.
-    /// @throws Error(unsupported) when the settings trace back removed light, or make spheres of
-    ///         VPLs, on a BandEngine.
+    /// @throws Error(unsupported) when the settings are host_only() and the engine is a BandEngine.
     TiledRender(const Scene& scene, const RenderSettings& settings, const WorldGeometry& geometry,
                 const Engine& engine, E& executor, Monitor* monitor, StageClock& clock,
                 MakeScheduler make_scheduler)
         : job_(scene, settings, geometry, engine, executor, monitor, clock),
           make_scheduler_(make_scheduler) {
-        if (BandEngine<Engine> && settings.compensate > 0)
-            throw Error(ErrorCode::unsupported,
-                        "what the bound removed is traced back on the processor only (this backend "
-                        "keeps its luxels to itself); use --backend cpu or leave --compensate out");
-        if (BandEngine<Engine> && settings.vsl.enabled)
-            throw Error(ErrorCode::unsupported,
-                        "spheres light luxels on the processor only (this backend keeps its luxels "
-                        "to itself); use --backend cpu or leave --vsl out");
-        if (BandEngine<Engine> && settings.glossy.enabled)
-            throw Error(ErrorCode::unsupported,
-                        "VPLs keep the lobes of their surfaces on the processor only (kernels of "
-                        "this backend read none); use --backend cpu or leave --glossy out");
+        if (const std::string reason = host_only(settings); BandEngine<Engine> && !reason.empty())
+            throw Error(ErrorCode::unsupported, reason);
         choose_bound();
     }
 

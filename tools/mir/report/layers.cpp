@@ -29,15 +29,16 @@ std::vector<ReportLayer> shown_layers(const ReportInput& in) {
     return layers;
 }
 
-std::string png_of(const mir::Image<mir::Rgb>& image, float exposure, const ReportInput& in) {
-    return mir::detail::base64(mir::detail::encode_png(image, exposure, in.options.report));
+std::string png_of(const mir::Image<mir::Rgb>& image, const mir::PreviewLook& look,
+                   const ReportInput& in) {
+    return mir::detail::base64(mir::detail::encode_png(image, look, in.options.report));
 }
 
 /// Codes all pictures at one size and returns how many bytes they take; stops beyond `most`.
 std::size_t encode_all(ReportPictures& out, const mir::Image<mir::Rgb>& error,
                        const ReportInput& in, std::size_t most) {
     std::size_t bytes = out.still.size();
-    if (error.extent().area() > 0) out.error = png_of(shrunk(error, out.shrink), 0.0f, in);
+    if (error.extent().area() > 0) out.error = png_of(shrunk(error, out.shrink), {}, in);
     bytes += out.error.size();
     for (ReportLayer& layer : out.layers) {
         layer.code = mir::detail::base64(mir::deflate_radiance(shrunk(*layer.image, out.shrink)));
@@ -67,12 +68,13 @@ mir::Image<mir::Rgb> shrunk(const mir::Image<mir::Rgb>& image, std::uint32_t fac
     return out;
 }
 
-ReportPictures report_pictures(const ReportInput& in, float exposure, std::size_t most_bytes) {
+ReportPictures report_pictures(const ReportInput& in, const mir::PreviewLook& look,
+                               std::size_t most_bytes) {
     const mir::Image<mir::Rgb>& beauty = in.result.beauty;
     ReportPictures out;
     out.layers = shown_layers(in);
     const std::uint32_t still = (beauty.width() + still_width - 1) / still_width;
-    out.still = png_of(shrunk(beauty, still), exposure, in);
+    out.still = png_of(shrunk(beauty, still), look, in);
     mir::Image<mir::Rgb> error;
     if (in.reference.extent().area() > 0) {
         const mir::Image<mir::Rgb> errors = mir::difference(beauty, in.reference);

@@ -33,6 +33,7 @@ struct ReportPictures {
 };
 
 /// Codes the pictures of a report, at the largest size that stays below `most_bytes`.
-ReportPictures report_pictures(const ReportInput& input, float exposure, std::size_t most_bytes);
+ReportPictures report_pictures(const ReportInput& input, const mir::PreviewLook& look,
+                               std::size_t most_bytes);
 
 }  // namespace mirtool

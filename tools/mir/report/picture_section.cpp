@@ -14,8 +14,15 @@ namespace {
 /// Leaves room for text, VPLs and statistics in 5 MB.
 constexpr std::size_t most_picture_bytes = 4'400'000;
 
-std::string option(const std::string& value, const std::string& label) {
-    return "<option value=\"" + value + "\">" + label + "</option>";
+std::string option(const std::string& value, const std::string& label, bool chosen = false) {
+    return "<option value=\"" + value + (chosen ? "\" selected>" : "\">") + label + "</option>";
+}
+
+std::string tone_options(mir::ToneCurve chosen) {
+    std::string all;
+    for (const mir::ToneCurveName& t : mir::tone_curve_names)
+        all += option(std::string(t.name), std::string(t.label), t.curve == chosen);
+    return all;
 }
 
 /// The choices of what to show; each names the layers that are added up.
@@ -41,34 +48,35 @@ std::string range(const std::string& id, const std::string& label, const std::st
            "\"></output></div>\n";
 }
 
-std::string controls(const ReportInput& in, const ReportPictures& pictures, float exposure) {
+std::string controls(const ReportInput& in, const ReportPictures& pictures,
+                     const mir::PreviewLook& look) {
     std::string out = R"(<div id="controls" class="controls" role="group" )"
                       "aria-label=\"Controls of the picture\" hidden>\n"
                       R"(<div><label for="layer">Layer</label><select id="layer">)" +
                       layer_options(pictures) + "</select></div>\n";
-    const double ev = static_cast<double>(exposure);
+    const double ev = static_cast<double>(look.exposure_ev);
     out += range("exposure", "Exposure",
                  "min=\"" + number(ev - 10.0) + "\" max=\"" + number(ev + 10.0) +
                      R"(" step="0.1" value=")" + number(ev) + "\"");
     out += R"(<div><label for="curve">Tone curve</label><select id="curve">)" +
-           option("none", "none (clamped)") + option("reinhard", "Reinhard") +
-           option("aces", "ACES (Narkowicz)") + "</select></div>\n";
+           tone_options(look.tone) + "</select></div>\n";
     if (!pictures.error.empty())
         out += range("split", "Split: render left, reference right",
                      R"(min="0" max="100" step="1" value="50")");
     return out + vpl_controls(in) + "</div>\n";
 }
 
-std::string stage(const ReportInput& in, const ReportPictures& pictures, float exposure) {
+std::string stage(const ReportInput& in, const ReportPictures& pictures,
+                  const mir::PreviewLook& look) {
     const mir::Extent full = in.result.beauty.extent();
     const auto side = [&](std::uint32_t n) {
         return std::to_string((n + pictures.shrink - 1) / pictures.shrink);
     };
     return R"(<div class="stage" style="max-width: )" + std::to_string(std::max(full.width, 640u)) +
            "px\">\n<img id=\"still\" alt=\"" + mir::detail::html_escaped(in.options.scene) +
-           ", beauty at " + number(exposure) + " EV\" width=\"" + std::to_string(full.width) +
-           "\" height=\"" + std::to_string(full.height) + "\" src=\"data:image/png;base64," +
-           pictures.still +
+           ", beauty at " + number(double(look.exposure_ev)) + " EV\" width=\"" +
+           std::to_string(full.width) + "\" height=\"" + std::to_string(full.height) +
+           "\" src=\"data:image/png;base64," + pictures.still +
            "\">\n<canvas id=\"canvas\" role=\"img\" aria-label=\"Picture\" tabindex=\"0\" "
            R"(aria-describedby="keys" width=")" +
            side(full.width) + "\" height=\"" + side(full.height) + "\" data-shrink=\"" +
@@ -100,12 +108,12 @@ std::string error_figure(const ReportPictures& pictures) {
 
 }  // namespace
 
-std::string picture_section(const ReportInput& in, float exposure) {
-    const ReportPictures pictures = report_pictures(in, exposure, most_picture_bytes);
+std::string picture_section(const ReportInput& in, const mir::PreviewLook& look) {
+    const ReportPictures pictures = report_pictures(in, look, most_picture_bytes);
     std::string section =
         "<h2>Picture</h2>\n<p id=\"status\" role=\"status\">The picture stands still: layers and "
         "exposure need JavaScript.</p>\n" +
-        controls(in, pictures, exposure) + stage(in, pictures, exposure) + vpl_legend(in) +
+        controls(in, pictures, look) + stage(in, pictures, look) + vpl_legend(in) +
         notes(pictures) + error_figure(pictures);
     for (const ReportLayer& layer : pictures.layers)
         section += R"(<script type="application/octet-stream" id=")" + layer.id + "\">" +

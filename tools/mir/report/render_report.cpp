@@ -26,14 +26,13 @@ std::string base64_of_hex(std::string_view digits) {
 }
 
 std::string page_of(const ReportInput& in) {
-    const float exposure =
-        in.options.exposure ? *in.options.exposure : mir::auto_exposure(in.result.beauty);
     const mir::RenderStatistics& s = in.result.statistics;
     std::string page =
         mir::detail::html_start(in.options.scene + " rendered by mir " + mir::version,
                                 {report_style, report_script, base64_of_hex(report_script_sha256)});
-    page += picture_section(in, exposure) + warnings_section(in.result) + reference_section(in) +
-            convergence_section(in) + vpls_section(in) + chains_section(s) + timing_section(s);
+    page += picture_section(in, preview_look(in.options, in.result.beauty)) +
+            warnings_section(in.result) + reference_section(in) + convergence_section(in) +
+            vpls_section(in) + chains_section(s) + timing_section(s);
     page += "<div class=\"rows\">\n<div>" + settings_section(in) + "</div>\n<div>" +
             scene_section(in) + "</div>\n</div>\n";
     page += "<script>" + std::string(report_script) + "</script>\n";

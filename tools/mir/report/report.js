@@ -57,10 +57,33 @@
     return decoded.get(names);
   };
 
+  // Curves change the three channels of a colour in place, as mir/io/tone_curve.hpp does.
+  const each = (curve) => (c) => {
+    for (let i = 0; i < 3; ++i) c[i] = curve(c[i]);
+  };
+  const mixed = (m, c) => {
+    const [r, g, b] = c;
+    for (let i = 0; i < 3; ++i) c[i] = m[3 * i] * r + m[3 * i + 1] * g + m[3 * i + 2] * b;
+  };
+  const sigmoid = (value) => {
+    const stops = Math.log2(Math.max(value, 1e-10));
+    const x = Math.min(1, Math.max(0, (stops + 12.47393) / 16.499999));
+    return (((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x + 0.1191) * x - 0.00232;
+  };
   const curves = {
-    none: (x) => x,
-    reinhard: (x) => x / (1 + x),
-    aces: (x) => x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14),
+    none: () => {},
+    reinhard: each((x) => x / (1 + x)),
+    aces: each((x) => x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)),
+    agx: (c) => {
+      mixed([0.842479062253094, 0.0784335999999992, 0.0792237451477643,
+             0.0423282422610123, 0.878468636469772, 0.0791661274605434,
+             0.0423756549057051, 0.0784336, 0.879142973793104], c);
+      each(sigmoid)(c);
+      mixed([1.19687900512017, -0.0980208811401368, -0.0990297440797205,
+             -0.0528968517574562, 1.15190312990417, -0.0989611768448433,
+             -0.0529716355144438, -0.0980434501171241, 1.15107367264116], c);
+      each((x) => Math.max(x, 0) ** 2.2)(c);
+    },
   };
   const srgb = Uint8Array.from({ length: 4097 }, (_, i) => {
     const x = i / 4096;
@@ -68,13 +91,16 @@
   });
 
   const image = context.createImageData(width, height);
+  const colour = new Float64Array(3);
   const paint = (radiance, begin, end) => {
     const scale = 2 ** Number(find("exposure").value);
     const curve = curves[find("curve").value];
     for (let y = 0; y < height; ++y) {
       for (let i = y * width + begin; i < y * width + end; ++i) {
+        for (let c = 0; c < 3; ++c) colour[c] = scale * radiance[3 * i + c];
+        curve(colour);
         for (let c = 0; c < 3; ++c)
-          image.data[4 * i + c] = srgb[Math.round(4096 * Math.min(1, curve(scale * radiance[3 * i + c])))];
+          image.data[4 * i + c] = srgb[Math.round(4096 * Math.min(1, Math.max(0, colour[c])))];
         image.data[4 * i + 3] = 255;
       }
     }

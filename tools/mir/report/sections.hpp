@@ -12,8 +12,8 @@ namespace mirtool {
 // its heading.
 
 /// The picture with its layers on real radiance, controls and VPLs, and the signed error.
-/// `exposure` is in EV.
-std::string picture_section(const ReportInput& input, float exposure);
+/// `look` is what it begins with.
+std::string picture_section(const ReportInput& input, const mir::PreviewLook& look);
 
 /// The numbers of the difference from the reference.
 std::string reference_section(const ReportInput& input);
