@@ -173,10 +173,27 @@ check_names() {
     listed docs/scene_files.md "built-in scene" <"$work/scenes"
 }
 
+# Names in backquotes that look like those of code, with an underscore or a capital inside, occur in
+# the tree. Not those of options, nor of what other programs call so.
+check_words() {
+    set -- include backends tools tests bench examples cmake docs/snippets CMakeLists.txt
+    { grep -rhI . "$@" && find "$@"; } | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$work/known"
+    printf '%s\n' CornellBox libPyImath map_Ks map_Pr | sort -u - "$work/known" >"$work/all"
+    for page in $(pages); do
+        # shellcheck disable=SC2016
+        awk '/^```/ { code = !code } !code' "$page" | grep -oE '`[^`]+`' |
+            sed 's/-[-A-Za-z0-9_=]*//g' | grep -oE '[A-Za-z_][A-Za-z0-9_]*' |
+            grep -E '_|[a-z][A-Z]' | sort -u | comm -23 - "$work/all" |
+            while read -r name; do
+                complain "$page names $name, which occurs nowhere in the code"
+            done
+    done
+}
+
 case $check in
-code | links | paths | options | names) "check_$check" ;;
+code | links | paths | options | names | words) "check_$check" ;;
 *)
-    echo "usage: check_docs.sh code|links|paths|options|names ROOT [MIR]" >&2
+    echo "usage: check_docs.sh code|links|paths|options|names|words ROOT [MIR]" >&2
     exit 2
     ;;
 esac

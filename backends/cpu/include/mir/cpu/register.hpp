@@ -6,7 +6,7 @@
 namespace mir::cpu {
 
 /// Adds the compiled CPU renderers: "cpu-blocks", the tuned path, and "cpu", the plain loop that
-/// is the oracle. Both trace with Embree.
+/// is the oracle. RenderSettings::acceleration says what both trace with.
 void add_to(Registry& registry);
 
 /// "Embree 3.13.5" or the like, and the vector instructions that loops will use.

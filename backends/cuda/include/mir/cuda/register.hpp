@@ -6,7 +6,8 @@
 namespace mir::cuda {
 
 /// Adds the compiled renderers of the first GPU: "rcvp" (default), "rc" and "os". They trace
-/// through the kd-tree. No GPU has to be there; Registry::make() says so when one is wanted.
+/// through the hierarchy or the kd-tree (RenderSettings::acceleration). No GPU has to be there;
+/// Registry::make() says so when one is wanted.
 void add_to(Registry& registry);
 
 /// Appends the GPUs of this machine, or why there is none.
