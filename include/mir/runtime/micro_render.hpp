@@ -188,9 +188,13 @@ void MicroRender<B, Engine, E>::check(const Sources& sources) {
         second.pixels()[i] = gathered.pixels()[i] - second.pixels()[i];
         truth.pixels()[i] = (first.pixels()[i] + second.pixels()[i]) * 0.5f;
     }
-    job_.result.statistics.gather_difference =
+    const LightDifference difference =
         light_difference(luminances_of(gathered), luminances_of(first), luminances_of(second));
-    if (job_.settings.micro.check != GatherCheck::correct) return;
+    job_.result.statistics.gather_difference = difference;
+    // What few bright paths tell makes pictures worse.
+    constexpr double most_error = 0.02;
+    if (job_.settings.micro.check != GatherCheck::correct || difference.standard_error > most_error)
+        return;
     correction_.emplace(gathered, truth, job_.executor);
     job_.result.statistics.gather_corrected = true;
 }

@@ -59,7 +59,8 @@ enum class MicroGather {
 enum class GatherCheck {
     none,     ///< it is not measured
     measure,  ///< at 2048 places of the image, however small that is
-    correct   ///< and the light of discs is brought nearer (LightCorrection)
+    correct   ///< and the light of discs is brought nearer (LightCorrection), where the difference
+              ///< is known to 2 %
 };
 
 /// Of Integrator::micro.
