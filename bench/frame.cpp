@@ -28,6 +28,7 @@ constexpr Way ways[] = {
 void frame(benchmark::State& state, const std::string& scene_name, const Way& way) {
     mir::RenderSettings settings;
     settings.image = mirbench::paper_image;
+    settings.luxels_per_pixel = 1;
     settings.vpls = static_cast<std::uint32_t>(state.range(0));
     settings.acceleration = way.acceleration;
     const auto renderer = mirbench::renderer_of(way.backend, state);

@@ -64,6 +64,7 @@ void grow(benchmark::State& state, const Machine& machine, const mir::Scene& sce
 mir::RenderSettings usual_settings(const Machine& machine) {
     mir::RenderSettings settings;
     settings.image = machine.image;
+    settings.luxels_per_pixel = 1;
     settings.vpls = usual_vpls;
     settings.acceleration = machine.acceleration;
     return settings;

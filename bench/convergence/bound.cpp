@@ -115,6 +115,7 @@ class Renders {
 mir::RenderSettings settings_of(const Treatment& t, const BoundOptions& o) {
     mir::RenderSettings s;
     s.image = {o.width, o.height};
+    s.luxels_per_pixel = 1;
     s.filter = mir::default_filter(mir::FilterKind::box);
     if (o.light_paths) s.sampler = mir::SamplerKind::instant_radiosity;
     s.direct_samples = 1;  // direct light is not looked at

@@ -33,6 +33,7 @@ struct Run {
 mir::RenderSettings settings_of(const Run& run, const Options& options) {
     mir::RenderSettings s;
     s.image = options.size;
+    s.luxels_per_pixel = 1;
     s.filter = mir::default_filter(mir::FilterKind::box);
     s.sampler = run.sampler.kind;
     s.vpls = run.vpls;

@@ -31,7 +31,7 @@ struct VplLobes {
             const double j = luminance(from.records[i].vpl.intensity);
             all += j;
             VplLobe<B>& lobe = lobes.emplace_back();
-            if (from.records[i].lambertian) continue;
+            if (from.records[i].lobe_share == 0.0f) continue;
             const VplArrival& a = from.arrivals[i];
             const typename B::Params own = view.params(a.material, a.attributes);
             lobe = {true, a.shading_normal, a.towards_light, a.power, widened(own, least_alpha)};

@@ -161,7 +161,7 @@ check_names() {
     "$mir" compare "$work/a.exr" "$work/a.exr" --json --html "$work/a.html" \
         --error "$work/error.png" | grep -oE '^ *"[a-z_]+":' | tr -d ' ":' | sort -u >>"$work/fields"
     listed docs/command_line.md "JSON field" <"$work/fields"
-    sed -n 's/.*"\(mir:[a-z_]*\)".*/\1/p' tools/mir/render_output.cpp | sort -u |
+    sed -n 's/.*"\(mir:[a-z_]*\)".*/\1/p' tools/mir/render_attributes.cpp | sort -u |
         listed docs/command_line.md "EXR attribute"
     sed -n 's/^inline constexpr int exit_[a-z_]* = \([0-9]*\);/\1/p' tools/mir/exit_code.hpp |
         while read -r code; do

@@ -12,6 +12,7 @@ namespace {
 mir::RenderSettings tiny_settings(mir::SamplerKind sampler) {
     mir::RenderSettings s;
     s.image = {16, 12};
+    s.luxels_per_pixel = 1;
     s.vpls = 8;
     s.threads = 1;
     s.backend = mir::BackendKind::cpu;

@@ -14,6 +14,7 @@ mir::RenderResult render(const mir::Scene& scene, mir::Acceleration acceleration
                          const char* scheduler) {
     mir::RenderSettings s;
     s.image = {80, 60};
+    s.luxels_per_pixel = 1;
     s.vpls = 64;
     s.backend = mir::BackendKind::cpu;
     s.scheduler = scheduler;

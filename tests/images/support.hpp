@@ -22,6 +22,7 @@ inline mir::RenderResult render(const mir::Scene& scene, const mir::RenderSettin
 inline mir::RenderSettings small_settings(std::uint32_t side, std::uint32_t vpls) {
     mir::RenderSettings s;
     s.image = {side, side};
+    s.luxels_per_pixel = 1;
     s.vpls = vpls;
     s.bound.kind = mir::BoundPolicy::Kind::none;
     s.filter = mir::default_filter(mir::FilterKind::box);

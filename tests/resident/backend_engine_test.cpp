@@ -112,6 +112,7 @@ Scene lit_room() {
 RenderSettings small_picture() {
     RenderSettings s;
     s.image = {45, 35};
+    s.luxels_per_pixel = 1;
     s.vpls = 24;
     s.tile = {32, 16};
     s.metropolis.bootstrap.min_paths = s.metropolis.bootstrap.max_paths = 4096;

@@ -13,6 +13,9 @@ using Warnings = std::vector<std::string>;
 /// A result whose chains did well.
 RenderResult healthy() {
     RenderResult r{{}, {}, {}, {}, {}, mir::Guides({1, 1}), {}, {}, {}};
+    r.beauty = mir::Image<mir::Rgb>({1, 1}, {1, 1, 1});
+    r.direct = mir::Image<mir::Rgb>({1, 1}, {0.6f, 0.6f, 0.6f});
+    r.indirect = mir::Image<mir::Rgb>({1, 1}, {0.4f, 0.4f, 0.4f});
     r.statistics.emitted_power = 1.0f;
     r.statistics.vpls = 256;
     mir::ChainHealth h;
@@ -42,6 +45,13 @@ Warnings warnings_after(const std::function<void(mir::RenderStatistics&)>& chang
 
 TEST_CASE("chains that do well are not warned of") {
     CHECK(warnings_after([](mir::RenderStatistics&) {}).empty());
+}
+
+TEST_CASE("lobes and noise of direct light that a picture bears are not warned of") {
+    CHECK(warnings_after([](mir::RenderStatistics& s) {
+              s.non_lambertian_share = 0.12f;  // 5 % of the picture where VPLs bring 40 %
+              s.direct_noise = 0.16;           // 10 % where direct light brings 60 %
+          }).empty());
 }
 
 TEST_CASE("chains too short for a second estimate of the luminance are not warned of one") {
@@ -87,7 +97,9 @@ TEST_CASE("each bad value of a render is one worded warning") {
              s.indirect_luminance = 0.8;
              s.removed_luminance = 0.2;
          }},
-        {"glossy surfaces", [](Statistics& s) { s.non_lambertian_share = 0.02f; }},
+        {"glossy surfaces bring 8 % of", [](Statistics& s) { s.non_lambertian_share = 0.2f; }},
+        {"by 20 % in a typical pixel; 2 times as many",
+         [](Statistics& s) { s.direct_noise = 0.2; }},
         {"through lobes of that roughness", [](Statistics& s) { s.widened_share = 0.02f; }},
         {"no VPL was placed",
          [](Statistics& s) {

@@ -24,6 +24,7 @@ constexpr double path_luminance = mirtest::RandomRecords::path_luminance;
 RenderSettings settings(NormalisationPolicy policy = NormalisationPolicy::full) {
     RenderSettings s;
     s.image = {60, 44};
+    s.luxels_per_pixel = 1;
     s.vpls = 12;
     s.direct_samples = 1;
     s.tile = {32, 32};

@@ -57,6 +57,7 @@ static_assert(!mir::SamplingEngine<BruteForceScene>);
 RenderSettings settings() {
     RenderSettings s;
     s.image = {40, 30};
+    s.luxels_per_pixel = 1;
     s.vpls = 9;
     s.max_bounce = 5;
     s.seed = 77;

@@ -178,7 +178,7 @@ TEST_CASE("VPLs on the lamp carry L / pdf and appear only when asked for") {
         CHECK((r.origin.kind == VplKind::emitter) == (r.bounce == 1));
         CHECK(r.light_group == 4);
         CHECK(r.weight == 1);
-        CHECK(r.lambertian);
+        CHECK(r.lobe_share == 0.0f);
         CHECK(mir::length_squared(r.vpl.position) < 3.0f);
         CHECK(glm::dot(r.vpl.normal, r.vpl.position) < 0.0f);
     }

@@ -25,7 +25,7 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
     CHECK(all.at("scheduler") == "cpu-blocks");
     CHECK(all.at("triangles") == 36);
     CHECK(all.at("dropped_triangles") == 0);
-    CHECK(all.at("luxels") == 24 * 18);
+    CHECK(all.at("luxels") == 4 * 24 * 18);
     CHECK(all.at("vpls").get<int>() > 0);
     CHECK(all.at("light_paths").get<int>() > 0);
     CHECK(all.at("contributions") == all.at("luxels").get<int>() * all.at("vpls").get<int>());
@@ -33,7 +33,8 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
         CHECK(all.at(key).get<double>() > 0.0);
     CHECK(all.at("non_lambertian_share") == 0.0);
     CHECK(all.at("widened_share") == 0.0);
-    for (const char* key : {"removed_share", "removed_share_error", "cut_share", "cut_share_error"})
+    for (const char* key :
+         {"removed_share", "removed_share_error", "cut_share", "cut_share_error", "direct_noise"})
         CHECK(all.at(key).get<double>() >= 0.0);
     CHECK_FALSE(all.contains("removed_tiles"));
     CHECK(all.at("vsl_radius") == 0.0);

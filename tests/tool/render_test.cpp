@@ -52,7 +52,7 @@ TEST_CASE("a render tells on standard error what it did, unless it shall be quie
     loud.pop_back();
     const Outcome outcome = run_mir(loud);
     CHECK(outcome.exit_code == 0);
-    CHECK(has(outcome.err, "36 triangles, 432 luxels"));
+    CHECK(has(outcome.err, "36 triangles, 1728 luxels"));
     for (const std::string& line : lines_of(outcome.err)) CHECK(line.rfind("mir: ", 0) == 0);
     // As many chains as VPLs, so that none has two states to compare.
     CHECK(!has(outcome.err, "R-hat"));
@@ -238,8 +238,8 @@ TEST_CASE("every choice is accepted and changes the picture", "[extended]") {
           Words{"--paths", "bidirectional"}, Words{"--suffix-refresh", "8"},
           Words{"--bootstrap-error", "0.03"}, Words{"--stop", "fixed"},
           Words{"--integrator", "vpl"}, Words{"--sequence", "random"},
-          Words{"--direct", "separate"}, Words{"--filter", "lanczos"}, Words{"--bound", "auto"},
-          Words{"--bounces", "32"}, Words{"--direct-samples", "16"}, Words{"--camera", "0"},
+          Words{"--direct", "separate"}, Words{"--filter", "gaussian"}, Words{"--bound", "auto"},
+          Words{"--bounces", "32"}, Words{"--direct-samples", "32"}, Words{"--camera", "0"},
           Words{"--camera", "front"}}) {
         INFO(same[0] << " " << same[1]);
         CHECK(largest_difference(picture(same), usual) == 0.0f);

@@ -47,7 +47,7 @@ std::vector<std::string> find_exceeded(const Comparison& c, const CompareOptions
     return exceeded;
 }
 
-Comparison compare(const CompareOptions& o, const mir::Monitor& monitor) {
+Comparison compare(const CompareOptions& o, mir::Monitor& monitor) {
     Comparison c;
     Picture image = read_picture(o.image, o.layer);
     Picture reference = read_picture(o.reference, o.layer);

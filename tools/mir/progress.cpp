@@ -3,11 +3,11 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace mirtool {
@@ -29,22 +29,19 @@ extern "C" void on_interrupt(int signal) {
 
 }  // namespace
 
-std::string progress_text(const Work& work, double seconds) {
-    if (work.planned == 0 || work.done == 0) return "preparing";
-    const std::uint64_t done = std::min(work.done, work.planned);
-    const double share = static_cast<double>(done) / static_cast<double>(work.planned);
-    const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
-    const double left = rate > 0.0 ? static_cast<double>(work.planned - done) / rate : 0.0;
-    char text[96];
-    std::snprintf(text, sizeof text, "%3.0f %%  %.2f M %s/s  %.1f s left", 100.0 * share,
-                  1e-6 * rate, work.unit, left);
+std::string progress_text(const mir::RenderWork& work, const mir::RenderPace& pace) {
+    std::string text = work.stage != nullptr ? work.stage : "preparing";
+    char figures[96];
+    if (const std::optional<double> share = work.stage_share()) {
+        std::snprintf(figures, sizeof figures, " %.0f %%", 100.0 * *share);
+        text += figures;
+    }
+    if (const std::optional<double> left = pace.seconds_left()) {
+        std::snprintf(figures, sizeof figures, ", %.1f M %s/s, %.1f s left", 1e-6 * pace.rate(),
+                      work.unit, *left);
+        text += figures;
+    }
     return text;
-}
-
-Work work_of(const mir::Monitor& monitor) {
-    if (const std::uint64_t planned = monitor.planned_gathers.load(); planned != 0)
-        return {monitor.gathers.load(), planned, "gathers"};
-    return {monitor.contributions.load(), monitor.planned_contributions.load(), "contributions"};
 }
 
 Progress::Progress(const mir::Monitor& monitor)
@@ -61,20 +58,43 @@ Progress::~Progress() {
 }
 
 void Progress::run() {
-    const auto period = terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
-    std::uint32_t passes = 0;
+    constexpr std::chrono::milliseconds period(200);
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, period, [this] { return stop_; })) {
-        const std::uint32_t done = monitor_.passes.load();
-        if (done != std::exchange(passes, done)) start_ = std::chrono::steady_clock::now();
-        const double seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-        const std::string text =
-            (passes > 0 ? "pass " + std::to_string(passes + 1) + "  " : std::string()) +
-            progress_text(work_of(monitor_), seconds);
-        std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "mir: %s\n", text.c_str());
-        std::fflush(stderr);
+        const Clock::time_point now = Clock::now();
+        look(now);
+        if (terminal_ || is_due(now)) tell();
     }
+}
+
+void Progress::look(Clock::time_point now) {
+    const std::uint32_t done = monitor_.passes.load();
+    if (done != std::exchange(passes_, done)) {
+        pass_start_ = now;
+        pace_ = {};
+    }
+    const char* before = work_.stage;
+    work_ = mir::work_of(monitor_);
+    if (work_.stage != before) stage_start_ = now;
+    pace_.look(work_, std::chrono::duration<double>(now - pass_start_).count());
+}
+
+/// Where lines stay: a stage is told once it has lasted, and again from time to time.
+bool Progress::is_due(Clock::time_point now) {
+    constexpr std::chrono::seconds lasting(1);
+    constexpr std::chrono::seconds from_time_to_time(10);
+    const bool is_new = work_.stage != told_stage_ && now - stage_start_ >= lasting;
+    if (!is_new && now - told_ < from_time_to_time) return false;
+    told_ = now;
+    told_stage_ = work_.stage;
+    return true;
+}
+
+void Progress::tell() const {
+    const std::string pass = passes_ > 0 ? "pass " + std::to_string(passes_ + 1) + ", " : "";
+    const std::string text = pass + progress_text(work_, pace_);
+    std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "mir: %s\n", text.c_str());
+    std::fflush(stderr);
 }
 
 CancelOnInterrupt::CancelOnInterrupt(mir::Monitor& monitor) {

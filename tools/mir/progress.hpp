@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/monitor.hpp"
+#include "mir/runtime/render_pace.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -12,7 +13,8 @@
 namespace mirtool {
 
 /// Tells on stderr how a render gets on: on a terminal one line, rewritten five times a second;
-/// elsewhere a line every ten seconds. Stops with its life.
+/// elsewhere a line for each stage that lasts a second, and one every ten seconds. Stops with its
+/// life.
 class Progress {
  public:
     explicit Progress(const mir::Monitor& monitor);
@@ -21,28 +23,30 @@ class Progress {
     ~Progress();
 
  private:
+    using Clock = std::chrono::steady_clock;
+
     void run();
+    void look(Clock::time_point now);
+    [[nodiscard]] bool is_due(Clock::time_point now);
+    void tell() const;
 
     const mir::Monitor& monitor_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     bool terminal_;
+    std::uint32_t passes_ = 0;
+    Clock::time_point pass_start_ = Clock::now();
+    mir::RenderPace pace_;
+    mir::RenderWork work_;
+    Clock::time_point stage_start_ = Clock::now();
+    Clock::time_point told_ = Clock::now();
+    const char* told_stage_ = nullptr;
     bool stop_ = false;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::thread thread_;
 };
 
-/// How far a render is.
-struct Work {
-    std::uint64_t done = 0;
-    std::uint64_t planned = 0;  ///< 0: not known yet
-    const char* unit = "";
-};
-
-Work work_of(const mir::Monitor& monitor);
-
-/// "45 %  172.00 M contributions/s  3.2 s left" for work done in `seconds`.
-std::string progress_text(const Work& work, double seconds);
+/// "light of VPLs 45 %, 172.0 M contributions/s, 3.2 s left".
+std::string progress_text(const mir::RenderWork& work, const mir::RenderPace& pace);
 
 /// Makes Ctrl-C cancel `monitor` for the life of the object; a second Ctrl-C ends the program.
 class CancelOnInterrupt {

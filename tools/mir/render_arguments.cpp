@@ -105,7 +105,7 @@ void add_reference(CLI::App& app, mir::RenderSettings& s) {
                                 "VPLs (default), the reference path tracer, or light gathered "
                                 "from discs");
     add_count(app, "--samples", s.path.samples, 1, 1 << 24,
-              "Camera paths per luxel of --integrator path (default 256)");
+              "Camera paths per luxel of --integrator path (default 64)");
     add_choice<mir::LightSearch>(app, "--light-search", s.path.light,
                                  {{"mis", mir::LightSearch::mis},
                                   {"lamps", mir::LightSearch::lamps},
@@ -163,7 +163,7 @@ void add_sampling(CLI::App& app, RenderOptions& o) {
         app, "--sequence", s.sequence,
         {{"random", mir::Sequence::random}, {"halton", mir::Sequence::halton}},
         "Numbers behind the light paths (default random)");
-    app.add_option("--vpls", s.vpls, "Geometric VPLs wanted (default 256)")
+    app.add_option("--vpls", s.vpls, "Geometric VPLs wanted (default 1024)")
         ->check(between(1, 4e6, "1 to 4000000"));
     add_choice<mir::DirectLight>(
         app, "--direct", s.direct,
@@ -171,7 +171,7 @@ void add_sampling(CLI::App& app, RenderOptions& o) {
         "Direct light by samples of the lamps (default) or by VPLs on them and, of an environment, "
         "at "
         "infinity");
-    app.add_option("--direct-samples", s.direct_samples, "Lamp samples per pixel (default 16)")
+    app.add_option("--direct-samples", s.direct_samples, "Lamp samples per pixel (default 32)")
         ->check(between(1, 65536, "1 to 65536"));
     add_count(app, "--bounces", s.max_bounce, 1, 254,
               "Largest number of reflections on the way to the camera (default 32; no limit with "
@@ -219,14 +219,15 @@ void add_image(CLI::App& app, RenderOptions& o) {
     app.add_option("--width", o.width, "Pixels across (default: the scene's, else 480 high)")
         ->check(side);
     app.add_option("--height", o.height, "Pixels down")->check(side);
-    app.add_option("--luxels", s.luxels_per_pixel, "Luxels per pixel (default 1)")
+    app.add_option("--luxels", s.luxels_per_pixel, "Luxels per pixel (default 4)")
         ->check(between(1, 64, "1 to 64"));
     app.add_option("--camera", o.camera, "Camera of the scene, by name or index (default 0)");
     std::map<std::string, mir::Filter> filters;
     for (const mir::FilterName& f : mir::filter_names)
         filters.emplace(f.name, mir::default_filter(f.kind));
-    add_choice<mir::Filter>(app, "--filter", s.filter, filters,
-                            "Pixel filter (default lanczos, the paper's windowed sinc)");
+    add_choice<mir::Filter>(
+        app, "--filter", s.filter, filters,
+        "Pixel filter (default gaussian; lanczos is the paper's windowed sinc)");
 }
 
 /// Light, ground and view for files that have none.

@@ -62,7 +62,7 @@ class CpuRenderer : public Renderer {
                         Monitor* monitor) const override {
         settings.validate();
         std::vector<std::string> warnings = check_scene(scene, settings);
-        StageClock clock;
+        StageClock clock(monitor);
         const NearScene near = near_scene(scene, clock, warnings);
         RenderResult result = build_and_render(near.scene(), settings, monitor, clock);
         RenderStatistics& s = result.statistics;

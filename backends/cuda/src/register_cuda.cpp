@@ -94,7 +94,7 @@ class CudaRenderer : public Renderer {
         if (const std::string reason = host_only(settings); !reason.empty())
             throw Error(ErrorCode::unsupported, reason);
         std::vector<std::string> warnings = check_scene(scene, settings);
-        StageClock clock;
+        StageClock clock(monitor);
         // Beside the GPU: it takes as long as a stage.
         auto hash = std::async(std::launch::async, [&scene] { return SceneHash(scene).hex(); });
         const NearScene near = near_scene(scene, clock, warnings);

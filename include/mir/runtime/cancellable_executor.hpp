@@ -6,22 +6,24 @@
 
 namespace mir {
 
-/// Runs loops on another Executor and asks before every body whether to go on, so that each stage
-/// of a render can be cancelled without knowing about it. Model of Executor; both references must
-/// outlive it.
+/// Runs loops on another Executor that can be watched and stopped: it asks before every body
+/// whether to go on, and counts it after, so that no stage of a render has to know about that.
+/// Model of Executor; both references must outlive it.
 template <Executor E>
 class CancellableExecutor {
  public:
-    /// `monitor` may be null: then nothing is ever cancelled.
-    CancellableExecutor(E& executor, const Monitor* monitor)
-        : executor_(executor), monitor_(monitor) {}
+    /// `monitor` may be null: then nothing is counted or cancelled.
+    CancellableExecutor(E& executor, Monitor* monitor) : executor_(executor), monitor_(monitor) {}
 
     /// @throws Error(cancelled), besides what the bodies throw.
     template <class Body>
     void for_each(std::size_t n, Body&& body) {
+        if (monitor_ == nullptr) return executor_.for_each(n, body);
+        monitor_->begin_loop(n);
         executor_.for_each(n, [&](std::size_t i) {
-            if (monitor_ != nullptr) monitor_->check();
+            monitor_->check();
             body(i);
+            monitor_->blocks.fetch_add(1, std::memory_order_relaxed);
         });
     }
     /// That of the executor beneath.
@@ -29,7 +31,7 @@ class CancellableExecutor {
 
  private:
     E& executor_;
-    const Monitor* monitor_;
+    Monitor* monitor_;
 };
 
 }  // namespace mir

@@ -130,6 +130,41 @@ inline void add_gather_warning(const LightDifference& d, std::vector<std::string
                        "--gather-check correct brings it nearer, --integrator path is right");
 }
 
+/// Of the picture's luminance, 0..1; 0 of a black picture.
+inline double share_of_picture(const Image<Rgb>& layer, const Image<Rgb>& beauty) {
+    const auto sum = [](const Image<Rgb>& image) {
+        double all = 0.0;
+        for (const Rgb& pixel : image.pixels()) all += static_cast<double>(luminance(pixel));
+        return all;
+    };
+    const double all = sum(beauty);
+    return all > 0.0 ? sum(layer) / all : 0.0;
+}
+
+/// A picture bears 10 % in a pixel: less is seen by those who look for it.
+inline void add_direct_noise_warning(const RenderResult& result,
+                                     std::vector<std::string>& warnings) {
+    constexpr double bearable = 0.1;
+    const double of_direct = result.statistics.direct_noise.value_or(0.0);
+    if (of_direct <= bearable) return;
+    const double noise = of_direct * share_of_picture(result.direct, result.beauty);
+    if (noise <= bearable) return;
+    const double times = std::ceil(noise * noise / (bearable * bearable));
+    warnings.push_back("direct light is noisy, by " + rounded(100.0 * of_direct) +
+                       " % in a typical pixel; " + rounded(times) +
+                       " times as many --direct-samples make it smooth");
+}
+
+/// Where lobes carry 5 % of what the picture shows.
+inline void add_lobe_warning(const RenderResult& result, std::vector<std::string>& warnings) {
+    const double share = static_cast<double>(result.statistics.non_lambertian_share) *
+                         share_of_picture(result.indirect, result.beauty);
+    if (share <= 0.05) return;
+    warnings.push_back("reflections in glossy surfaces bring " + rounded(100.0 * share) +
+                       " % of the picture's light, and VPLs spread it evenly; --glossy keeps its "
+                       "direction, --integrator path too");
+}
+
 }  // namespace detail
 
 /// Adds what Markov chains have to say about themselves.
@@ -158,10 +193,8 @@ inline void add_result_warnings(const RenderResult& result, std::vector<std::str
     detail::add_missing_warnings(s, warnings);
     if (s.gather_difference && !s.gather_corrected)
         detail::add_gather_warning(*s.gather_difference, warnings);
-    if (s.non_lambertian_share > 0.01f)
-        warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.non_lambertian_share), 1) +
-                           " % of the VPLs' light comes from glossy surfaces and is spread as if "
-                           "they were diffuse");
+    detail::add_direct_noise_warning(result, warnings);
+    detail::add_lobe_warning(result, warnings);
     if (s.widened_share > 0.01f)
         warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.widened_share), 1) +
                            " % of the VPLs' light comes from surfaces smoother than "

@@ -5,6 +5,7 @@
 #include "mir/glossy_light.hpp"
 #include "mir/reshade.hpp"
 #include "mir/runtime/any_engine.hpp"
+#include "mir/runtime/direct_noise.hpp"
 #include "mir/runtime/film_layers.hpp"
 #include "mir/runtime/missing_light.hpp"
 #include "mir/runtime/render_job.hpp"
@@ -90,6 +91,13 @@ class HostCanvas {
         const AnyEngine engine(job_.engine);
         const auto context = job_.context().through(engine);
         return MissingLight<B, AnyEngine, E>(context, job_.lights, bound).measure();
+    }
+
+    /// What DirectNoise measures of these samples.
+    [[nodiscard]] double direct_noise(DirectSamples samples) const {
+        const AnyEngine engine(job_.engine);
+        const auto context = job_.context().through(engine);
+        return DirectNoise<B, AnyEngine, E>(context, job_.lights).measure(samples);
     }
 
     /// sum += layer.

@@ -98,7 +98,14 @@ RenderResult MicroRender<B, Engine, E>::run() {
     const ImageBands<B, Engine, E> bands(job_.context(), 0);
     const std::size_t bounces = job_.settings.bounce_layers ? sources.light.size() + 1 : 0;
     Canvas canvas(job_, NoScheduler{}, std::size_t{first_bounce_layer} + bounces);
-    for (std::uint32_t i = 0; i < bands.count(); ++i) render_band(canvas, bands.make(i), sources);
+    if (job_.settings.measure_missing) {
+        const auto stage = job_.clock.measure(&StageSeconds::ledger);
+        s.direct_noise = canvas.direct_noise(job_.settings.direct_samples_per_luxel());
+    }
+    for (std::uint32_t i = 0; i < bands.count(); ++i) {
+        job_.begin_band(i, bands.count());
+        render_band(canvas, bands.make(i), sources);
+    }
     canvas.finish();
     return job_.take_result();
 }

@@ -80,6 +80,10 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
             static_cast<double>(all.*share), static_cast<double>(pass.*share), earlier));
     detail::add_pass(all.removed, pass.removed, earlier);
     detail::add_pass(all.cut, pass.cut, earlier);
+    // That of one pass would be less than all of them leave, the mean of all would be more.
+    if (all.direct_noise && pass.direct_noise)
+        all.direct_noise =
+            std::hypot(earlier * *all.direct_noise, *pass.direct_noise) / (earlier + 1.0);
     detail::add_pass(all.gather_difference, pass.gather_difference, earlier);
     if (all.health && pass.health) detail::add_pass(*all.health, *pass.health, earlier);
     for (const RenderStage& stage : render_stages)

@@ -41,6 +41,13 @@ struct RenderJob {
         return {settings, geometry, surfaces, rays, engine, executor, monitor, clock};
     }
 
+    /// Tells the monitor that band `i` of `bands` begins.
+    void begin_band(std::uint32_t i, std::uint32_t bands) const {
+        if (monitor == nullptr) return;
+        monitor->planned_bands = bands;
+        monitor->bands = i + 1;
+    }
+
     /// Adds what a denoiser wants to know of the luxels of a band to the result.
     void add_guides_of(const ImageBand<B>& band) {
         const auto stage = clock.measure(&StageSeconds::guides);

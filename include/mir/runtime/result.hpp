@@ -28,7 +28,7 @@ struct RenderStatistics {
     std::uint64_t patches = 0;        ///< of those, each lit as a whole (SurfelPatches)
     std::uint64_t contributions = 0;  ///< luxels x VPLs
     float emitted_power = 0.0f;       ///< luminance, W
-    float non_lambertian_share = 0.0f;  ///< of VPL intensity spread as Lambertian
+    float non_lambertian_share = 0.0f;  ///< of VPL intensity: lobes spread as Lambertian
     float widened_share = 0.0f;         ///< of VPL intensity, through lobes that were widened
     double states = 0.0;                ///< n: recorded states; 0 for samplers without
     double path_luminance = 0.0;        ///< P_c: mean image luminance of all paths, W m^-2 sr^-1
@@ -43,6 +43,7 @@ struct RenderStatistics {
     double residual_luminance = 0.0;    ///< mean over luxels of what they found
     std::optional<ShareEstimate> removed;  ///< MissingShares::removed, where it was measured
     std::optional<ShareEstimate> cut;      ///< MissingShares::cut, likewise
+    std::optional<double> direct_noise;    ///< DirectNoise::measure(), where it was measured
     /// Light of discs against that of paths, before any correction, where it was measured.
     std::optional<LightDifference> gather_difference;
     bool gather_corrected = false;  ///< by what of it is no noise (LightCorrection)

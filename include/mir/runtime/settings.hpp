@@ -43,7 +43,7 @@ enum class Integrator {
 
 /// Of Integrator::path.
 struct PathSettings {
-    std::uint32_t samples = 256;           ///< camera paths per luxel
+    std::uint32_t samples = 64;            ///< camera paths per luxel
     LightSearch light = LightSearch::mis;  ///< how paths find lamps
     std::uint32_t directions = 1;          ///< paths that go on from each first hit
 };
@@ -130,12 +130,12 @@ struct GlossySettings {
 /// What to render and how. Plain values with working defaults; validate() tells what is wrong.
 struct RenderSettings {
     Extent image{640, 480};                         ///< pixels
-    std::uint32_t luxels_per_pixel = 1;             ///< 1..64
+    std::uint32_t luxels_per_pixel = 4;             ///< 1..64
     std::uint32_t camera = 0;                       ///< index into Scene::cameras
     Integrator integrator = Integrator::vpl;        ///< says which of the settings below count
     PathSettings path;                              ///< of Integrator::path
     MicroSettings micro;                            ///< of Integrator::micro
-    std::uint32_t vpls = 256;                       ///< wanted geometric VPLs
+    std::uint32_t vpls = 1024;                      ///< wanted geometric VPLs
     SamplerKind sampler = SamplerKind::metropolis;  ///< of Integrator::vpl
     NormalisationPolicy normalisation = NormalisationPolicy::full;  ///< of samplers that need one
     std::uint32_t prepass_luxels = 4096;                            ///< of policy `prepass`
@@ -144,7 +144,7 @@ struct RenderSettings {
     Termination termination = Termination::roulette;  ///< of light paths
     Sequence sequence = Sequence::random;             ///< of SamplerKind::instant_radiosity
     DirectLight direct = DirectLight::separate;       ///< how it reaches the image
-    std::uint32_t direct_samples = 16;                ///< next-event samples per pixel
+    std::uint32_t direct_samples = 32;                ///< next-event samples per pixel
     /// Largest number of scattering events, 1..254; none: bounce_limit() of VPLs and discs, no
     /// limit of Integrator::path.
     std::optional<std::uint8_t> max_bounce = std::nullopt;
@@ -152,21 +152,22 @@ struct RenderSettings {
     /// Paths per pixel that trace back what the bound removed, shared out among its luxels, at
     /// least one each; 0: none, so that this light is missing.
     std::uint32_t compensate = 0;
-    VslSettings vsl;                                      ///< a choice instead of `bound`
-    GlossySettings glossy;                                ///< else all VPLs are Lambertian
-    Filter filter = default_filter(FilterKind::lanczos);  ///< from luxels to pixels
-    std::uint64_t seed = 0;                               ///< of all random numbers
-    unsigned threads = 0;                                 ///< 0: every core
-    BackendKind backend = BackendKind::automatic;         ///< which machine renders
-    Acceleration acceleration = Acceleration::automatic;  ///< what finds out where rays end
+    VslSettings vsl;                                       ///< a choice instead of `bound`
+    GlossySettings glossy;                                 ///< else all VPLs are Lambertian
+    Filter filter = default_filter(FilterKind::gaussian);  ///< from luxels to pixels
+    std::uint64_t seed = 0;                                ///< of all random numbers
+    unsigned threads = 0;                                  ///< 0: every core
+    BackendKind backend = BackendKind::automatic;          ///< which machine renders
+    Acceleration acceleration = Acceleration::automatic;   ///< what finds out where rays end
     std::string scheduler;  ///< name in the Registry; empty: the backend's default
     /// Luxels scheduled together, rounded up to whole blocks of 16 x 16, not larger than the image
     /// of luxels rounded likewise; none: the backend's choice.
     std::optional<Extent> tile;
     bool bounce_layers = false;  ///< one image per bounce besides the sum
     bool removed_layer = false;  ///< an image of the light that the bound removed
-    /// Paths measure what the bound removes and the largest bounce cuts (MissingShares), for 2048
-    /// places however small the image; else the VPLs tell what the bound removes.
+    /// Paths measure what the bound removes and the largest bounce cuts (MissingShares), and two
+    /// estimates how noisy direct light is (DirectNoise), for 2048 places however small the
+    /// image; else the VPLs tell what the bound removes.
     bool measure_missing = true;
     bool allow_no_light = false;  ///< a scene without light gives black, not an error
     Limits limits;                ///< checked before memory is taken

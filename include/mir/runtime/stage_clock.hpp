@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/monitor.hpp"
 #include "mir/runtime/stage_seconds.hpp"
 
 #include <chrono>
@@ -29,7 +30,8 @@ class StageClock {
         Stage outer_;
     };
 
-    StageClock() = default;
+    /// Tells `monitor` which stage it is, unless that is null; else it must outlive the clock.
+    explicit StageClock(Monitor* monitor = nullptr) : monitor_(monitor) { tell(); }
     StageClock(const StageClock&) = delete;
     StageClock& operator=(const StageClock&) = delete;
     ~StageClock() = default;
@@ -60,9 +62,14 @@ class StageClock {
         since_ = now;
         const Stage before = current_;
         current_ = next;
+        if (next != before) tell();
         return before;
     }
+    void tell() {
+        if (monitor_ != nullptr) monitor_->stage = title_of(current_);
+    }
 
+    Monitor* monitor_;
     StageSeconds seconds_;
     Stage current_ = &StageSeconds::other;
     Clock::time_point since_ = Clock::now();

@@ -23,7 +23,7 @@ struct StageSeconds {
     double direct = 0.0;          ///< next-event light, emission
     double reconstruction = 0.0;  ///< contributions of the VPLs
     double gather = 0.0;          ///< light from discs
-    double ledger = 0.0;          ///< measuring what VPLs leave out, discs differ by
+    double ledger = 0.0;          ///< measuring noise, what VPLs leave out, discs differ by
     double residual = 0.0;        ///< tracing that back
     double film = 0.0;            ///< filtering
     double guides = 0.0;          ///< albedo, normal, position and depth
@@ -36,35 +36,43 @@ struct StageSeconds {
 /// Which of its stages.
 using StageMember = double StageSeconds::*;
 
-/// A stage and its name in files.
+/// A stage and its names.
 struct RenderStage {
     std::string_view name;  ///< key in files
     StageMember seconds;    ///< where its time stands
+    const char* title;      ///< what a person reads
 };
 
 /// Every stage in the order in which a frame goes through them; what they take adds up to
 /// StageSeconds::total.
 inline constexpr std::array<RenderStage, 21> render_stages{
-    {{"geometry", &StageSeconds::geometry},
-     {"build", &StageSeconds::build},
-     {"upload", &StageSeconds::upload},
-     {"bound", &StageSeconds::bound},
-     {"bootstrap", &StageSeconds::bootstrap},
-     {"sampling", &StageSeconds::sampling},
-     {"surfels", &StageSeconds::surfels},
-     {"paths", &StageSeconds::paths},
-     {"gbuffer", &StageSeconds::gbuffer},
-     {"visibility", &StageSeconds::visibility},
-     {"response", &StageSeconds::response},
-     {"direct", &StageSeconds::direct},
-     {"reconstruction", &StageSeconds::reconstruction},
-     {"gather", &StageSeconds::gather},
-     {"ledger", &StageSeconds::ledger},
-     {"residual", &StageSeconds::residual},
-     {"film", &StageSeconds::film},
-     {"guides", &StageSeconds::guides},
-     {"download", &StageSeconds::download},
-     {"hash", &StageSeconds::hash},
-     {"other", &StageSeconds::other}}};
+    {{"geometry", &StageSeconds::geometry, "geometry"},
+     {"build", &StageSeconds::build, "acceleration structure"},
+     {"upload", &StageSeconds::upload, "upload"},
+     {"bound", &StageSeconds::bound, "what the camera sees"},
+     {"bootstrap", &StageSeconds::bootstrap, "light paths"},
+     {"sampling", &StageSeconds::sampling, "placing light"},
+     {"surfels", &StageSeconds::surfels, "discs"},
+     {"paths", &StageSeconds::paths, "camera paths"},
+     {"gbuffer", &StageSeconds::gbuffer, "camera rays"},
+     {"visibility", &StageSeconds::visibility, "shadow rays of VPLs"},
+     {"response", &StageSeconds::response, "what each VPL does"},
+     {"direct", &StageSeconds::direct, "direct light"},
+     {"reconstruction", &StageSeconds::reconstruction, "light of VPLs"},
+     {"gather", &StageSeconds::gather, "light of discs"},
+     {"ledger", &StageSeconds::ledger, "light that is missing"},
+     {"residual", &StageSeconds::residual, "light that was removed"},
+     {"film", &StageSeconds::film, "film"},
+     {"guides", &StageSeconds::guides, "albedo and normals"},
+     {"download", &StageSeconds::download, "download"},
+     {"hash", &StageSeconds::hash, "fingerprint of the scene"},
+     {"other", &StageSeconds::other, "preparing"}}};
+
+/// What a person reads of a stage.
+constexpr const char* title_of(StageMember stage) {
+    for (const RenderStage& known : render_stages)
+        if (known.seconds == stage) return known.title;
+    return "";
+}
 
 }  // namespace mir

@@ -91,7 +91,7 @@ class TiledRender {
     [[nodiscard]] Layer removed_light(const Canvas& canvas, const Band& band,
                                       const VplLight<B>& light);
     void add_residual(const Canvas& canvas, const Band& band, std::vector<Layer>& layers);
-    void measure_missing(const Canvas& canvas);
+    void measure(const Canvas& canvas);
     void add_mean(const Canvas& canvas, const Layer& layer, double RenderStatistics::*mean);
 
     RenderJob<B, Engine, E> job_;
@@ -218,8 +218,9 @@ void TiledRender<B, Engine, E, MakeScheduler>::render(const VplRecords& records,
     Canvas canvas(
         job_, make_scheduler_,
         std::size_t{first_bounce_layer} + light.bounces() + (job_.settings.removed_layer ? 1 : 0));
-    if (job_.settings.measure_missing) measure_missing(canvas);
+    if (job_.settings.measure_missing) measure(canvas);
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
+        job_.begin_band(i, bands.count());
         Band band = kept.empty() ? bands.make(i) : std::move(kept[i]);
         if (stores && !band.knows_visibility()) bands.find_visible(band, job_.result.vpls.span());
         render_band(canvas, band, light);
@@ -297,9 +298,11 @@ void TiledRender<B, Engine, E, MakeScheduler>::add_residual(const Canvas& canvas
 
 /// Engines that keep luxels to themselves have no rays for the host without building for them.
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
-void TiledRender<B, Engine, E, MakeScheduler>::measure_missing(const Canvas& canvas) {
+void TiledRender<B, Engine, E, MakeScheduler>::measure(const Canvas& canvas) {
     if constexpr (!BandEngine<Engine>) {
         const auto stage = job_.clock.measure(&StageSeconds::ledger);
+        job_.result.statistics.direct_noise =
+            canvas.direct_noise(job_.settings.direct_samples_of_luxel());
         const bool bounded =
             job_.settings.bound.kind != BoundPolicy::Kind::none && !job_.settings.vsl.enabled;
         const MissingShares missing =

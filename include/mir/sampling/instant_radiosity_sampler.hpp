@@ -147,8 +147,8 @@ void InstantRadiositySampler<B, R>::record(const Arrival<B>& at, const typename 
                                            const BsdfSample& sample, std::uint8_t bounce,
                                            std::uint16_t light_group, Path& path) const {
     const SurfacePoint& point = at.point;
-    const bool lambertian = world_.surfaces.is_lambertian(point.material);
-    const Rgb weight = options_.arrivals && !lambertian
+    const float lobe_share = world_.surfaces.view().lobe_share(point.material);
+    const Rgb weight = options_.arrivals && lobe_share > 0.0f
                            ? B::albedo(bsdf, point.shading_normal, at.towards_light)
                            : sample.weight;
     const Vpl vpl = reflective_vpl(at, weight);
@@ -158,7 +158,7 @@ void InstantRadiositySampler<B, R>::record(const Arrival<B>& at, const typename 
                             bounce,
                             light_group,
                             1.0f,
-                            lambertian});
+                            lobe_share});
     if (options_.arrivals)
         path.arrivals.push_back({at.towards_light, point.shading_normal,
                                  at.power * at.shading_normal_factor(), point.material,

@@ -25,7 +25,8 @@ struct VplRecord {
     std::uint8_t bounce = 2;  ///< scattering events up to the camera: 1 direct, 2 one bounce
     std::uint16_t light_group = 0;  ///< group of the light that feeds it
     float weight = 1.0f;            ///< recorded states that it stands for
-    bool lambertian = true;         ///< false: the surface's lobe was spread as a Lambertian one
+    float lobe_share = 0.0f;        ///< of its light: what leaves the surface in a lobe, spread as
+                                    ///< Lambertian here; 0 only on lamps and Lambertian surfaces
 };
 
 /// The light that a VPL passes on, as it arrives there: what its surface makes a lobe of.
@@ -42,14 +43,14 @@ MIR_HD inline bool is_same_vpl(const VplRecord& a, const VplRecord& b) {
     return same_place(a.origin, b.origin) && a.vpl.normal == b.vpl.normal;
 }
 
-/// Share of the records' summed intensity (luminance) that stands on non-Lambertian surfaces, 0..1.
+/// Share of the records' summed intensity (luminance) that their surfaces send in lobes, 0..1.
 inline float share_of_non_lambertian(const std::vector<VplRecord>& records) {
     double all = 0.0;
     double spread = 0.0;
     for (const VplRecord& r : records) {
         const double j = luminance(r.vpl.intensity);
         all += j;
-        if (!r.lambertian) spread += j;
+        spread += j * static_cast<double>(r.lobe_share);
     }
     return all > 0.0 ? static_cast<float>(spread / all) : 0.0f;
 }
@@ -60,7 +61,7 @@ struct VplRecords {
     std::vector<VplArrival> arrivals;  ///< one for each record where they were asked for, else none
     std::uint64_t paths = 0;           ///< light paths traced, those without a record included
     float emitted_power = 0.0f;        ///< luminance of the scene's emitted power, W
-    float non_lambertian_share = 0.0f;  ///< of the records' intensity, from surfaces with a lobe
+    float non_lambertian_share = 0.0f;  ///< of the records' intensity: what left in lobes
     double path_luminance = 0.0;  ///< P_c: mean image luminance of the paths that the records stand
                                   ///< for, W m^-2 sr^-1; only with Normalisation::image_response
     double states = 0.0;          ///< n: summed weights of all recorded states, the same

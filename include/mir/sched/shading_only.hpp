@@ -12,7 +12,7 @@
 
 namespace mir::sched {
 
-/// OS, figure 4 of the paper: per tile and VPL, the backend shades every luxel while the host
+/// OS, figure 3 of the paper: per tile and VPL, the backend shades every luxel while the host
 /// traces the rays and adds up. One plane of radiance comes home per VPL, which the paper found too
 /// dear. The image is that of sched::Cpu in every bit if the backend's arithmetic is the host's.
 /// Not thread-safe; several may share a backend.

@@ -24,7 +24,8 @@ class SurfaceTable {
     explicit SurfaceTable(const Scene& scene) : textures_(scene) {
         for (const Material& m : scene.materials)
             entries_.push_back({material_params(m, B{}), m.emission, m.emits_from_both_sides,
-                                m.is_lambertian(), mean_albedo(scene, m), m.factors(), m.textures});
+                                lobe_share(scene, m), mean_albedo(scene, m), m.factors(),
+                                m.textures});
     }
 
     /// What kernels on the host read; valid until the table is moved or ends.
@@ -60,10 +61,21 @@ class SurfaceTable {
 
  private:
     static float mean_albedo(const Scene& scene, const Material& m) {
-        const CookTorrance::Params p = material_params(mean_factors(scene, m), CookTorrance{});
+        return smaller(typical_albedo(material_params(mean_factors(scene, m), CookTorrance{})),
+                       1.0f);
+    }
+    static float lobe_share(const Scene& scene, const Material& m) {
+        if (m.is_lambertian()) return 0.0f;
+        CookTorrance::Params p = material_params(mean_factors(scene, m), CookTorrance{});
+        const float all = typical_albedo(p);
+        p.diffuse = {};
+        constexpr float least = 1e-6f;
+        return all > 0.0f ? larger(typical_albedo(p) / all, least) : 1.0f;
+    }
+    static float typical_albedo(const CookTorrance::Params& p) {
         const Vec3 n(0.0f, 0.0f, 1.0f);
         const Vec3 wo(0.6f, 0.0f, 0.8f);
-        return smaller(luminance(CookTorrance::albedo(p, n, wo)), 1.0f);
+        return luminance(CookTorrance::albedo(p, n, wo));
     }
 
     TextureTable textures_;

@@ -26,7 +26,8 @@ struct SurfaceEntry {
     typename B::Params params;    ///< without textures and vertex colours
     Rgb emission;                 ///< radiance, W m^-2 sr^-1
     bool both_sides = false;      ///< emits from the back too
-    bool lambertian = true;       ///< see Material::is_lambertian()
+    float lobe_share = 0.0f;      ///< of the mean albedo: what the interface reflects, 0..1; 0 only
+                                  ///< where Material::is_lambertian()
     float mean_albedo = 0.0f;     ///< luminance of the reflectance at a typical angle, 0..1
     MaterialFactors factors{};    ///< what textures multiply
     MaterialTextures textures{};  ///< of the material; may be none
@@ -76,7 +77,12 @@ struct SurfaceTableView {
     }
     /// True when the material reflects alike in all directions (Material::is_lambertian()).
     [[nodiscard]] MIR_HD bool is_lambertian(std::uint32_t material) const {
-        return entries[material].lambertian;
+        return entries[material].lobe_share == 0.0f;
+    }
+    /// Share of the reflected light at a typical angle that leaves in a lobe, 0..1; 0 only where
+    /// is_lambertian().
+    [[nodiscard]] MIR_HD float lobe_share(std::uint32_t material) const {
+        return entries[material].lobe_share;
     }
 
  private:

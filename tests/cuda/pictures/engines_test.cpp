@@ -26,6 +26,7 @@ mir::RenderResult render(const mir::Scene& scene, mir::RenderSettings settings, 
 mir::RenderSettings settings_of(mir::SamplerKind sampler) {
     mir::RenderSettings s;
     s.image = {80, 60};
+    s.luxels_per_pixel = 1;
     s.vpls = 64;
     s.sampler = sampler;
     s.acceleration = mir::Acceleration::kd_tree;
@@ -88,6 +89,7 @@ TEST_CASE("A GPU draws every scene with the bits of the host's kd-tree, by every
 TEST_CASE("A GPU refuses to trace by Embree, whatever makes the picture") {
     mir::RenderSettings s;
     s.image = {16, 16};
+    s.luxels_per_pixel = 1;
     s.acceleration = mir::Acceleration::embree;
     const mir::Scene scene = mir::builtin::make("cornell-box");
     for (const auto integrator : {mir::Integrator::vpl, mir::Integrator::path}) {

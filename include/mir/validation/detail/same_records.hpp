@@ -16,7 +16,7 @@ inline auto bits_of(const Vpl& v) { return std::bit_cast<std::array<std::uint32_
 inline bool same_record(const VplRecord& a, const VplRecord& b) {
     return bits_of(a.vpl) == bits_of(b.vpl) && same_place(a.origin, b.origin) &&
            a.origin.multiplicity == b.origin.multiplicity && a.bounce == b.bounce &&
-           a.light_group == b.light_group && a.weight == b.weight && a.lambertian == b.lambertian;
+           a.light_group == b.light_group && a.weight == b.weight && a.lobe_share == b.lobe_share;
 }
 
 /// Whether light arrives at two VPLs in the same way, bit for bit.
