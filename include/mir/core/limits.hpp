@@ -19,6 +19,7 @@ struct Limits {
     std::uint64_t pixels = 1ull << 28;             ///< of one image
     std::uint64_t file_bytes = 4ull << 30;         ///< of one input file
     std::uint64_t visibility_bytes = 8ull << 30;   ///< of stored visibility, with its luxels
+    bool allow_outside = false;  ///< scene files may name files outside of their own folder
 };
 
 /// Product that saturates instead of wrapping.

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
+
+namespace mir::detail {
+
+/// `path` without links, as far as it exists. What cannot be followed (a loop of links, a name that
+/// is too long) cannot be opened either: it is taken as it is written.
+inline std::filesystem::path resolved(const std::filesystem::path& path) {
+    namespace fs = std::filesystem;
+    std::error_code failure;
+    const fs::path whole = fs::absolute(path, failure);
+    if (failure) return path.lexically_normal();
+    const fs::path followed = fs::weakly_canonical(whole, failure);
+    return failure ? whole.lexically_normal() : followed;
+}
+
+/// True when `file`, relative to `folder` or absolute, does not lie in `folder` or below it, links
+/// followed. A scene from a stranger has no business elsewhere on the machine.
+inline bool leads_outside(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    const std::filesystem::path home = resolved(folder.empty() ? "." : folder);
+    const std::filesystem::path place = resolved(folder / file);
+    // A folder that ends in a slash ends in an empty name.
+    const auto end = home.has_filename() ? home.end() : std::prev(home.end());
+    return std::mismatch(home.begin(), end, place.begin(), place.end()).first != end;
+}
+
+}  // namespace mir::detail
