@@ -37,7 +37,7 @@ const std::vector<Expected>& readable() {
          0,
          1,
          {{"use of a material that no library has", 1}}},
-        {"obj-features/box_mat_with_spaces.obj", 12, 0, 12, {{"transparency (d, Tr)", 1}}},
+        {"obj-features/box_mat_with_spaces.obj", 12, 0, 12, {}},
         {"obj-features/concave_polygon.obj", 64, 0, 1, {}},
         {"obj-features/cube_usemtl.obj", 12, 0, 3, {{"use of a material that no library has", 2}}},
         {"obj-features/cube_with_vertexcolors.obj", 12, 0, 1, {}},

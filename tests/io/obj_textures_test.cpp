@@ -218,12 +218,40 @@ TEST_CASE("images that are missing or lie elsewhere are counted, not looked at")
     check("x/../../a.png", "image 'x/../../a.png'" + elsewhere);
     check(outside,
           "image '" + outside.substr(0, 40) + (outside.size() > 40 ? "...'" : "'") + elsewhere);
+    const TemporaryFolder outer("obj_outer");
+    write_file(outer / "a.png", "never looked at");
+    std::filesystem::create_symlink(outer / "a.png", folder / "link.png");
+    check("link.png", "image 'link.png'" + elsewhere);
     write_file(folder / "text.png", "no image");
     check("text.png", "image that is neither PNG nor JPEG");
     CHECK(folder.read("map_Kd -mm 0 2 colors.png").report.ignored ==
           Ignored{{"MTL option '-mm'", 1}});
     CHECK(folder.read("map_d -imfchan z colors.png").report.ignored ==
           Ignored{{"MTL option '-imfchan'", 1}});
+}
+
+TEST_CASE("images that lie elsewhere are read where that is allowed") {
+    const Folder outer;
+    const Folder folder;
+    std::filesystem::create_symlink(outer / "colors.png", folder / "link.png");
+    mir::Limits limits;
+    limits.allow_outside = true;
+    for (const std::string& name : {(outer / "colors.png").string(), std::string("link.png")}) {
+        const auto loaded = folder.read("map_Kd " + name, limits);
+        CHECK(loaded.report.ignored.empty());
+        REQUIRE(loaded.scene.images.size() == 1);
+        CHECK(loaded.scene.images[0].texels == colors);
+    }
+}
+
+TEST_CASE("images of a material that no face uses are not looked at") {
+    const Folder folder;
+    write_file(folder / "cut.png", "\x89PNG\r\n\x1a\n");
+    const auto loaded =
+        folder.read("Kd 1 1 1\nnewmtl b\nmap_Kd cut.png\nnewmtl c\nmap_Kd colors.png");
+    CHECK(loaded.scene.images.empty());
+    CHECK(loaded.scene.materials.size() == 3);
+    CHECK(loaded.report.ignored.empty());
 }
 
 TEST_CASE("images are found beside their library, below the OBJ file") {
@@ -267,7 +295,6 @@ TEST_CASE("broken textures of an OBJ file are refused with their place, before m
         {"map_Kd huge.png", "announce 65535 x 65535 pixels"},
         {"map_Kd long.png", "its chunk at byte 33 announces 536870912 bytes, of which 3 are there"},
         {"map_d cut.png", "a.mtl, line 2, image 'cut.png'"},
-        {"map_Kd", "a.mtl, line 2: map_Kd names no image"},
         {"map_Kd -s", "a.mtl, line 2: map_Kd -s has no value"},
         {"norm -bm x colors.png", "a.mtl, line 2: norm -bm is no number ('x')"},
         {"map_Ke -o 1e39 colors.png", "a.mtl, line 2: map_Ke -o is not a finite number"},

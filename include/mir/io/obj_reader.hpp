@@ -20,11 +20,16 @@ struct ObjTarget {
     ObjMeshes meshes;
     ObjMaterials materials;
 
+    void add_face(const tinyobj::index_t* corners, std::size_t count) {
+        const auto material = meshes.given_material();
+        if (material && ObjMeshes::is_face(count)) materials.use(*material);
+        meshes.add_face(corners, count);
+    }
+
     [[nodiscard]] static tinyobj::callback_t callbacks() {
         tinyobj::callback_t calls;
         calls.index_cb = [](void* data, tinyobj::index_t* corners, int count) {
-            static_cast<ObjTarget*>(data)->meshes.add_face(corners,
-                                                           static_cast<std::size_t>(count));
+            static_cast<ObjTarget*>(data)->add_face(corners, static_cast<std::size_t>(count));
         };
         calls.usemtl_cb = [](void* data, const char* name, int) {
             auto& target = *static_cast<ObjTarget*>(data);
@@ -67,11 +72,12 @@ inline LoadedScene load_obj(const std::filesystem::path& path, const Limits& lim
 /// stand, +y up, brought home by recentre(). Ke is radiance, Kd the base colour, the mean of Ks the
 /// weight of the interface, Ns or Pr its roughness, Pm metalness, Ni the index of refraction;
 /// map_Kd, map_Ke, map_d and norm are textures (docs/scene_files.md). Libraries and images that are
-/// missing and what is not read are counted in the report. Thread-safe for different or equal
-/// files.
-/// @throws Error(invalid_input) when the file is missing or broken, with its line;
-///         Error(limit_exceeded) before memory beyond `limits` is taken.
-///         Each message reads "FILE: PLACE: problem (why); remedy".
+/// missing and what is not read are counted in the report, of materials that faces use. Thread-safe
+/// for different or equal files.
+/// @throws Error(invalid_input) when the file is missing or broken, with its line, and when a
+/// library
+///         lies outside of its folder (Limits::allow_outside); Error(limit_exceeded) before memory
+///         beyond `limits` is taken. Each message reads "FILE: PLACE: problem (why); remedy".
 /// Source: Wavefront Technologies, "The Advanced Visualizer", appendix B1; for Pr and Pm:
 /// Exocortex, "Extending Wavefront MTL for physically-based rendering".
 inline LoadedScene read_obj(const std::filesystem::path& path, const Limits& limits = {}) {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/io/detail/mtl_text.hpp"
 #include "mir/io/detail/obj_text.hpp"
 #include "mir/io/detail/obj_textures.hpp"
+#include "mir/io/detail/outside.hpp"
 #include "mir/io/detail/read_file.hpp"
 #include "mir/io/detail/text_encoding.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <tiny_obj_loader.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -17,9 +18,8 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mir::detail {
@@ -31,7 +31,8 @@ inline float roughness_of_phong(float exponent) {
     return std::sqrt(std::sqrt(2.0f / (exponent + 2.0f)));
 }
 
-/// Reads the material libraries of one OBJ file through tinyobjloader and converts what they hold.
+/// Reads the material libraries of one OBJ file and converts what they hold. Images of a material
+/// are read, and what it loses is counted, when a face uses it.
 class ObjMaterials : public tinyobj::MaterialReader {
  public:
     ObjMaterials(const ObjText& text, const std::filesystem::path& folder, FileBudget& budget,
@@ -39,12 +40,14 @@ class ObjMaterials : public tinyobj::MaterialReader {
         : text_(text),
           folder_(folder),
           budget_(budget),
+          allow_outside_(limits.allow_outside),
           scene_(scene),
           report_(report),
           textures_(folder, budget, limits, scene, report) {}
 
     /// Called by tinyobjloader for the first name behind `mtllib`: reads all libraries named there,
     /// or the one whose name has blanks. True: no other names need to be tried.
+    /// @throws Error(invalid_input) when one lies outside of the folder.
     bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                     std::map<std::string, int>* by_name, std::string* warning,
                     std::string* error) override;
@@ -57,38 +60,44 @@ class ObjMaterials : public tinyobj::MaterialReader {
         return std::nullopt;
     }
 
+    /// Completes a material that a face has.
+    /// @throws Error(invalid_input) when an image of it is broken; Error(limit_exceeded)
+    void use(std::uint32_t material);
+
  private:
-    using Keys = std::set<std::string, std::less<>>;
-    /// What a material of the library says: its keywords, and the images among them that are read.
-    struct Given : Keys {
-        std::map<std::string, ObjTextureUse, std::less<>> images;
+    /// A material that no face has had yet.
+    struct Unused {
+        MtlMaterial text;
+        std::string library;
     };
 
     [[nodiscard]] bool exists(const std::string& library) const {
         std::error_code failure;
         return !library.empty() && std::filesystem::is_regular_file(folder_ / library, failure);
     }
+    void check_inside(const std::string& library) const;
     void read(const std::string& library);
-    [[nodiscard]] std::string checked(const std::string& text, const std::string& library);
-    bool check_numbers(std::string_view keyword, std::string_view line, const std::string& place);
-    [[nodiscard]] Material convert(const tinyobj::material_t& from, const std::string& library);
-    void interface_of(const tinyobj::material_t& from, const Keys& given, Material& to);
-    void textures_of(const Given& given, Material& to);
-    void note_unused(const tinyobj::material_t& from, const Keys& given);
-    [[nodiscard]] Rgb factors(const float (&channels)[3], const char* what) {
-        return {unit_factor(channels[0], what, place_, report_),
-                unit_factor(channels[1], what, place_, report_),
-                unit_factor(channels[2], what, place_, report_)};
+    void add(MtlMaterial text, const std::string& library);
+    [[nodiscard]] Material convert(MtlMaterial& from);
+    void interface_of(MtlMaterial& from, Material& to);
+    void textures_of(const MtlMaterial& from, Material& to);
+    static void note_transparency(MtlMaterial& from);
+    [[nodiscard]] Rgb factors(MtlMaterial::Numbers channels, const char* what, SceneReport& lost) {
+        return {unit_factor(channels[0], what, place_, lost),
+                unit_factor(channels[1], what, place_, lost),
+                unit_factor(channels[2], what, place_, lost)};
     }
 
     const ObjText& text_;
     std::filesystem::path folder_;
     FileBudget& budget_;
+    bool allow_outside_;
     Scene& scene_;
     SceneReport& report_;
     std::map<std::string, std::uint32_t> indices_;
+    std::map<std::uint32_t, Unused> unused_;
+    std::set<std::filesystem::path> read_;  ///< libraries
     ObjTextures textures_;
-    std::map<std::string, Given> given_;  ///< by the names of the library's materials
     std::string place_;
 };
 
@@ -100,6 +109,7 @@ inline bool ObjMaterials::operator()(const std::string&, std::vector<tinyobj::ma
     }
     for_each_word(text_.libraries(), [&](std::string_view word) {
         const std::string library(word);
+        check_inside(library);
         if (exists(library))
             read(library);
         else
@@ -108,138 +118,113 @@ inline bool ObjMaterials::operator()(const std::string&, std::vector<tinyobj::ma
     return true;
 }
 
+inline void ObjMaterials::check_inside(const std::string& library) const {
+    if (allow_outside_ || !leads_outside(folder_, library)) return;
+    fail_at(text_.place(), "material library " + in_quotes(library) +
+                               " lies outside of the folder of the OBJ file (a scene from a "
+                               "stranger could look at any file); move it there, or allow it with "
+                               "--allow-outside");
+}
+
 inline void ObjMaterials::read(const std::string& library) {
+    check_inside(library);
+    // Exporters name one library again and again.
+    if (!read_.insert(resolved(folder_ / library)).second) return;
     const std::string text = plain_lines(text_of(read_whole_file(folder_ / library, budget_)));
-    given_.clear();
-    textures_.begin_library(library);
-    std::istringstream stream(checked(text, library));
-    std::map<std::string, int> by_name;
-    std::vector<tinyobj::material_t> materials;
-    std::string ignored;
-    tinyobj::LoadMtl(&by_name, &materials, &stream, &ignored, &ignored);
-    for (const tinyobj::material_t& material : materials) {
-        const std::string key = trimmed(material.name);
-        // A library without materials gives one without name; of two with one name the first is
-        // taken, as tinyobjloader does.
-        if (key.empty() || indices_.contains(key)) continue;
-        indices_[key] = scene_.add(convert(material, library));
+    for (MtlMaterial& material : MtlText(library).read(text)) add(std::move(material), library);
+}
+
+/// Of two materials with one name the first is taken.
+inline void ObjMaterials::add(MtlMaterial text, const std::string& library) {
+    place_ = library + ", material '" + text.name + "'";
+    Material material = convert(text);
+    const auto known = indices_.find(text.name);
+    if (known != indices_.end()) {
+        const auto unused = unused_.find(known->second);
+        ++(unused != unused_.end() ? unused->second.text.lost : report_).ignored[mtl_defined_twice];
+        return;
     }
+    const std::uint32_t index = scene_.add(std::move(material));
+    indices_[text.name] = index;
+    unused_[index] = {std::move(text), library};
 }
 
-/// What tinyobjloader is to read of a library: lines that are used, with checked numbers. It takes
-/// what is no number for zero and overflows at long exponents.
-inline std::string ObjMaterials::checked(const std::string& text, const std::string& library) {
-    std::istringstream stream(text);
-    std::string kept;
-    std::string line;
-    Given* given = nullptr;
-    for (std::size_t number = 1; std::getline(stream, line); ++number) {
-        const std::string_view word = keyword_of(line);
-        if (word.empty()) continue;
-        const std::string_view rest = std::string_view(line).substr(
-            static_cast<std::size_t>(word.data() - line.data()) + word.size());
-        if (word == "newmtl") {
-            given = &given_[trimmed(rest)];
-            kept += line + '\n';
-            continue;
-        }
-        const std::string place = library + ", line " + std::to_string(number);
-        if (given != nullptr) {
-            given->emplace(word);
-            if (word == "map_Kd" || word == "map_Ke" || word == "map_d" || word == "norm") {
-                const std::string key(word);
-                given->images.try_emplace(key, read_texture_use(key, rest, place, report_));
-            }
-        }
-        if (check_numbers(word, rest, place) || word == "illum") kept += line + '\n';
-    }
-    return kept;
+inline void ObjMaterials::use(std::uint32_t material) {
+    const auto node = unused_.extract(material);
+    if (node.empty()) return;
+    const Unused& from = node.mapped();
+    for (const auto& [what, times] : from.text.lost.ignored) report_.ignored[what] += times;
+    textures_.begin_library(from.library);
+    textures_of(from.text, scene_.materials[material]);
 }
 
-/// False when the keyword is not one that numbers follow.
-inline bool ObjMaterials::check_numbers(std::string_view keyword, std::string_view line,
-                                        const std::string& place) {
-    constexpr std::array<std::string_view, 9> numeric = {"Kd", "Ks", "Ke", "Ns", "Ni",
-                                                         "d",  "Tr", "Pr", "Pm"};
-    if (std::find(numeric.begin(), numeric.end(), keyword) == numeric.end()) return false;
-    const std::string what(keyword);
-    // Behind the numbers there may be a comment.
-    const std::size_t wanted = keyword[0] == 'K' ? 3 : 1;
-    std::size_t count = 0;
-    for_each_word(line, [&](std::string_view word) {
-        if (count++ >= wanted) return;
-        (void)whole_number_token(word, what.c_str(), place);
-        constexpr std::size_t longest_exponent = 8;
-        const std::size_t e = std::min(word.find_first_of("eE"), word.size());
-        if (word.size() - e > longest_exponent)
-            fail_at(place, what + " has an exponent of many digits (" + in_quotes(word) +
-                               "); repair the material");
-    });
-    if (count == 0) fail_at(place, what + " has no number; repair the material");
-    return true;
-}
-
-inline Material ObjMaterials::convert(const tinyobj::material_t& from, const std::string& library) {
+inline Material ObjMaterials::convert(MtlMaterial& from) {
     Material to;
-    to.name = trimmed(from.name);
-    place_ = library + ", material '" + to.name + "'";
-    const Given& given = given_[to.name];
-    if (given.contains("Kd")) to.base_color = factors(from.diffuse, "Kd");
-    to.emission = {checked_amount(from.emission[0], "Ke", place_),
-                   checked_amount(from.emission[1], "Ke", place_),
-                   checked_amount(from.emission[2], "Ke", place_)};
-    textures_of(given, to);
-    interface_of(from, given, to);
-    note_unused(from, given);
+    to.name = from.name;
+    if (const auto kd = from.find("Kd")) to.base_color = factors(*kd, "Kd", from.lost);
+    if (const auto ke = from.find("Ke"))
+        to.emission = {checked_amount((*ke)[0], "Ke", place_),
+                       checked_amount((*ke)[1], "Ke", place_),
+                       checked_amount((*ke)[2], "Ke", place_)};
+    interface_of(from, to);
+    note_transparency(from);
     return to;
 }
 
 /// Ks weighs a dielectric interface, Ns or Pr roughens it; with Pr or Pm alone it is a whole one.
-inline void ObjMaterials::interface_of(const tinyobj::material_t& from, const Keys& given,
-                                       Material& to) {
-    const bool matte = given.contains("illum") && (from.illum == 0 || from.illum == 1);
-    const bool physical = given.contains("Pr") || given.contains("Pm");
-    to.specular = physical && !given.contains("Ks") ? 1.0f : 0.0f;
-    if (given.contains("Ks") && !matte) {
-        const Rgb ks = factors(from.specular, "Ks");
-        to.specular = (ks.r + ks.g + ks.b) / 3.0f;
-        if (ks.r != ks.g || ks.g != ks.b) ++report_.ignored["colour of Ks (its mean is used)"];
+inline void ObjMaterials::interface_of(MtlMaterial& from, Material& to) {
+    const auto model = from.find("illum");
+    const bool matte = model && ((*model)[0] == 0.0f || (*model)[0] == 1.0f);
+    const auto ks = from.find("Ks");
+    to.specular = (from.has("Pr") || from.has("Pm")) && !ks ? 1.0f : 0.0f;
+    if (ks && !matte) {
+        const Rgb weight = factors(*ks, "Ks", from.lost);
+        to.specular = (weight.r + weight.g + weight.b) / 3.0f;
+        if (weight.r != weight.g || weight.g != weight.b)
+            ++from.lost.ignored["colour of Ks (its mean is used)"];
     }
-    to.metallic = unit_factor(from.metallic, "Pm", place_, report_);
-    if (given.contains("Pr"))
-        to.roughness = unit_factor(from.roughness, "Pr", place_, report_);
-    else if (given.contains("Ns"))
-        to.roughness = roughness_of_phong(checked_amount(from.shininess, "Ns", place_));
+    if (const auto pm = from.find("Pm"))
+        to.metallic = unit_factor((*pm)[0], "Pm", place_, from.lost);
+    if (const auto pr = from.find("Pr"))
+        to.roughness = unit_factor((*pr)[0], "Pr", place_, from.lost);
+    else if (const auto ns = from.find("Ns"))
+        to.roughness = roughness_of_phong(checked_amount((*ns)[0], "Ns", place_));
     // Exporters write 1 for "none", and nothing is below that.
-    if (from.ior > 1.0f) to.ior = checked_float(from.ior, "Ni", place_);
+    if (const auto ni = from.find("Ni"); ni && (*ni)[0] > 1.0f) to.ior = (*ni)[0];
 }
 
 /// Images multiply Kd and Ke, which are one where only the image is given.
-inline void ObjMaterials::textures_of(const Given& given, Material& to) {
+inline void ObjMaterials::textures_of(const MtlMaterial& from, Material& to) {
     const auto texture = [&](const char* key) {
-        const auto found = given.images.find(key);
-        return found == given.images.end() ? Texture{} : textures_.find(found->second);
+        const auto found = from.images.find(key);
+        return found == from.images.end() ? Texture{} : textures_.find(found->second);
     };
     MaterialTextures& t = to.textures;
     t.base_color = texture("map_Kd");
-    if (const auto mask = given.images.find("map_d");
-        mask != given.images.end() && textures_.cut(t.base_color, mask->second))
+    if (const auto mask = from.images.find("map_d");
+        mask != from.images.end() && textures_.cut(t.base_color, mask->second))
         to.alpha_cutoff = 0.5f;
-    if (t.base_color.is_set() && !given.contains("Kd")) to.base_color = {1.0f, 1.0f, 1.0f};
+    if (t.base_color.is_set() && !from.has("Kd")) to.base_color = {1.0f, 1.0f, 1.0f};
     t.emission = texture("map_Ke");
-    if (t.emission.is_set() && !given.contains("Ke")) to.emission = {1.0f, 1.0f, 1.0f};
+    if (t.emission.is_set() && !from.has("Ke")) to.emission = {1.0f, 1.0f, 1.0f};
     t.normal = texture("norm");
-    if (t.normal.is_set()) t.normal_scale = given.images.find("norm")->second.bump;
+    if (t.normal.is_set()) t.normal_scale = from.images.find("norm")->second.bump;
 }
 
-inline void ObjMaterials::note_unused(const tinyobj::material_t& from, const Keys& given) {
-    constexpr std::array<std::string_view, 20> read = {
-        "Ka", "Kd", "Ks", "Ke",     "Ns",        "Ni",     "Pr",     "Pm",     "illum", "d",
-        "Tr", "Tf", "Kt", "newmtl", "sharpness", "map_Ka", "map_Kd", "map_Ke", "map_d", "norm"};
-    for (const std::string& key : given)
-        if (std::find(read.begin(), read.end(), key) == read.end())
-            ++report_.ignored["MTL " + in_quotes(key)];
-    if (from.dissolve < 1.0f) ++report_.ignored["transparency (d, Tr)"];
+/// Counts a material once that light is meant to go through: by its opacity, by a filter that is
+/// not white, which exporters write for none, or by a model of glass. `d` counts before `Tr`.
+inline void ObjMaterials::note_transparency(MtlMaterial& from) {
+    const auto d = from.find("d");
+    const auto tr = from.find("Tr");
+    const float opacity = d ? (*d)[0] : tr ? 1.0f - (*tr)[0] : 1.0f;
+    const auto model = from.find("illum");
+    const auto is_model = [&](float number) { return model && (*model)[0] == number; };
+    const bool glass = is_model(4.0f) || is_model(6.0f) || is_model(7.0f) || is_model(9.0f);
+    const MtlMaterial::Numbers white = {1.0f, 1.0f, 1.0f};
+    if (opacity < 1.0f)
+        ++from.lost.ignored["transparency (d, Tr)"];
+    else if (glass || from.find("Tf").value_or(white) != white)
+        ++from.lost.ignored["transparency (illum, Tf)"];
 }
 
 }  // namespace mir::detail

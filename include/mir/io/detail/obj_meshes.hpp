@@ -9,6 +9,7 @@
 
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -36,6 +37,12 @@ class ObjMeshes {
         material_ = material;
         part_ = nullptr;
     }
+
+    /// What use_material() was given last.
+    [[nodiscard]] std::optional<std::uint32_t> given_material() const { return material_; }
+
+    /// True when a face of so many corners is one; others are left out and counted.
+    [[nodiscard]] static bool is_face(std::size_t corners) { return corners >= 3; }
 
     /// @throws Error(invalid_input), Error(limit_exceeded)
     void add_face(const tinyobj::index_t* corners, std::size_t count);
@@ -67,6 +74,7 @@ class ObjMeshes {
 
     [[nodiscard]] std::int64_t resolve(int index, std::size_t count, const char* what) const;
     [[nodiscard]] Corner corner_of(const tinyobj::index_t& index, const Part& part) const;
+    void settle_normals();
     Part& part();
     std::uint32_t vertex_of(Part& part, const Corner& corner);
     [[nodiscard]] std::uint32_t material();
@@ -82,6 +90,7 @@ class ObjMeshes {
     std::vector<Part> parts_;
     Part* part_ = nullptr;  ///< of the group and material that are set; nullptr: not looked up yet
     PolygonCutter cutter_;
+    std::vector<Corner> corners_;
     std::vector<std::uint32_t> face_;
     std::vector<Vec3> outline_;
     std::uint64_t triangles_ = 0;
@@ -162,20 +171,33 @@ inline std::uint32_t ObjMeshes::vertex_of(Part& part, const Corner& corner) {
     return next;
 }
 
+/// A face is smooth when all of its corners have normals: with some alone it would be bent towards
+/// no direction at the others.
+inline void ObjMeshes::settle_normals() {
+    const auto has_none = [](const Corner& corner) { return corner.normal < 0; };
+    const auto without = std::count_if(corners_.begin(), corners_.end(), has_none);
+    if (without == 0) return;
+    if (static_cast<std::size_t>(without) < corners_.size()) {
+        ++report_.ignored["face with normals at some corners alone (shaded flat)"];
+        for (Corner& corner : corners_) corner.normal = -1;
+    } else if (text_.is_smooth() && !counted_smooth_) {
+        ++report_.ignored["smoothing groups without normals (shaded flat)"];
+        counted_smooth_ = true;
+    }
+}
+
 inline void ObjMeshes::add_face(const tinyobj::index_t* corners, std::size_t count) {
-    if (count < 3) {
+    if (!is_face(count)) {
         ++report_.ignored["face of fewer than three corners"];
         return;
     }
     Part& to = part();
+    corners_.clear();
     face_.clear();
     outline_.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-        const Corner corner = corner_of(corners[i], to);
-        if (corner.normal < 0 && text_.is_smooth() && !counted_smooth_) {
-            ++report_.ignored["smoothing groups without normals (shaded flat)"];
-            counted_smooth_ = true;
-        }
+    for (std::size_t i = 0; i < count; ++i) corners_.push_back(corner_of(corners[i], to));
+    settle_normals();
+    for (const Corner& corner : corners_) {
         face_.push_back(vertex_of(to, corner));
         outline_.push_back(to.mesh.positions[face_.back()]);
     }

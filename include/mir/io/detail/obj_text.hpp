@@ -50,7 +50,8 @@ class ObjText : public std::streambuf {
     void check(std::size_t begin, std::size_t end);
     void vertex(std::string_view numbers);
     void normal(std::string_view numbers);
-    void corners(std::string_view words) const;
+    void corners(std::size_t begin, std::string_view words);
+    void check_corner(std::string_view word) const;
     void texture_coordinate(std::string_view numbers);
     std::size_t read(std::string_view line, const char* what, std::array<float, 8>& numbers,
                      std::size_t least = 3);
@@ -107,7 +108,8 @@ inline void ObjText::check(std::size_t begin, std::size_t end) {
                       text_.begin() + static_cast<std::ptrdiff_t>(end), ' ');
         };
         blank_from(std::min(whole.find('#'), whole.size()));
-        if (word == "f") return corners(rest);
+        if (word == "f")
+            return corners(begin + static_cast<std::size_t>(rest.data() - whole.data()), rest);
         if (word == "v") vertex(rest);
         if (word == "vn") normal(rest);
         if (word == "vt") texture_coordinate(rest);
@@ -168,28 +170,36 @@ inline void ObjText::texture_coordinate(std::string_view numbers) {
     texture_coordinates_.emplace_back(n[0], n[1]);
 }
 
-/// Every word has to be one to three whole numbers between slashes.
-inline void ObjText::corners(std::string_view words) const {
+/// Checks the corners of a face, which begin at a place of the text, and takes off slashes with
+/// nothing behind: there tinyobjloader would read on into the next corner.
+inline void ObjText::corners(std::size_t begin, std::string_view words) {
     for_each_word(words, [&](std::string_view word) {
-        std::size_t slashes = 0;
-        std::size_t digits = 0;
-        bool good = true;
-        for (std::size_t i = 0; i < word.size(); ++i) {
-            const char c = word[i];
-            const bool starts = i == 0 || word[i - 1] == '/';
-            if (c == '/') {
-                good = good && ++slashes <= 2;
-                digits = 0;
-            } else if (c >= '0' && c <= '9') {
-                good = good && ++digits <= 9;
-            } else {
-                good = good && starts && (c == '-' || c == '+');
-            }
-        }
-        if (!good)
-            fail_at(place(), "a corner of a face is none (" + in_quotes(word) +
-                                 ", where vertex/texture/normal is meant); repair the face");
+        check_corner(word);
+        const std::size_t end = word.find_last_not_of('/') + 1;
+        const auto at = static_cast<std::size_t>(word.data() - words.data()) + begin;
+        std::fill(text_.begin() + static_cast<std::ptrdiff_t>(at + end),
+                  text_.begin() + static_cast<std::ptrdiff_t>(at + word.size()), ' ');
     });
+}
+
+/// A corner is a whole number and up to two more behind slashes, where nothing stands for none.
+inline void ObjText::check_corner(std::string_view word) const {
+    constexpr std::size_t most_digits = 9;
+    const auto is_index = [](std::string_view field) {
+        if (field.starts_with('-') || field.starts_with('+')) field.remove_prefix(1);
+        return !field.empty() && field.size() <= most_digits &&
+               field.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    std::string_view rest = word;
+    for (std::size_t fields = 0; fields < 3; ++fields) {
+        const std::size_t slash = std::min(rest.find('/'), rest.size());
+        const std::string_view field = rest.substr(0, slash);
+        if (!is_index(field) && (fields == 0 || !field.empty())) break;
+        if (slash == rest.size()) return;
+        rest.remove_prefix(slash + 1);
+    }
+    fail_at(place(), "a corner of a face is none (" + in_quotes(word) +
+                         ", where vertex/texture/normal is meant); repair the face");
 }
 
 }  // namespace mir::detail

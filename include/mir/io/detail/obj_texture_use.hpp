@@ -77,8 +77,8 @@ inline std::vector<std::string_view> take_values(const ObjTextureOption& option,
 }
 
 /// Reads what follows `keyword` in a material library: options, then a file's name, which may hold
-/// blanks. Options that change the picture and are not read are counted. tinyobjloader's own reader
-/// takes the name for the third number of an option that has two.
+/// blanks; an empty one where there is none. Options that change the picture and are not read are
+/// counted.
 /// @throws Error(invalid_input)
 inline ObjTextureUse read_texture_use(const std::string& keyword, std::string_view line,
                                       const std::string& place, SceneReport& report) {
@@ -112,7 +112,6 @@ inline ObjTextureUse read_texture_use(const std::string& keyword, std::string_vi
     }
     use.file = trimmed(line);
     std::replace(use.file.begin(), use.file.end(), '\\', '/');
-    if (use.file.empty()) fail_at(place, keyword + " names no image; name one or remove the line");
     return use;
 }
 

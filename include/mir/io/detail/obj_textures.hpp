@@ -3,6 +3,7 @@
 
 #include "mir/io/detail/image_decoder.hpp"
 #include "mir/io/detail/obj_texture_use.hpp"
+#include "mir/io/detail/outside.hpp"
 #include "mir/io/detail/read_file.hpp"
 #include "mir/scene/scene.hpp"
 
@@ -25,6 +26,7 @@ class ObjTextures {
           budget_(budget),
           scene_(scene),
           report_(report),
+          allow_outside_(limits.allow_outside),
           decoder_(limits, report) {}
 
     /// Images are looked for in the folder of this library from now on.
@@ -57,6 +59,7 @@ class ObjTextures {
     FileBudget& budget_;
     Scene& scene_;
     SceneReport& report_;
+    bool allow_outside_;
     ImageDecoder decoder_;
     std::map<std::filesystem::path, Index> indices_;
 };
@@ -67,8 +70,7 @@ inline std::optional<TextureImage> ObjTextures::read(const ObjTextureUse& use) {
         ++report_.ignored["image " + in_quotes(use.file) + " (" + why + ")"];
         return std::nullopt;
     };
-    // A scene from a stranger has no business elsewhere on the machine.
-    if (inside.is_absolute() || *inside.begin() == "..")
+    if (!allow_outside_ && (inside.is_absolute() || leads_outside(folder_, inside)))
         return count("outside of the folder of the OBJ file");
     std::error_code failure;
     if (!std::filesystem::is_regular_file(folder_ / inside, failure)) return count("not found");
