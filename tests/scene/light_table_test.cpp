@@ -223,3 +223,44 @@ TEST_CASE("emission that cannot be sampled is refused with the name of its light
     s.spot_lights[0].intensity.b = bad;
     refused(s, "spot light ''");
 }
+
+TEST_CASE("light whose power is no number is refused with the name of its light and a remedy") {
+    const auto refused = [&](const Scene& s, const std::string& who) {
+        const WorldGeometry g(s);
+        try {
+            const LightTable table(s, g);
+            FAIL("no error for " << who);
+        } catch (const mir::Error& e) {
+            CAPTURE(e.what());
+            CHECK(e.code() == mir::ErrorCode::invalid_input);
+            CHECK(std::string(e.what()).starts_with(who + " more power than 32-bit"));
+            CHECK(std::string(e.what()).find("; lower the emission") != std::string::npos);
+        }
+    };
+    Scene s = lamps();
+    s.materials[1].emission.g = 3e38f;
+    s.instances[1].to_world = mir::Mat4(mir::Mat3(10.0f));
+    refused(s, "material 'dim' emits");
+    s = lamps();
+    s.materials[1].emission.g = 1e20f;
+    s.instances[1].to_world = mir::Mat4(mir::Mat3(1e10f));
+    refused(s, "material 'dim' emits");
+    s = all_kinds();
+    s.point_lights[0].intensity = white(3e37f);
+    refused(s, "point light 'bulb' emits");
+    s = all_kinds();
+    s.spot_lights[0].intensity = white(3e38f);
+    refused(s, "spot light '' emits");
+    s = all_kinds();
+    s.directional_lights[0].irradiance = white(3e37f);
+    refused(s, "directional light 'sun' emits");
+    s = lamps();
+    s.point_lights.assign(3, {"bulb", {0, 0, 0}, white(2e37f)});
+    refused(s, "all lights together emit");
+    s = lamps();
+    s.environment.emplace();
+    s.environment->name = "sky";
+    s.environment->radiance = mir::Image<Rgb>({2, 1}, white(1e35f));
+    s.instances[0].to_world = mir::Mat4(mir::Mat3(1e3f));
+    refused(s, "environment 'sky' emits");
+}

@@ -6,6 +6,7 @@
 #include "mir/scene/texture_table.hpp"
 #include "mir/scene/world_geometry.hpp"
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,8 +18,8 @@ namespace mir {
 /// the WorldGeometry must outlive it.
 class LightTable {
  public:
-    /// @throws Error(invalid_input) when an emission is negative or not finite, and what
-    ///         EnvironmentTable throws.
+    /// @throws Error(invalid_input) when an emission is negative or not finite, when the power of a
+    ///         light or of all together is no float, and what EnvironmentTable throws.
     LightTable(const Scene& scene, const WorldGeometry& geometry);
 
     /// True when nothing emits power: sample_light() has no answer.
@@ -137,6 +138,16 @@ inline void check_emission(Rgb value, const std::string& what, const std::string
                                               "(it cannot be sampled); repair its emission");
 }
 
+/// `power` as a weight of sampling.
+inline float checked_power(double power, const std::string& who) {
+    const auto narrow = static_cast<float>(power);
+    if (std::isfinite(narrow)) return narrow;
+    throw Error(ErrorCode::invalid_input,
+                who +
+                    " more power than 32-bit numbers hold (light is sampled by it); lower the "
+                    "emission, or the size of what shines or is lit");
+}
+
 /// Radiance of a material as far as it does not depend on the place: a texture counts by its mean.
 inline Rgb mean_emission(const Scene& scene, const Material& m) {
     const Texture& texture = m.textures.emission;
@@ -179,6 +190,7 @@ inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     add_delta_lights(power);
     add_environment(power);
     by_power_ = DiscreteDistribution(power);
+    static_cast<void>(detail::checked_power(by_power_.total(), "all lights together emit"));
 }
 
 inline void LightTable::add_triangles(std::vector<float>& power) {
@@ -190,8 +202,9 @@ inline void LightTable::add_triangles(std::vector<float>& power) {
         if (!m.emits()) continue;
         const float sides = shines_from_both_sides(t) ? 2.0f : 1.0f;
         triangles_.push_back(t);
-        power.push_back(luminance(radiance[geometry_->material_of(t)]) * pi * geometry_->area(t) *
-                        sides);
+        power.push_back(detail::checked_power(
+            luminance(radiance[geometry_->material_of(t)]) * pi * geometry_->area(t) * sides,
+            "material '" + m.name + "' emits"));
     }
 }
 
@@ -209,26 +222,27 @@ inline bool LightTable::shines_from_both_sides(std::uint32_t triangle) const {
 }
 
 inline void LightTable::add_delta_lights(std::vector<float>& power) {
-    const auto add = [&](const DeltaSource& source, float its_power) {
+    const auto add = [&](const DeltaSource& source, float its_power, const std::string& who) {
         delta_sources_.push_back(source);
-        power.push_back(its_power);
+        power.push_back(detail::checked_power(its_power, who + "' emits"));
     };
     for (const PointLight& l : scene_->point_lights)
         add({LightEndKind::point, l.light_group, l.intensity, l.position},
-            luminance(l.intensity) * 4.0f * pi);
+            luminance(l.intensity) * 4.0f * pi, "point light '" + l.name);
     for (const SpotLight& l : scene_->spot_lights)
         add({LightEndKind::spot, l.light_group, l.intensity, l.position, l.direction, l.cos_inner,
              l.cos_outer},
-            luminance(l.intensity) * detail::spot_solid_angle(l));
+            luminance(l.intensity) * detail::spot_solid_angle(l), "spot light '" + l.name);
     for (const DirectionalLight& l : scene_->directional_lights)
         add({LightEndKind::directional, l.light_group, l.irradiance, {}, l.direction},
-            luminance(l.irradiance) * pi * radius() * radius());
+            luminance(l.irradiance) * pi * radius() * radius(), "directional light '" + l.name);
 }
 
 inline void LightTable::add_environment(std::vector<float>& power) const {
     if (environment_.empty()) return;
     const double disc = static_cast<double>(pi) * radius() * radius();
-    power.push_back(static_cast<float>(environment_.view().total() * disc));
+    power.push_back(detail::checked_power(environment_.view().total() * disc,
+                                          "environment '" + scene_->environment->name + "' emits"));
 }
 
 inline float LightTable::emitter_pdf(std::uint32_t triangle) const {
