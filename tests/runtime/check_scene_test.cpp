@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "mir/runtime/check_scene.hpp"
 
+#include "mir/runtime/check_world.hpp"
+#include "mir/scene/builtin/shapes.hpp"
 #include "support/catch.hpp"
 
 #include <functional>
+#include <limits>
 
 namespace {
 
@@ -41,7 +44,82 @@ Warnings warnings_after(const std::function<void(mir::RenderStatistics&)>& chang
     return warnings;
 }
 
+/// A wall of a dark material, of the size that is given; a lamp's material that nothing uses.
+mir::Scene dark_wall(float size = 1.0f) {
+    mir::Scene s;
+    const auto wall = s.add(mir::lambertian("wall", {0.5f, 0.5f, 0.5f}));
+    s.add(mir::emitter("lamp", {}, {1, 1, 1}));
+    s.place(mir::builtin::quad("wall", wall, {0, 0, 0}, {size, 0, 0}, {0, size, 0}));
+    s.cameras.push_back(mir::Camera::look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.8f));
+    s.cameras[0].name = "front";
+    return s;
+}
+
+/// What a renderer says before it begins.
+std::string refusal(const mir::Scene& scene) {
+    try {
+        static_cast<void>(mir::check_scene(scene, {}));
+        mir::check_world(scene, 0, mir::WorldGeometry(scene));
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::invalid_input);
+        return e.what();
+    }
+    return "";
+}
+
+mir::Scene lit_wall(float size = 1.0f) {
+    mir::Scene s = dark_wall(size);
+    s.point_lights.push_back({"bulb", {0, 0, 1}, {1, 1, 1}});
+    return s;
+}
+
+void check_starts(const std::string& text, const std::string& with) {
+    CAPTURE(text);
+    CHECK(text.starts_with(with));
+}
+
 }  // namespace
+
+TEST_CASE("an emissive material is light where a triangle uses it that is placed") {
+    mir::Scene s = dark_wall();
+    CHECK_FALSE(mir::has_light(s));
+    check_starts(refusal(s), "the scene has no light");
+    mir::Mesh lamp = mir::builtin::quad("lamp", 1, {0, 0, 2}, {1, 0, 0}, {0, 1, 0});
+    s.meshes.push_back(lamp);
+    CHECK_FALSE(mir::has_light(s));
+    lamp.triangles.clear();
+    s.place(lamp);
+    CHECK_FALSE(mir::has_light(s));
+    s.instances.push_back({1});
+    CHECK(mir::has_light(s));
+    CHECK(refusal(s).empty());
+    s = lit_wall();
+    CHECK(refusal(s).empty());
+}
+
+TEST_CASE("a scene without a triangle to draw is refused") {
+    mir::Scene s = lit_wall();
+    s.meshes[0].triangles.clear();
+    check_starts(refusal(s), "the scene has no triangles");
+    s = lit_wall();
+    s.instances[0].to_world = mir::Mat4(0.0f);
+    s.instances[0].to_world[3][3] = 1.0f;
+    check_starts(refusal(s), "the scene has nothing to draw (none of its 2 triangles has an area)");
+}
+
+TEST_CASE("what lies where no ray can start is refused by name") {
+    CHECK(refusal(lit_wall(9e16f)).empty());
+    check_starts(refusal(lit_wall(2e18f)), "a mesh lies 2e+18 m");
+    mir::Scene s = lit_wall();
+    s.point_lights[0].position.y = -2e18f;
+    check_starts(refusal(s), "light 'bulb' lies 2e+18 m");
+    s = lit_wall();
+    s.cameras[0].position.x = std::numeric_limits<float>::quiet_NaN();
+    check_starts(refusal(s), "camera 'front' lies");
+    s = lit_wall();
+    s.cameras[0].lens_radius = 5e18f;
+    check_starts(refusal(s), "the lens of camera 'front' lies 5e+18 m");
+}
 
 TEST_CASE("chains that do well are not warned of") {
     CHECK(warnings_after([](mir::RenderStatistics&) {}).empty());

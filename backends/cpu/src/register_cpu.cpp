@@ -4,8 +4,8 @@
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/register.hpp"
 #include "mir/host/shaft_scene.hpp"
-#include "mir/runtime/check_places.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/check_world.hpp"
 #include "mir/runtime/near_scene.hpp"
 #include "mir/scene/scene_hash.hpp"
 
@@ -87,7 +87,7 @@ class CpuRenderer : public Renderer {
             const auto stage = clock.measure(&StageSeconds::geometry);
             return WorldGeometry(scene, settings.limits, executor);
         }();
-        check_places(scene, settings.camera, geometry.bounds());
+        check_world(scene, settings.camera, geometry);
         RenderResult result =
             trace({scene, settings, geometry, executor, monitor, clock, scheduler_});
         count_triangles(geometry, result.statistics);

@@ -6,8 +6,8 @@
 #include "mir/cuda/register.hpp"
 #include "mir/resident/backend_metropolis.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
-#include "mir/runtime/check_places.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/check_world.hpp"
 #include "mir/runtime/micro_render.hpp"
 #include "mir/runtime/near_scene.hpp"
 #include "mir/runtime/path_render.hpp"
@@ -153,7 +153,7 @@ class CudaRenderer : public Renderer {
             const auto stage = clock.measure(&StageSeconds::geometry);
             return WorldGeometry(scene, settings.limits, executor);
         }();
-        check_places(scene, settings.camera, geometry.bounds());
+        check_world(scene, settings.camera, geometry);
         RenderResult result =
             is_lambertian(scene)
                 ? trace<Lambert>(scene, settings, geometry, executor, monitor, clock)

@@ -10,26 +10,29 @@
 
 namespace mir {
 
-/// Largest coordinate that a ray may start at, metres: Embree takes none above 2^60.
-inline constexpr float largest_place = 1e18f;
+/// Largest coordinate that a scene may have, metres. Embree takes no ray beyond 1.8e18, neither its
+/// origin nor its direction: twice this from one thing to another, and light from outside, which
+/// starts up to four radii of the scene before what it meets, stay within.
+inline constexpr float largest_place = 1e17f;
 
 namespace detail {
 
-/// @throws Error(invalid_input) that says what lies too far away.
-inline void check_place(const std::string& what, Vec3 place) {
-    const float reach = max_abs(place);
-    if (reach <= largest_place) return;
+/// @throws Error(invalid_input) that says what lies too far away; `around` is the distance from
+///         its place that rays start at, metres.
+inline void check_place(const std::string& what, Vec3 place, float around = 0.0f) {
+    const float reach = max_abs(place) + around;
+    if (is_finite(place) && reach <= largest_place) return;
     char distance[32];
     std::snprintf(distance, sizeof distance, "%.3g m", static_cast<double>(reach));
     throw Error(ErrorCode::invalid_input, what + " lies " + distance +
                                               " from the middle of the scene (rays start within "
-                                              "1e+18 m); bring it nearer, or leave it out");
+                                              "1e+17 m); bring it nearer, or leave it out");
 }
 
 }  // namespace detail
 
 /// Checks that rays can start at everything in a scene, whose triangles have these bounds, and at
-/// the camera of this index.
+/// the camera of this index, on all of its lens.
 /// @throws Error(invalid_input) that names what lies more than largest_place away.
 inline void check_places(const Scene& scene, std::uint32_t camera, const Bounds& bounds) {
     if (!bounds.empty()) {
@@ -42,6 +45,7 @@ inline void check_places(const Scene& scene, std::uint32_t camera, const Bounds&
         detail::check_place("light '" + l.name + "'", l.position);
     const Camera& c = scene.cameras[camera];
     detail::check_place("camera '" + c.name + "'", c.position);
+    detail::check_place("the lens of camera '" + c.name + "'", c.position, c.lens_radius);
 }
 
 }  // namespace mir

@@ -17,13 +17,29 @@ inline bool is_lambertian(const Scene& scene) {
                        [](const Material& m) { return m.is_lambertian(); });
 }
 
-/// True when something in the scene could shine.
+namespace detail {
+
+/// True when `holds` is true of a mesh with triangles that the scene shows.
+template <class Predicate>
+bool shows_mesh(const Scene& scene, const Predicate& holds) {
+    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
+        // Indices that do not exist are refused by WorldGeometry, with their names.
+        if (i.mesh >= scene.meshes.size()) return false;
+        const Mesh& mesh = scene.meshes[i.mesh];
+        return !mesh.triangles.empty() && holds(mesh);
+    });
+}
+
+}  // namespace detail
+
+/// True when something in the scene could shine: a light, or a triangle that is placed.
 inline bool has_light(const Scene& scene) {
     const bool delta = !scene.point_lights.empty() || !scene.spot_lights.empty() ||
                        !scene.directional_lights.empty();
-    return delta || scene.environment ||
-           std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [](const Material& m) { return m.emits(); });
+    return delta || scene.environment || detail::shows_mesh(scene, [&](const Mesh& mesh) {
+               return mesh.material < scene.materials.size() &&
+                      scene.materials[mesh.material].emits();
+           });
 }
 
 /// Checks that the scene can be rendered with these settings; returns worded warnings.
@@ -40,7 +56,7 @@ inline std::vector<std::string> check_scene(const Scene& scene, const RenderSett
                                                   "has " +
                                                   std::to_string(scene.cameras.size()) +
                                                   "; cameras count from 0");
-    if (scene.instances.empty())
+    if (!detail::shows_mesh(scene, [](const Mesh&) { return true; }))
         throw Error(ErrorCode::invalid_input,
                     "the scene has no triangles (there is nothing to see); check the file with "
                     "'mir info'");
