@@ -101,6 +101,34 @@ TEST_CASE("a scene without camera is framed, and a word says so") {
     CHECK(brightest > 0.9f);
 }
 
+TEST_CASE("files outside of the folder of a scene are read where that is allowed") {
+    const TemporaryFolder folder("tool_outside");
+    std::filesystem::create_directory(folder / "scene");
+    write_file(folder / "lamp.mtl", "newmtl lamp\nKe 1 1 1\n");
+    const std::string scene = (folder / "scene/scene.obj").string();
+    write_file(scene, "mtllib ../lamp.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl lamp\nf 1 2 3\n");
+    check_refused(scene, "--allow-outside");
+    CHECK(run_mir({"info", scene, "--allow-outside"}).exit_code == 0);
+    const Words allowed{"--allow-outside"};
+    CHECK(run_mir(small_render(folder / "a.exr", scene) + allowed).exit_code == 0);
+    const std::string copy = (folder / "a.glb").string();
+    CHECK(run_mir({"export", scene, "-o", copy, "--allow-outside"}).exit_code == 0);
+}
+
+TEST_CASE("a scene whose triangles have no area, or whose lamp is not there, is refused") {
+    const TemporaryFolder folder("tool_nothing");
+    const std::string scene = (folder / "scene.obj").string();
+    const std::string triangle = "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\n";
+    write_file(folder / "lamp.mtl", "newmtl lamp\nKe 1 1 1\n");
+    write_file(scene, triangle + "usemtl lamp\nf 1 2 4\n");
+    check_failing_render({scene}, 3, "nothing to draw");
+    write_file(scene, triangle + "f 1 2 3\n");
+    check_failing_render({scene}, 3, "has no light");
+    write_file(folder / "lamp.mtl", "newmtl lamp\nKe 3e38\n");
+    write_file(scene, triangle + "v 0 9 0\nusemtl lamp\nf 1 4 5\n");
+    check_failing_render({scene}, 3, "material 'lamp' emits more power");
+}
+
 TEST_CASE("a scene without light is refused unless black is allowed") {
     const SceneFolder dark(triangle_json());
     check_failing_render({dark.scene()}, 3, "has no light");

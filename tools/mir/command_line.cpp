@@ -39,6 +39,11 @@ int complain(const CLI::App& app, const CLI::ParseError& e) {
     return exit_usage;
 }
 
+void add_allow_outside(CLI::App& app, mir::Limits& limits) {
+    app.add_flag("--allow-outside", limits.allow_outside,
+                 "The scene may name files outside of its folder");
+}
+
 }  // namespace
 
 Parsed parse(int argc, char** argv) {
@@ -57,16 +62,19 @@ Parsed parse(int argc, char** argv) {
 
     CLI::App* r = app.add_subcommand("render", "Render a scene to EXR and PNG");
     r->add_option("scene", render.scene, scene)->required();
+    add_allow_outside(*r, render.settings.limits);
     add_render(*r, render);
 
     CLI::App* i = app.add_subcommand("info", "Tell what a scene holds and what is not supported");
     i->add_option("scene", info.scene, scene)->required();
+    add_allow_outside(*i, info.limits);
     add_environment(*i, info.environment);
     i->add_flag("--accel", info.accel, "Build the kd-tree and tell its size, cost and build time");
     i->add_flag("--json", info.json, "JSON on stdout");
 
     CLI::App* x = app.add_subcommand("export", "Write a scene as glTF binary");
     x->add_option("scene", exporting.scene, scene)->required();
+    add_allow_outside(*x, exporting.limits);
     x->add_option("-o,--output", exporting.output, "File to write (.glb)")->required();
 
     CLI::App* c = app.add_subcommand("compare", "Compare a picture with a reference");

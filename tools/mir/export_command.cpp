@@ -9,7 +9,7 @@
 namespace mirtool {
 
 int run(const ExportOptions& options) {
-    const SceneAndReport loaded = load_scene(options.scene);
+    const SceneAndReport loaded = load_scene(options.scene, options.limits);
     mir::write_glb(loaded.scene, options.output);
     std::printf("%s\n", options.output.c_str());
     return exit_done;

@@ -152,7 +152,7 @@ void print_text(const std::string& name, const SceneAndReport& loaded, bool acce
 }  // namespace
 
 int run(const InfoOptions& options) {
-    const SceneAndReport loaded = load_scene(options.scene, {}, options.environment);
+    const SceneAndReport loaded = load_scene(options.scene, options.limits, options.environment);
     if (options.json)
         print_json(options.scene, loaded, options.accel);
     else

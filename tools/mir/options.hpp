@@ -71,12 +71,14 @@ struct InfoOptions {
     EnvironmentOptions environment;
     bool accel = false;  ///< build the kd-tree and tell about it
     bool json = false;
+    mir::Limits limits;
 };
 
 /// `mir export`.
 struct ExportOptions {
     std::string scene;
     std::string output;
+    mir::Limits limits;
 };
 
 /// `mir compare`.
