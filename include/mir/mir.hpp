@@ -74,6 +74,7 @@
 #include "mir/core/monitor.hpp"
 #include "mir/core/morton.hpp"
 #include "mir/core/point_tree.hpp"
+#include "mir/core/printable.hpp"
 #include "mir/core/random.hpp"
 #include "mir/core/raw_allocator.hpp"
 #include "mir/core/ray.hpp"

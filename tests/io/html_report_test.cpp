@@ -75,6 +75,13 @@ TEST_CASE("text of a report is never markup") {
     CHECK(count(page, "&quot;&gt;&lt;script&gt;alert(&#39;&amp;&#39;)&lt;/script&gt;") == 6);
 }
 
+TEST_CASE("text of a report cannot change the order of what is around it, nor hide") {
+    CHECK(mir::detail::html_escaped("a\xe2\x80\xae"
+                                    "b<\x1b\xff>") == "a\\u202eb&lt;\\x1b\\xff&gt;");
+    const std::string umlauts(3000, '\xc3');
+    CHECK(mir::detail::html_escaped(umlauts).size() == 12000);
+}
+
 TEST_CASE("equal input gives equal bytes of report") {
     const TemporaryFolder folder("html_report_equal");
     const Image<Rgb> image({8, 8}, Rgb{0.1f, 0.2f, 0.3f});

@@ -311,6 +311,24 @@ TEST_CASE("a library outside of the folder of its OBJ file is refused unless tha
     }
 }
 
+TEST_CASE("names of an OBJ file cannot reach a terminal as commands") {
+    const std::string red = "\x1b[31mred\x1b[0m";
+    const std::string turned = "\xe2\x80\xae" + std::string(5000, 'x');
+    const auto loaded = read("mtllib " + red + ".mtl my scene.mtl\n" + corners + red + " 1\n" +
+                                 turned + "\nmtllib my scene.mtl\nusemtl a\nf 1 2 3\n",
+                             "newmtl a\nmap_Kd " + red + ".png\n" + red + " 1\n");
+    CHECK(loaded.report.ignored.size() == 7);
+    for (const auto& [what, times] : loaded.report.ignored) {
+        CHECK(mir::printable(what, 300) == what);
+        CHECK(what.size() < 250);
+    }
+    CHECK(loaded.report.ignored.contains("statement '\\x1b[31mred\\x1b[0m'"));
+    const std::string message = message_of([&] { read(corners + "f 1 2 " + red + "\n"); });
+    INFO(message);
+    CHECK(message.find("'\\x1b[31mred\\x1b[0m'") != std::string::npos);
+    CHECK(mir::printable(message, 2000) == message);
+}
+
 TEST_CASE("an OBJ file may begin with blank lines") {
     // A sanitizer noticed that the search for a backslash left the text.
     const auto loaded = read("   \n \n" + corners + "f 1 2 \\\n 3\n");

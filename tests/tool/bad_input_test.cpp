@@ -115,6 +115,29 @@ TEST_CASE("files outside of the folder of a scene are read where that is allowed
     CHECK(run_mir({"export", scene, "-o", copy, "--allow-outside"}).exit_code == 0);
 }
 
+TEST_CASE("names in a file reach neither terminal nor JSON as commands") {
+    const TemporaryFolder folder("tool_names");
+    const std::string scene = (folder / "sc\x1b[31mene.obj").string();
+    const std::string good = "v 0 0 0\nv 1 0 0\nv 0 1 0\n\x1b[31mred\xe2\x80\xae 1\nf 1 2 3\n";
+    const auto is_plain = [](const std::string& text) {
+        return !has(text, "\x1b") && !has(text, "\xe2\x80\xae");
+    };
+    write_file(scene, good);
+    for (const Words& more : {Words{}, Words{"--json"}}) {
+        const Outcome info = run_mir(Words{"info", scene} + more);
+        CHECK(info.exit_code == 0);
+        CHECK(has(info.out, "[31mred"));
+        CHECK(is_plain(info.out));
+    }
+    write_file(scene, good + "f 1 2 \x1b[0m\n");
+    const Outcome broken = run_mir({"info", scene});
+    check_failure(broken, 3, "sc\\x1b[31mene.obj: line 6: ");
+    CHECK(is_plain(broken.err));
+    const Outcome usage = run_mir({"info", scene, "--\x1b[31m"});
+    CHECK(usage.exit_code == 2);
+    CHECK(is_plain(usage.err));
+}
+
 TEST_CASE("a scene whose triangles have no area, or whose lamp is not there, is refused") {
     const TemporaryFolder folder("tool_nothing");
     const std::string scene = (folder / "scene.obj").string();

@@ -6,6 +6,7 @@
 #include "mir/cpu/register.hpp"
 #include "mir/version.hpp"
 #include "nearest.hpp"
+#include "text.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -27,7 +28,8 @@ int complain(const CLI::App& app, const CLI::ParseError& e) {
     // What no command knows may stand before the command that is used.
     const std::vector<std::string> strangers = app.remaining(true);
     const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr;
-    std::cerr << "mir: " << (unknown ? "unknown argument '" + worst_of(strangers) + "'" : e.what());
+    std::cerr << "mir: "
+              << shown(unknown ? "unknown argument '" + worst_of(strangers) + "'" : e.what());
     std::vector<std::string> known;
     for (const CLI::Option* option : used->get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

@@ -7,6 +7,7 @@
 #include "mir/runtime/cancellable_executor.hpp"
 #include "progress.hpp"
 #include "read_picture.hpp"
+#include "text.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -41,7 +42,7 @@ std::vector<std::string> find_exceeded(const Comparison& c, const CompareOptions
                                      100.0 * c.metrics.mean_difference(), o.max_mean_difference}}) {
         if (!check.limit || check.value <= *check.limit) continue;
         exceeded.emplace_back(check.name);
-        std::fprintf(stderr, "mir: %s: %s is %.6g, above the %.6g of %s\n", o.image.c_str(),
+        std::fprintf(stderr, "mir: %s: %s is %.6g, above the %.6g of %s\n", shown(o.image).c_str(),
                      check.name, check.value, *check.limit, check.option);
     }
     return exceeded;

@@ -157,15 +157,15 @@ void write_outputs(const Comparison& c, const CompareOptions& o) {
 
 void print_metrics(const Comparison& c, const CompareOptions& o) {
     if (o.json) {
-        // Names of files need not be UTF-8; JSON must be.
+        // Names of files need not be UTF-8; JSON must be. In ASCII no terminal obeys them.
         std::printf("%s\n",
-                    json_of(c, o).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+                    json_of(c, o).dump(2, ' ', true, Json::error_handler_t::replace).c_str());
         return;
     }
     for (const auto& [label, value] : rows_of(c, o))
-        std::printf("%-20s %s\n", label.c_str(), value.c_str());
-    if (!o.error.empty()) std::printf("%-20s %s\n", "signed error", o.error.c_str());
-    if (!o.report.empty()) std::printf("%-20s %s\n", "report", o.report.c_str());
+        std::printf("%-20s %s\n", label.c_str(), shown(value).c_str());
+    if (!o.error.empty()) std::printf("%-20s %s\n", "signed error", shown(o.error).c_str());
+    if (!o.report.empty()) std::printf("%-20s %s\n", "report", shown(o.report).c_str());
 }
 
 }  // namespace mirtool

@@ -3,15 +3,14 @@
 #include "exit_code.hpp"
 #include "load_scene.hpp"
 #include "mir/io/gltf_writer.hpp"
-
-#include <cstdio>
+#include "print_result.hpp"
 
 namespace mirtool {
 
 int run(const ExportOptions& options) {
     const SceneAndReport loaded = load_scene(options.scene, options.limits);
     mir::write_glb(loaded.scene, options.output);
-    std::printf("%s\n", options.output.c_str());
+    print_result(options.output);
     return exit_done;
 }
 

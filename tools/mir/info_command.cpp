@@ -100,8 +100,8 @@ void print_json(const std::string& name, const SceneAndReport& loaded, bool acce
     out["notes"] = r.notes;
     out["remarks"] = r.remarks;
     if (accel) out["kd_tree"] = kd_tree_of(loaded.scene);
-    // Names in files need not be UTF-8; JSON must be.
-    std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    // Names need not be UTF-8; JSON must be. In ASCII no terminal obeys what it is shown.
+    std::printf("%s\n", out.dump(2, ' ', true, Json::error_handler_t::replace).c_str());
 }
 
 /// One line per number.
@@ -118,7 +118,7 @@ void print_numbers(const Json& numbers) {
 
 void print_text(const std::string& name, const SceneAndReport& loaded, bool accel) {
     const mir::SceneReport& r = loaded.report;
-    std::printf("%s\n", name.c_str());
+    std::printf("%s\n", shown(name).c_str());
     print_numbers(counts_of(r));
     const mir::DVec3 origin = loaded.scene.origin;
     const bool is_far = origin != mir::DVec3(0.0);

@@ -2,6 +2,7 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "text.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -27,7 +28,7 @@ int main(int argc, char** argv) {
             "for fewer pixels, luxels or VPLs\n",
             stderr);
     } catch (const std::exception& e) {
-        std::fprintf(stderr, "mir: unexpected failure: %s\n", e.what());
+        std::fprintf(stderr, "mir: unexpected failure: %s\n", mirtool::shown(e.what()).c_str());
     }
     return mirtool::exit_failure;
 }

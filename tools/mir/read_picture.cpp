@@ -2,6 +2,7 @@
 #include "read_picture.hpp"
 
 #include "mir/io/exr.hpp"
+#include "text.hpp"
 
 #include <utility>
 
@@ -17,7 +18,7 @@ Picture read_picture(const std::string& name, const std::string& layer) {
     } catch (const mir::Error& e) {
         // A file that is too large is the input's fault, not that of the command line.
         if (e.code() != mir::ErrorCode::limit_exceeded) throw;
-        throw mir::Error(mir::ErrorCode::invalid_input, name + ": " + e.what(), e.where());
+        throw mir::Error(mir::ErrorCode::invalid_input, shown(name) + ": " + e.what(), e.where());
     }
 }
 

@@ -6,10 +6,12 @@
 #include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/frame_scene.hpp"
+#include "print_result.hpp"
 #include "progress.hpp"
 #include "render_output.hpp"
 #include "render_passes.hpp"
 #include "report/render_report.hpp"
+#include "text.hpp"
 
 #include <tbb/global_control.h>
 
@@ -28,16 +30,17 @@ constexpr std::uint32_t default_height = 480;
 /// Position in the file's list of cameras of the one that was asked for.
 std::size_t find_camera(const RenderOptions& o, const mir::SceneReport& report) {
     std::string names;
+    const std::string wanted = mir::printable(o.camera);
     for (std::size_t i = 0; i < report.cameras.size(); ++i) {
-        if (report.cameras[i].name == o.camera) return i;
+        if (report.cameras[i].name == wanted) return i;
         names += (i == 0 ? "'" : ", '") + report.cameras[i].name + "'";
     }
     std::size_t index = 0;
     const char* end = o.camera.data() + o.camera.size();
     const auto read = std::from_chars(o.camera.data(), end, index);
     if (read.ec == std::errc() && read.ptr == end && index < report.cameras.size()) return index;
-    throw mir::Error(mir::ErrorCode::invalid_argument, o.scene + ": there is no camera '" +
-                                                           o.camera + "'; the scene has " +
+    throw mir::Error(mir::ErrorCode::invalid_argument, shown(o.scene) + ": there is no camera '" +
+                                                           wanted + "'; the scene has " +
                                                            (names.empty() ? "none" : names));
 }
 
@@ -103,11 +106,11 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
     mir::check_scene(loaded.scene, o.settings);
     if (o.quiet) return;
     for (const auto& [what, times] : loaded.report.ignored)
-        std::fprintf(stderr, "mir: %s: ignored: %s (%llu)\n", o.scene.c_str(), what.c_str(),
+        std::fprintf(stderr, "mir: %s: ignored: %s (%llu)\n", shown(o.scene).c_str(), what.c_str(),
                      static_cast<unsigned long long>(times));
     if (!camera)
         std::fprintf(stderr, "mir: %s: no usable camera; %s (--eye chooses another view)\n",
-                     o.scene.c_str(),
+                     shown(o.scene).c_str(),
                      inside ? "it is a room, seen from inside" : "it is seen from outside");
 }
 
@@ -150,8 +153,8 @@ auto blaming(const std::string& scene, const Work& work) {
         return work();
     } catch (const mir::Error& e) {
         const std::string what = e.what();
-        if (e.code() != mir::ErrorCode::invalid_input || what.starts_with(scene)) throw;
-        throw mir::Error(e.code(), scene + ": " + what, e.where());
+        if (e.code() != mir::ErrorCode::invalid_input || what.starts_with(shown(scene))) throw;
+        throw mir::Error(e.code(), shown(scene) + ": " + what, e.where());
     }
 }
 
@@ -184,9 +187,8 @@ int run(const RenderOptions& options) {
     if (o.json) {
         print_json(paths, result, o, convergence);
     } else {
-        std::printf("%s\n", paths.exr.c_str());
-        for (const std::string& name : {paths.png, o.report, o.vpls_out})
-            if (!name.empty()) std::printf("%s\n", name.c_str());
+        for (const std::string& name : {paths.exr, paths.png, o.report, o.vpls_out})
+            if (!name.empty()) print_result(name);
     }
     if (result.statistics.complete) return exit_done;
     std::fprintf(stderr,

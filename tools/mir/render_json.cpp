@@ -158,7 +158,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["seconds"] = seconds_of(s.seconds);
     out["peak_memory_bytes"] = peak_memory_bytes();
     out["warnings"] = r.warnings;
-    std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    std::printf("%s\n", out.dump(2, ' ', true, Json::error_handler_t::replace).c_str());
 }
 
 }  // namespace mirtool

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "mir/core/math.hpp"
+#include "mir/core/printable.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
@@ -29,6 +31,12 @@ inline std::string place(mir::DVec3 v, int digits = 15) {
     std::snprintf(text.data(), text.size(), "(%.*g, %.*g, %.*g)", digits, v.x, digits, v.y, digits,
                   v.z);
     return text.data();
+}
+
+/// A name of a file or of something in one, as a terminal may show it.
+inline std::string shown(const std::string& name) {
+    constexpr std::size_t longest = 1000;
+    return mir::printable(name, longest);
 }
 
 /// A share of 0..1 in percent.

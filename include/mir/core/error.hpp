@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/hd.hpp"
+#include "mir/core/printable.hpp"
 
 #include <cstdint>
 #include <stdexcept>
@@ -36,12 +37,14 @@ enum class ErrorCode {
     internal           ///< an invariant of the library broke: please report
 };
 
-/// The one exception type of the library. The message is a sentence: problem, reason, remedy.
+/// The one exception type of the library. The message is a sentence: problem, reason, remedy. It is
+/// printable(), whatever names of files and of things in them it quotes, and has 2000 bytes at
+/// most.
 class Error : public std::runtime_error {
  public:
     /// `what` is the message for users; `at` is the caller's place when left out.
     Error(ErrorCode code, const std::string& what, Where at = Where::here())
-        : std::runtime_error(what), code_(code), where_(at) {}
+        : std::runtime_error(printable(what, 2000)), code_(code), where_(at) {}
 
     /// Kind of failure.
     [[nodiscard]] ErrorCode code() const noexcept { return code_; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/io/detail/shown_path.hpp"
 #include "mir/io/detail/temporary_file.hpp"
 
 #include <cstring>
@@ -50,7 +51,7 @@ class AtomicFile {
 
     static std::filesystem::path checked(std::filesystem::path target) {
         if (!target.has_filename())
-            throw Error(ErrorCode::io, "'" + target.string() +
+            throw Error(ErrorCode::io, "'" + detail::shown_path(target) +
                                            "': it names no file (the path ends in a folder); add "
                                            "a file name");
         std::error_code failure;
@@ -62,7 +63,7 @@ class AtomicFile {
 
     [[noreturn]] static void fail(const std::filesystem::path& target, const std::string& what,
                                   const std::string& reason) {
-        throw Error(ErrorCode::io, target.string() + ": " + what + " (" + reason +
+        throw Error(ErrorCode::io, detail::shown_path(target) + ": " + what + " (" + reason +
                                        "); choose a folder that exists, may be written and has "
                                        "room, or another name");
     }

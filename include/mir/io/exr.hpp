@@ -8,6 +8,7 @@
 #include "mir/io/atomic_file.hpp"
 #include "mir/io/detail/exr_attributes.hpp"
 #include "mir/io/detail/exr_check.hpp"
+#include "mir/io/detail/shown_path.hpp"
 #include "mir/io/exr_layer.hpp"
 
 #include <OpenEXR/Iex.h>
@@ -58,8 +59,8 @@ inline void insert_attribute(Imf::Header& header, const ExrAttribute& attribute)
                        std::find(reserved.begin(), reserved.end(), name) != reserved.end();
     if (taken || name.empty() || name.size() > 255)
         throw Error(ErrorCode::invalid_argument,
-                    "attribute '" + name +
-                        "' cannot be stored (the name is reserved, given twice, empty or longer "
+                    "attribute " + in_quotes(name) +
+                        " cannot be stored (the name is reserved, given twice, empty or longer "
                         "than 255 bytes); prefix your own attributes with \"mir:\"");
     if (const auto* text = std::get_if<std::string>(&attribute.value))
         header.insert(name, Imf::StringAttribute(*text));
@@ -118,8 +119,8 @@ inline void write_channels(Imf::OStream& stream, const Imf::Header& header,
 
 [[noreturn]] inline void cannot_write(const std::filesystem::path& path,
                                       const std::string& reason) {
-    throw Error(ErrorCode::io, path.string() + ": the image cannot be written (" + reason +
-                                   "); free space there or choose another folder");
+    throw Error(ErrorCode::io, detail::shown_path(path) + ": the image cannot be written (" +
+                                   reason + "); free space there or choose another folder");
 }
 
 }  // namespace detail
@@ -172,7 +173,7 @@ inline Imf::Header checked_header(std::ifstream& stream, const std::filesystem::
     int version = start[4] | start[5] << 8 | start[6] << 16;
     if ((version & (Imf::MULTI_PART_FILE_FLAG | Imf::NON_IMAGE_FLAG)) != 0)
         throw Error(ErrorCode::unsupported,
-                    path.string() +
+                    detail::shown_path(path) +
                         ": the image cannot be read (it has several parts or deep "
                         "pixels); store it as one flat part");
     ExrAttributeWalk(stream, path, file_bytes).check();
@@ -204,7 +205,7 @@ inline std::array<std::string, 3> find_channels(const Imf::Header& header, const
     std::string present;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         present += (present.empty() ? "" : ", ") + std::string(c.name());
-    cannot_read(path, "layer '" + layer + "' is not in it",
+    cannot_read(path, "layer " + in_quotes(layer) + " is not in it",
                 "name a layer of these channels: " + present);
 }
 

@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/io/detail/gltf_build.hpp"
+#include "mir/io/detail/shown_path.hpp"
 #include "mir/io/detail/write_glb_model.hpp"
 #include "mir/scene/scene.hpp"
 
@@ -24,7 +25,7 @@ namespace mir {
 inline void write_glb(const Scene& scene, const std::filesystem::path& path) {
     if (scene.environment)
         throw Error(ErrorCode::unsupported,
-                    path.string() +
+                    detail::shown_path(path) +
                         ": the scene cannot be written (glTF has no environment, and "
                         "the scene would lose its light); take it out of the scene");
     detail::write_glb_model(detail::GltfBuilder().build(scene), path);

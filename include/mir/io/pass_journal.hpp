@@ -3,6 +3,7 @@
 
 #include "mir/io/atomic_file.hpp"
 #include "mir/io/detail/journal_stream.hpp"
+#include "mir/io/detail/shown_path.hpp"
 #include "mir/runtime/pass_sums.hpp"
 #include "mir/runtime/settings_hash.hpp"
 #include "mir/scene/scene_hash.hpp"
@@ -53,7 +54,8 @@ class PassJournal {
 
     [[noreturn]] void refuse(const std::string& reason) const {
         throw Error(ErrorCode::invalid_argument,
-                    path_.string() + ": the passes in it cannot be continued (" + reason +
+                    detail::shown_path(path_) + ": the passes in it cannot be continued (" +
+                        reason +
                         "); delete the file to start from nothing, or write another picture");
     }
 
@@ -72,7 +74,7 @@ inline void PassJournal::write(const PassSums& sums) const {
     writer(hash);
     stream.close();
     if (!stream)
-        throw Error(ErrorCode::io, path_.string() + ": the passes cannot be kept (" +
+        throw Error(ErrorCode::io, detail::shown_path(path_) + ": the passes cannot be kept (" +
                                        std::strerror(errno != 0 ? errno : EIO) +
                                        "); free space there or render without --resume");
     file.commit();

@@ -4,6 +4,7 @@
 #include "mir/core/error.hpp"
 #include "mir/core/rgb.hpp"
 #include "mir/data/image.hpp"
+#include "mir/io/detail/shown_path.hpp"
 #include "mir/io/detail/write_file.hpp"
 #include "mir/io/tone_curve.hpp"
 
@@ -101,8 +102,9 @@ inline std::vector<std::uint8_t> encode_png(const Image<Rgb>& linear, const Prev
     png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::vector<std::uint8_t> file(bytes);
     if (png_image_write_to_memory(&image, file.data(), &bytes, 0, codes.data(), 0, nullptr) == 0)
-        throw Error(ErrorCode::io, path.string() + ": the picture cannot be compressed (" +
-                                       image.message + "); ask for a smaller one");
+        throw Error(ErrorCode::io, detail::shown_path(path) +
+                                       ": the picture cannot be compressed (" + image.message +
+                                       "); ask for a smaller one");
     file.resize(bytes);
     return file;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/printable.hpp"
 #include "mir/scene/scene.hpp"
 #include "mir/scene/world_geometry.hpp"
 
@@ -15,14 +16,14 @@ namespace mir {
 
 /// A camera of a scene file, usable or not.
 struct CameraReport {
-    std::string name;                    ///< as in the file; may be empty
+    std::string name;                    ///< as in the file, printable(); may be empty
     std::string kind;                    ///< "perspective", or the kind that cannot be used
     std::optional<std::uint32_t> index;  ///< into Scene::cameras; none: not supported
     std::uint32_t width = 0;             ///< pixels that the file asks for; 0: not given
     std::uint32_t height = 0;            ///< as width
 };
 
-/// What a scene file holds and which parts of it are not used. Plain values.
+/// What a scene file holds and which parts of it are not used. Plain values, texts printable().
 struct SceneReport {
     std::uint64_t triangles = 0;           ///< after instancing
     std::uint64_t vertices = 0;            ///< after instancing
@@ -76,10 +77,23 @@ inline void note_absences(const Scene& scene, SceneReport& report) {
         report.notes.emplace_back("no usable camera: one is chosen, or given by --eye");
 }
 
+/// Texts of a report quote names of the file: extensions, types, whatever they are called.
+inline void make_printable(SceneReport& report) {
+    for (CameraReport& camera : report.cameras) {
+        camera.name = printable(camera.name);
+        camera.kind = printable(camera.kind);
+    }
+    std::map<std::string, std::uint64_t> ignored;
+    for (const auto& [what, times] : report.ignored) ignored[printable(what, 300)] += times;
+    report.ignored = std::move(ignored);
+    for (std::string& note : report.notes) note = printable(note, 1000);
+    for (std::string& remark : report.remarks) remark = printable(remark, 1000);
+}
+
 }  // namespace detail
 
 /// Fills the counts and the bounds of `report` from a checked scene and notes what is missing.
-/// Cameras, `ignored` and earlier notes stay as they are.
+/// Cameras, `ignored` and earlier notes stay, made printable().
 /// @pre every index of `scene` is valid (the readers check this).
 inline void count_scene(const Scene& scene, SceneReport& report) {
     report.meshes = scene.meshes.size();
@@ -95,6 +109,7 @@ inline void count_scene(const Scene& scene, SceneReport& report) {
     for (const Instance& instance : scene.instances)
         detail::count_instance(scene, instance, report);
     detail::note_absences(scene, report);
+    detail::make_printable(report);
 }
 
 /// Gives a counted scene the light of `environment`, which no file format of read_scene() holds: in

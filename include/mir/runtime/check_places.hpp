@@ -40,12 +40,13 @@ inline void check_places(const Scene& scene, std::uint32_t camera, const Bounds&
         detail::check_place("a mesh", bounds.high);
     }
     for (const PointLight& l : scene.point_lights)
-        detail::check_place("light '" + l.name + "'", l.position);
+        detail::check_place("light " + detail::in_quotes(l.name), l.position);
     for (const SpotLight& l : scene.spot_lights)
-        detail::check_place("light '" + l.name + "'", l.position);
+        detail::check_place("light " + detail::in_quotes(l.name), l.position);
     const Camera& c = scene.cameras[camera];
-    detail::check_place("camera '" + c.name + "'", c.position);
-    detail::check_place("the lens of camera '" + c.name + "'", c.position, c.lens_radius);
+    detail::check_place("camera " + detail::in_quotes(c.name), c.position);
+    detail::check_place("the lens of camera " + detail::in_quotes(c.name), c.position,
+                        c.lens_radius);
 }
 
 }  // namespace mir

@@ -59,7 +59,8 @@ class AlphaMaskTable {
  private:
     static void check(const Material& m) {
         const auto fail = [&](const std::string& what) {
-            throw Error(ErrorCode::invalid_input, "material '" + m.name + "': " + what);
+            throw Error(ErrorCode::invalid_input,
+                        "material " + detail::in_quotes(m.name) + ": " + what);
         };
         if (!(m.alpha >= 0.0f && m.alpha <= 1.0f))
             fail("its alpha is " + std::to_string(m.alpha) +

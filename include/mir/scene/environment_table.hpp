@@ -77,14 +77,15 @@ inline EnvironmentTable::EnvironmentTable(const Environment& environment)
     }
     if (!is_finite(total) || !(total < 1e37))
         throw Error(ErrorCode::invalid_input,
-                    "environment '" + environment.name +
-                        "' is too bright to be summed up over all directions; lower its scale");
+                    "environment " + detail::in_quotes(environment.name) +
+                        " is too bright to be summed up over all directions; lower its scale");
     by_luminance_ = DiscreteDistribution2d(weights, extent_.width);
 }
 
 inline void EnvironmentTable::check(const Environment& e) {
     const auto refuse = [&](const std::string& what) {
-        throw Error(ErrorCode::invalid_input, "environment '" + e.name + "' " + what);
+        throw Error(ErrorCode::invalid_input,
+                    "environment " + detail::in_quotes(e.name) + " " + what);
     };
     if (e.radiance.pixels().empty()) refuse("has no texels (it shows no direction); give an image");
     if (!(e.scale >= 0.0f) || !std::isfinite(e.scale))
@@ -101,11 +102,11 @@ inline void EnvironmentTable::keep_texels(const Environment& e) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const Rgb light = pixels[i] * e.scale;
         if (!is_finite(light) || light.r < 0.0f || light.g < 0.0f || light.b < 0.0f)
-            throw Error(ErrorCode::invalid_input,
-                        "environment '" + e.name + "' has negative or infinite light in column " +
-                            std::to_string(i % extent_.width) + ", row " +
-                            std::to_string(i / extent_.width) +
-                            " (it cannot be sampled); repair the image");
+            throw Error(ErrorCode::invalid_input, "environment " + detail::in_quotes(e.name) +
+                                                      " has negative or infinite light in column " +
+                                                      std::to_string(i % extent_.width) + ", row " +
+                                                      std::to_string(i / extent_.width) +
+                                                      " (it cannot be sampled); repair the image");
         texels_.push_back(light);
     }
 }

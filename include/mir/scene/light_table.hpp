@@ -133,8 +133,8 @@ namespace detail {
 
 inline void check_emission(Rgb value, const std::string& what, const std::string& name) {
     if (is_finite(value) && value.r >= 0.0f && value.g >= 0.0f && value.b >= 0.0f) return;
-    throw Error(ErrorCode::invalid_input, what + " '" + name +
-                                              "' emits a negative or infinite amount of light "
+    throw Error(ErrorCode::invalid_input, what + " " + in_quotes(name) +
+                                              " emits a negative or infinite amount of light "
                                               "(it cannot be sampled); repair its emission");
 }
 
@@ -204,7 +204,7 @@ inline void LightTable::add_triangles(std::vector<float>& power) {
         triangles_.push_back(t);
         power.push_back(detail::checked_power(
             luminance(radiance[geometry_->material_of(t)]) * pi * geometry_->area(t) * sides,
-            "material '" + m.name + "' emits"));
+            "material " + detail::in_quotes(m.name) + " emits"));
     }
 }
 
@@ -224,25 +224,28 @@ inline bool LightTable::shines_from_both_sides(std::uint32_t triangle) const {
 inline void LightTable::add_delta_lights(std::vector<float>& power) {
     const auto add = [&](const DeltaSource& source, float its_power, const std::string& who) {
         delta_sources_.push_back(source);
-        power.push_back(detail::checked_power(its_power, who + "' emits"));
+        power.push_back(detail::checked_power(its_power, who + " emits"));
     };
     for (const PointLight& l : scene_->point_lights)
         add({LightEndKind::point, l.light_group, l.intensity, l.position},
-            luminance(l.intensity) * 4.0f * pi, "point light '" + l.name);
+            luminance(l.intensity) * 4.0f * pi, "point light " + detail::in_quotes(l.name));
     for (const SpotLight& l : scene_->spot_lights)
         add({LightEndKind::spot, l.light_group, l.intensity, l.position, l.direction, l.cos_inner,
              l.cos_outer},
-            luminance(l.intensity) * detail::spot_solid_angle(l), "spot light '" + l.name);
+            luminance(l.intensity) * detail::spot_solid_angle(l),
+            "spot light " + detail::in_quotes(l.name));
     for (const DirectionalLight& l : scene_->directional_lights)
         add({LightEndKind::directional, l.light_group, l.irradiance, {}, l.direction},
-            luminance(l.irradiance) * pi * radius() * radius(), "directional light '" + l.name);
+            luminance(l.irradiance) * pi * radius() * radius(),
+            "directional light " + detail::in_quotes(l.name));
 }
 
 inline void LightTable::add_environment(std::vector<float>& power) const {
     if (environment_.empty()) return;
     const double disc = static_cast<double>(pi) * radius() * radius();
-    power.push_back(detail::checked_power(environment_.view().total() * disc,
-                                          "environment '" + scene_->environment->name + "' emits"));
+    power.push_back(detail::checked_power(
+        environment_.view().total() * disc,
+        "environment " + detail::in_quotes(scene_->environment->name) + " emits"));
 }
 
 inline float LightTable::emitter_pdf(std::uint32_t triangle) const {

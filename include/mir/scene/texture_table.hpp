@@ -24,7 +24,7 @@ class TextureTable {
             if (image.width > 65536 || image.height > 65536 || image.texels.empty() ||
                 image.texels.size() != std::size_t{image.width} * image.height)
                 throw Error(ErrorCode::invalid_input,
-                            "image '" + image.name + "' has " +
+                            "image " + detail::in_quotes(image.name) + " has " +
                                 std::to_string(image.texels.size()) + " texels for " +
                                 std::to_string(image.width) + " x " + std::to_string(image.height) +
                                 " (1 to 65536 each way); give it as many");
@@ -35,8 +35,9 @@ class TextureTable {
                                      &m.textures.normal, &m.textures.emission})
                 if (t->is_set() && t->image >= images_.size())
                     throw Error(ErrorCode::invalid_input,
-                                "material '" + m.name + "' uses image " + std::to_string(t->image) +
-                                    ", but the scene has " + std::to_string(images_.size()) +
+                                "material " + detail::in_quotes(m.name) + " uses image " +
+                                    std::to_string(t->image) + ", but the scene has " +
+                                    std::to_string(images_.size()) +
                                     "; add it or correct the index");
     }
 

@@ -196,8 +196,8 @@ WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& execut
     for (std::size_t i = 0; i < bounds.size(); ++i) {
         if (bounds[i].empty())
             throw Error(ErrorCode::invalid_input,
-                        "mesh '" + parts.vertices[i].mesh->name +
-                            "': an instance places it at infinity (its transform overflows); "
+                        "mesh " + detail::in_quotes(parts.vertices[i].mesh->name) +
+                            ": an instance places it at infinity (its transform overflows); "
                             "repair the transform");
         bounds_.add(bounds[i].low);
         bounds_.add(bounds[i].high);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/io/detail/shown_path.hpp"
 
 #include <array>
 #include <cstddef>
@@ -16,7 +17,7 @@ namespace mir::detail {
 [[noreturn]] inline void cannot_read(const std::filesystem::path& path, const std::string& reason,
                                      const std::string& remedy) {
     throw Error(ErrorCode::invalid_input,
-                path.string() + ": the image cannot be read (" + reason + "); " + remedy);
+                shown_path(path) + ": the image cannot be read (" + reason + "); " + remedy);
 }
 
 /// Walks the attributes of an OpenEXR header (name, type, size and value of each) before OpenEXR
@@ -41,7 +42,7 @@ class ExrAttributeWalk {
 
  private:
     void check_attribute(const std::string& name) {
-        const std::string attribute = "attribute '" + name + "' ";
+        const std::string attribute = "attribute " + in_quotes(name) + " ";
         static_cast<void>(read_text());
         const std::string type = text_;
         const std::uint64_t size = read_number();
@@ -56,8 +57,8 @@ class ExrAttributeWalk {
         const std::uint64_t wanted = length_of(type, size);
         if (wanted != size)
             cannot_read(path_,
-                        attribute + "has " + std::to_string(size) + " bytes, but one of type '" +
-                            type + "' has " + std::to_string(wanted),
+                        attribute + "has " + std::to_string(size) + " bytes, but one of type " +
+                            in_quotes(type) + " has " + std::to_string(wanted),
                         remedy);
         stream_.clear();
         stream_.seekg(static_cast<std::streamoff>(value + size));

@@ -52,8 +52,8 @@ class GltfBuilder {
             check_mesh(scene, mesh);
             if (mesh.triangles.empty())
                 throw Error(ErrorCode::invalid_argument,
-                            "mesh '" + mesh.name +
-                                "': it has no triangles (glTF cannot hold that); remove it");
+                            "mesh " + in_quotes(mesh.name) +
+                                ": it has no triangles (glTF cannot hold that); remove it");
             bytes += mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) +
                      mesh.texture_coordinates.size() * sizeof(Vec2) +
                      mesh.colors.size() * sizeof(Rgb) +

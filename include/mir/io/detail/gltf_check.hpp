@@ -21,7 +21,7 @@ namespace mir::detail {
 /// "node 3 'lamp'", for messages.
 inline std::string gltf_place(const char* kind, std::size_t index, const std::string& name = {}) {
     std::string place = std::string(kind) + " " + std::to_string(index);
-    if (!name.empty()) place += " '" + name + "'";
+    if (!name.empty()) place += " " + in_quotes(name);
     return place;
 }
 
@@ -78,7 +78,7 @@ inline void check_version_and_extensions(const tinygltf::Model& model) {
     for (const std::string& name : model.extensionsRequired)
         if (!can_read_extension(name))
             gltf_fail("extensionsRequired",
-                      "the file cannot be read without '" + name +
+                      "the file cannot be read without " + in_quotes(name) +
                           "' (this reader does not know that extension); export it without",
                       ErrorCode::unsupported);
 }

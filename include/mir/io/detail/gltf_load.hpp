@@ -83,7 +83,7 @@ inline std::string_view json_text(const Bytes& bytes) {
 
 /// tinygltf's complaint as part of a sentence.
 inline std::string first_line(const std::string& text) {
-    std::string line = text.substr(0, std::min<std::size_t>(text.find('\n'), 300));
+    std::string line = printable(text.substr(0, text.find('\n')), 300);
     while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
     return line.empty() ? "no reason is known" : line;
 }

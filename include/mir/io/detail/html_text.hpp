@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/printable.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -9,10 +11,11 @@
 
 namespace mir::detail {
 
-/// Text that no reader of HTML takes for markup, neither in elements nor in quoted attributes.
+/// Text that no reader of HTML takes for markup, neither in elements nor in quoted attributes, nor
+/// for other letters than it has: it is made printable().
 inline std::string html_escaped(const std::string& text) {
     std::string out;
-    for (const char c : text) {
+    for (const char c : printable(text, std::string::npos)) {
         switch (c) {
             case '&':
                 out += "&amp;";

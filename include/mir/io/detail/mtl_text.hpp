@@ -83,7 +83,7 @@ inline std::vector<MtlMaterial> MtlText::read(const std::string& text) {
     for (std::size_t count = 1; std::getline(stream, line); ++count) {
         const std::string_view keyword = keyword_of(line);
         if (keyword.empty()) continue;
-        place_ = library_ + ", line " + std::to_string(count);
+        place_ = printable(library_) + ", line " + std::to_string(count);
         statement(keyword,
                   std::string_view(line).substr(
                       static_cast<std::size_t>(keyword.data() - line.data()) + keyword.size()));

@@ -136,7 +136,7 @@ inline void ObjMaterials::read(const std::string& library) {
 
 /// Of two materials with one name the first is taken.
 inline void ObjMaterials::add(MtlMaterial text, const std::string& library) {
-    place_ = library + ", material '" + text.name + "'";
+    place_ = printable(library) + ", material " + in_quotes(text.name);
     Material material = convert(text);
     const auto known = indices_.find(text.name);
     if (known != indices_.end()) {

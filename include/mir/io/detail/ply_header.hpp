@@ -176,8 +176,8 @@ inline void check_ply_counts(const PlyHeader& header, std::size_t file_size) {
         const std::uint64_t least = ply_least_bytes(element, header.format);
         const std::string place = "header, line " + std::to_string(element.line);
         if (element.properties.empty() && element.count > 0)
-            fail_at(place, "element '" + element.name +
-                               "' has no properties (so nothing can follow); repair the header");
+            fail_at(place, "element " + in_quotes(element.name) +
+                               " has no properties (so nothing can follow); repair the header");
         if (least > left)
             fail_at(place, "it announces " + std::to_string(element.count) + " of '" +
                                element.name + "', at least " + std::to_string(least) +

@@ -68,10 +68,10 @@ class PlyMesh {
         try {
             for (; i < element.count; ++i) read();
         } catch (const Error& error) {
-            throw Error(
-                error.code(),
-                "element '" + element.name + "', number " + std::to_string(i) + error.what(),
-                error.where());
+            throw Error(error.code(),
+                        "element " + in_quotes(element.name) + ", number " + std::to_string(i) +
+                            error.what(),
+                        error.where());
         }
     }
     void skip(const PlyProperty& property) {
@@ -104,8 +104,8 @@ inline std::vector<std::size_t> PlyMesh::slots_of(const PlyElement& vertex) {
         std::size_t slot = 0;
         while (slot < no_slot && (p.count_type || p.name != slot_names[slot])) ++slot;
         if (slot < no_slot && has[slot])
-            fail_at("header",
-                    "element 'vertex' has property '" + p.name + "' twice; repair the header");
+            fail_at("header", "element 'vertex' has property " + in_quotes(p.name) +
+                                  " twice; repair the header");
         if (slot < no_slot)
             has[slot] = true;
         else

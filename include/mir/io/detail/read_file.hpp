@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/core/limits.hpp"
+#include "mir/io/detail/shown_path.hpp"
 
 #include <cerrno>
 #include <cstdint>
@@ -37,7 +38,7 @@ struct FileBudget {
 /// @throws Error(invalid_input) naming `path`; Error(limit_exceeded) before memory is taken.
 inline Bytes read_whole_file(const std::filesystem::path& path, FileBudget& budget) {
     const auto fail = [&](const std::string& reason) {
-        throw Error(ErrorCode::invalid_input, path.string() + ": it cannot be read (" + reason +
+        throw Error(ErrorCode::invalid_input, shown_path(path) + ": it cannot be read (" + reason +
                                                   "); name an existing, readable file");
     };
     std::error_code failure;
@@ -63,7 +64,7 @@ inline Bytes read_whole_file(const std::filesystem::path& path, FileBudget& budg
 template <class Read>
 auto naming_file(const std::filesystem::path& path, const char* format, const Read& read) {
     const auto repeat = [&](ErrorCode code, const std::string& what, Where at) {
-        const std::string file = path.string();
+        const std::string file = shown_path(path);
         return Error(code, what.rfind(file, 0) == 0 ? what : file + ": " + what, at);
     };
     try {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/printable.hpp"
 #include "mir/io/detail/check_input.hpp"
 
 #include <charconv>
@@ -36,13 +37,6 @@ inline std::optional<LeadingNumber> leading_number(std::string_view token) {
         value = tiny ? 0.0 : HUGE_VAL;
     }
     return LeadingNumber{value, {read.ptr, static_cast<std::size_t>(end - read.ptr)}};
-}
-
-/// `token` between quotes, shortened so that a message stays one line.
-inline std::string in_quotes(std::string_view token) {
-    constexpr std::size_t longest = 40;
-    return "'" + std::string(token.substr(0, longest)) + (token.size() > longest ? "..." : "") +
-           "'";
 }
 
 /// The number that is all of `token`, finite and within 32 bits.

@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/io/atomic_file.hpp"
+#include "mir/io/detail/shown_path.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -25,7 +26,7 @@ inline void write_file(const std::filesystem::path& path, std::string_view bytes
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     stream.close();
     if (!stream)
-        throw Error(ErrorCode::io, path.string() + ": " + what + " cannot be written (" +
+        throw Error(ErrorCode::io, shown_path(path) + ": " + what + " cannot be written (" +
                                        std::strerror(errno != 0 ? errno : EIO) +
                                        "); free space there or choose another folder");
     target.commit();

@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/io/atomic_file.hpp"
+#include "mir/io/detail/shown_path.hpp"
 
 #include <tiny_gltf.h>
 
@@ -28,13 +29,13 @@ inline void write_glb_model(const tinygltf::Model& model, const std::filesystem:
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        throw Error(ErrorCode::invalid_argument, path.string() +
+        throw Error(ErrorCode::invalid_argument, shown_path(path) +
                                                      ": the scene cannot be put into glTF (" +
                                                      error.what() + "); use UTF-8 names");
     }
     stream.close();
     if (!stream)
-        throw Error(ErrorCode::io, path.string() + ": it cannot be written to the end (" +
+        throw Error(ErrorCode::io, shown_path(path) + ": it cannot be written to the end (" +
                                        (errno != 0 ? std::strerror(errno) : "unknown reason") +
                                        "); make room on the disk");
     file.commit();

@@ -15,15 +15,16 @@ inline void check_attributes(const Mesh& mesh) {
     const auto check = [&](const char* what, std::size_t count, auto&& is_good) {
         if (count == 0) return;
         if (count != mesh.positions.size())
-            throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': it has " +
+            throw Error(ErrorCode::invalid_input, "mesh " + in_quotes(mesh.name) + ": it has " +
                                                       std::to_string(count) + " " + what + " for " +
                                                       std::to_string(mesh.positions.size()) +
                                                       " positions; give one each or none");
         for (std::size_t i = 0; i < count; ++i)
             if (!is_good(i))
                 throw Error(ErrorCode::invalid_input,
-                            "mesh '" + mesh.name + "': number " + std::to_string(i) + " of its " +
-                                what + " is not finite or not a colour; repair the file");
+                            "mesh " + in_quotes(mesh.name) + ": number " + std::to_string(i) +
+                                " of its " + what +
+                                " is not finite or not a colour; repair the file");
     };
     check("texture coordinates", mesh.texture_coordinates.size(), [&](std::size_t i) {
         const Vec2 uv = mesh.texture_coordinates[i];
@@ -39,7 +40,7 @@ inline void check_attributes(const Mesh& mesh) {
 /// One mesh of the scene: materials, vertices and indices that exist.
 inline void check_mesh(const Scene& scene, const Mesh& mesh) {
     const auto fail = [&](const std::string& what) {
-        throw Error(ErrorCode::invalid_input, "mesh '" + mesh.name + "': " + what);
+        throw Error(ErrorCode::invalid_input, "mesh " + in_quotes(mesh.name) + ": " + what);
     };
     if (mesh.material >= scene.materials.size())
         fail("material " + std::to_string(mesh.material) + " does not exist (the scene has " +

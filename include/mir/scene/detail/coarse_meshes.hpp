@@ -77,10 +77,10 @@ class CoarseMeshes {
         if (count_ == 0) return;
         char share[32];
         std::snprintf(share, sizeof share, "1/%.3g", steps_);
-        remarks.push_back(problem + " (" + std::to_string(count_) + "): '" + name_ + "' reaches " +
-                          metres(reach_) + ", where 32-bit numbers lie " + metres(edge_ / steps_) +
-                          " apart, " + share + " of its median edge of " + metres(edge_) + " (" +
-                          remedy + ")");
+        remarks.push_back(problem + " (" + std::to_string(count_) + "): " + in_quotes(name_) +
+                          " reaches " + metres(reach_) + ", where 32-bit numbers lie " +
+                          metres(edge_ / steps_) + " apart, " + share + " of its median edge of " +
+                          metres(edge_) + " (" + remedy + ")");
     }
 
  private:
