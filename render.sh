@@ -18,6 +18,6 @@ if [ $# -gt 0 ]; then
     exec "$root/build/cpu/bin/mir" render "$@"
 fi
 
-mkdir -p out
+mkdir -p out 2>/dev/null || mir_cannot_write out
 build/cpu/bin/mir render builtin:cornell-box -o out/cornell-box.exr
 echo "The picture is in $root/out/cornell-box.exr, with a preview in $root/out/cornell-box.png"

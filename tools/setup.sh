@@ -7,6 +7,13 @@
 
 mir_say() { printf '%s\n' "$*" >&2; }
 
+# The tree may lie on a medium that is read only, or belong to somebody else.
+mir_cannot_write() {
+    mir_say "$(pwd)/$1 cannot be written (what is built and drawn goes there); copy the tree to a" \
+        "folder of your own"
+    exit 1
+}
+
 mir_packages() {
     echo "g++ cmake ninja-build libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev" \
         "zlib1g-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libtinyobjloader-dev"
@@ -110,7 +117,8 @@ mir_build() {
     preset=$1
     shift
     log=build/$preset.log
-    mkdir -p build
+    # In a shell of its own: one that cannot open the log would end this one with words of its own.
+    if ! mkdir -p build 2>/dev/null || ! (: >>"$log") 2>/dev/null; then mir_cannot_write build; fi
     mir_say "Building preset $preset with $(mir_jobs) jobs (log: $log)"
     [ -f "build/$preset/build.ninja" ] ||
         mir_say "The first time takes some minutes; the end of the log tells how far it is."
