@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,6 +49,57 @@ TEST_CASE("a file that is not committed leaves the older one as it was") {
     }
     CHECK(read(folder / "picture.exr") == "old");
     CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a file keeps the permissions of the one that it replaces, and nobody reads it before") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    const fs::path path = folder / "picture.exr";
+    const auto permissions = [](const fs::path& of) { return fs::status(of).permissions(); };
+    const auto replace = [&] {
+        mir::AtomicFile file(path);
+        const fs::perms before = permissions(file.temporary());
+        write(file.temporary(), "new");
+        file.commit();
+        return before;
+    };
+    const mode_t mask = umask(022);
+    CHECK(replace() == fs::perms(0644));
+    CHECK(permissions(path) == fs::perms(0644));
+    for (const int mode : {0600, 0640, 0666, 0400, 0755}) {
+        INFO(mode);
+        fs::permissions(path, fs::perms(mode));
+        CHECK(replace() == fs::perms(0600));
+        CHECK(permissions(path) == fs::perms(mode));
+    }
+    fs::permissions(path, fs::perms(0600));
+    fs::create_symlink("picture.exr", folder / "link");
+    mir::AtomicFile linked(folder / "link");
+    linked.commit();
+    CHECK(permissions(path) == fs::perms(0600));
+    umask(mask);
+}
+
+TEST_CASE("names that lead nowhere are refused with the reason") {
+    const mirtest::TemporaryFolder folder("atomic_file");
+    fs::create_symlink("loop", folder / "loop");
+    write(folder / "file", "");
+    const auto refused = [](const fs::path& path, const std::string& why) {
+        INFO(path);
+        try {
+            const mir::AtomicFile file(path);
+            FAIL("no error");
+        } catch (const mir::Error& e) {
+            INFO(e.what());
+            CHECK(e.code() == mir::ErrorCode::io);
+            CHECK(std::string(e.what()).find("it cannot be written (" + why) != std::string::npos);
+        }
+    };
+    refused(folder / "loop", "Too many levels of symbolic links");
+    refused(folder / "loop/a.exr", "Too many levels of symbolic links");
+    refused(folder / "file/a.exr", "Not a directory");
+    refused(folder / (std::string(300, 'a') + ".exr"), "File name too long");
+    refused(folder / (std::string(252, 'a')), "File name too long");
+    CHECK(folder.files() == 2);
 }
 
 TEST_CASE("two writers of one file do not share a temporary name") {

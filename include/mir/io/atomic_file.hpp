@@ -15,7 +15,8 @@ namespace mir {
 /// A file that appears under its name complete or not at all: it is written under a temporary name
 /// in the same folder and renamed by `commit`. Until then an older file of that name stays as it
 /// was. A process that is killed leaves its temporary file, `.NAME.N.tmp`, to the next object for
-/// that name, which removes it. Not thread-safe; several objects, processes included, may aim at
+/// that name, which removes it. A file that replaces an older one has its permissions, and nobody
+/// else may read it before. Not thread-safe; several objects, processes included, may aim at
 /// one path, the last commit wins.
 class AtomicFile {
  public:
@@ -56,6 +57,9 @@ class AtomicFile {
                                            "a file name");
         std::error_code failure;
         const auto status = std::filesystem::status(target, failure);
+        // A loop of links, a name that is too long, a folder that may not be entered.
+        if (status.type() == std::filesystem::file_type::none)
+            fail(target, "it cannot be written", failure.message());
         if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
             fail(target, "it exists and is no regular file", "a finished file is renamed over it");
         return target;

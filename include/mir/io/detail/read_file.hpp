@@ -13,6 +13,7 @@
 #include <fstream>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace mir::detail {
@@ -43,7 +44,10 @@ inline Bytes read_whole_file(const std::filesystem::path& path, FileBudget& budg
     };
     std::error_code failure;
     const auto status = std::filesystem::status(path, failure);
-    if (!std::filesystem::exists(status)) fail("no such file");
+    if (!std::filesystem::exists(status)) {
+        const bool is_missing = failure == std::errc::no_such_file_or_directory;
+        fail(failure && !is_missing ? failure.message() : "no such file");
+    }
     // A pipe or a device could block or never end.
     if (!std::filesystem::is_regular_file(status)) fail("not a regular file");
     const std::uint64_t size = std::filesystem::file_size(path, failure);

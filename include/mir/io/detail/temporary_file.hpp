@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -30,10 +31,11 @@ class LockedFile {
         if (descriptor_ >= 0) close(descriptor_);
     }
 
-    /// Makes a new file; none, with errno, where there is one already or none can be. On file
-    /// systems without locks it is not locked.
-    static LockedFile create(const std::filesystem::path& path) {
-        LockedFile file(open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666));
+    /// Makes a new file of these permissions, less those that the process gives to none; no file,
+    /// with errno, where there is one already or none can be. On file systems without locks it is
+    /// not locked.
+    static LockedFile create(const std::filesystem::path& path, mode_t permissions) {
+        LockedFile file(open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, permissions));
         if (!file) return {};
         const bool lost = flock(file.descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         if (!lost && file.is_at(path)) return file;
@@ -50,6 +52,11 @@ class LockedFile {
     }
 
     explicit operator bool() const { return descriptor_ >= 0; }
+
+    /// Some file systems have none.
+    void set_permissions(mode_t permissions) const {
+        static_cast<void>(fchmod(descriptor_, permissions));
+    }
 
  private:
     explicit LockedFile(int descriptor) : descriptor_(descriptor) {}
@@ -77,9 +84,11 @@ class TemporaryFile {
             remove_abandoned(name(target, i));
             gap = 0;
         }
+        struct stat older {};
+        if (stat(target.c_str(), &older) == 0) permissions_ = older.st_mode & 0777;
         for (int i = 0; i < most_writers && !file_; ++i) {
             path_ = name(target, i);
-            file_ = LockedFile::create(path_);
+            file_ = LockedFile::create(path_, permissions_ ? 0600 : 0666);
             error_ = file_ ? 0 : errno;
             if (error_ != EEXIST) return;
         }
@@ -94,9 +103,11 @@ class TemporaryFile {
     [[nodiscard]] int error() const { return error_; }
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
-    /// Gives the file its final name; a second call does nothing.
+    /// Gives the file its final name, and the permissions of the file that had it before; a second
+    /// call does nothing.
     std::error_code rename(const std::filesystem::path& target) {
         std::error_code failure;
+        if (!renamed_ && permissions_) file_.set_permissions(*permissions_);
         if (!renamed_) std::filesystem::rename(path_, target, failure);
         renamed_ = renamed_ || !failure;
         return failure;
@@ -121,6 +132,7 @@ class TemporaryFile {
     LockedFile file_;
     int error_ = 0;
     bool renamed_ = false;
+    std::optional<mode_t> permissions_;  ///< of the older file
 };
 
 }  // namespace mir::detail
