@@ -80,6 +80,17 @@ TEST_CASE("a command is required and mistyped ones are recognised") {
     check_failing_render({"builtin:sphere", "builtin:sphere"}, 2, "builtin:sphere");
 }
 
+TEST_CASE("a number that begins with a zero is no octal one") {
+    for (const char* option : {"--width", "--vpls", "--seed", "--bounces", "--threads"})
+        for (const char* number : {"010", "0100", "0x10", "00"}) {
+            INFO(option << " " << number);
+            check_failing_render({"builtin:furnace", option, number}, 2, "begins with a zero");
+        }
+    const TemporaryFolder folder("tool_zero");
+    const Words zeros{"--seed", "0", "--exposure", "0.5", "--threads", "0"};
+    CHECK(run_mir(small_render(folder / "a.exr") + zeros).exit_code == 0);
+}
+
 TEST_CASE("an unknown option names the nearest one") {
     check_failing_render({"builtin:sphere", "--vlps", "3"}, 2, "did you mean --vpls?");
     check_failing_render({"builtin:sphere", "--sede=3"}, 2, "did you mean --seed?");

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "option_types.hpp"
 
+#include <cctype>
 #include <cmath>
+#include <cstddef>
 
 namespace mirtool {
+namespace {
+
+/// Why CLI11 would not read a number as it is meant; empty when it would. It takes whole ones that
+/// begin with a zero for octal ones, or others.
+std::string misread(const std::string& value) {
+    const std::size_t sign = !value.empty() && (value[0] == '-' || value[0] == '+') ? 1 : 0;
+    const bool has_zero = value.size() > sign + 1 && value[sign] == '0';
+    if (!has_zero || std::isalnum(static_cast<unsigned char>(value[sign + 1])) == 0) return "";
+    return "'" + value + "' begins with a zero, which some take for octal; leave the zero out";
+}
+
+}  // namespace
 
 CLI::Validator between(double low, double high, const std::string& text) {
     return {[=](std::string& value) {
+                if (const std::string why = misread(value); !why.empty()) return why;
                 double number = 0.0;
                 if (!CLI::detail::lexical_cast(value, number))
                     return "'" + value + "' is no number";
@@ -18,6 +33,7 @@ CLI::Validator between(double low, double high, const std::string& text) {
 
 CLI::Validator seed_number() {
     return {[](std::string& value) {
+                if (const std::string why = misread(value); !why.empty()) return why;
                 std::uint64_t number = 0;
                 if (read_whole(value, number)) return std::string();
                 return "'" + value + "' is no seed; give 0 to 18446744073709551615";
