@@ -188,6 +188,42 @@ TEST_CASE("an output that cannot be written is known before the scene is read") 
     CHECK(folder.files() == 1);
 }
 
+TEST_CASE("paths that loop or are too long are refused with the reason") {
+    const TemporaryFolder folder("tool_paths");
+    std::filesystem::create_symlink("loop", folder / "loop");
+    const std::string name(300, 'a');
+    const auto check = [&](const std::string& path, const std::string& why) {
+        INFO(path);
+        check_refused((folder / path).string(), "(" + why + ")");
+        check_failure(run_mir(small_render(folder / path)), 1, "(" + why + ")");
+        check_failure(run_mir({"export", "builtin:furnace", "-o", (folder / path).string()}), 1,
+                      "(" + why + ")");
+    };
+    check("loop/a.glb", "Too many levels of symbolic links");
+    check("loop", "Too many levels of symbolic links");
+    check(name + ".glb", "File name too long");
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("no file of a render replaces another, whatever it is called") {
+    const TemporaryFolder folder("tool_twins");
+    std::filesystem::create_directory(folder / "a");
+    std::filesystem::create_directory_symlink("a", folder / "b");
+    const auto refused = [&](const Words& more) {
+        check_failure(run_mir(small_render(folder / "a/x.exr") + more), 2);
+    };
+    const Words resume{"--resume", "--passes", "2"};
+    const auto file = [&](const char* name) { return (folder / name).string(); };
+    refused(Words{"--png", file("a/x.exr.journal")} + resume);
+    refused(Words{"--png", file("b/x.exr.journal")} + resume);
+    refused(Words{"--report", file("a/../a/x.exr.journal")} + resume);
+    refused({"--report", file("b/x.png")});
+    write_file(folder / "a/y.png", "");
+    std::filesystem::create_hard_link(folder / "a/y.png", folder / "z.html");
+    refused({"--png", file("a/y.png"), "--report", file("z.html")});
+    CHECK(run_mir(small_render(folder / "a/x.exr") + resume).exit_code == 0);
+}
+
 TEST_CASE("picture and preview cannot be one file") {
     const TemporaryFolder folder("tool_one_file");
     const std::string there = (folder / "").string();

@@ -44,6 +44,7 @@ TEST_CASE("an export that fails leaves the older file as it was") {
     std::ofstream(folder / "a.glb") << "older scene";
     check_failure(run_mir({"export", "builtin:teapot", "-o", file}), 3);
     check_failure(run_mir({"export", "missing.glb", "-o", file}), 3, "missing.glb");
+    check_failure(run_mir({"export", "missing.glb", "-o", "./missing.glb"}), 2, "replace");
     CHECK(file_bytes(folder / "a.glb") == "older scene");
     check_failure(run_mir({"export", "builtin:sphere", "-o", (folder / "none/a.glb").string()}), 1,
                   "none/a.glb");

@@ -6,6 +6,10 @@
 
 namespace mirtool {
 
+/// True when both names lead to one file, or would: as the file system counts what is there, else
+/// by folder and name. An empty name leads nowhere.
+bool are_one_file(const std::string& a, const std::string& b);
+
 /// Makes sure, before any work is done, that the files `outputs` of a job (such as "render") can be
 /// written and that none of them would replace another or one of `inputs`. Empty names are left
 /// out.

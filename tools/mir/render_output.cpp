@@ -13,17 +13,6 @@
 #include <filesystem>
 
 namespace mirtool {
-namespace {
-
-/// True when both names lead to the same place; an empty name leads nowhere.
-bool are_one_file(const std::string& a, const std::string& b) {
-    const auto place = [](const std::string& name) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(name));
-    };
-    return !a.empty() && !b.empty() && place(a) == place(b);
-}
-
-}  // namespace
 
 const char* sampler_name(const mir::RenderSettings& s) {
     if (s.integrator == mir::Integrator::path) return "path";
@@ -46,6 +35,10 @@ std::uint64_t peak_memory_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+std::string journal_of(const RenderOptions& o, const OutputPaths& paths) {
+    return o.passes.resume ? paths.exr + ".journal" : std::string();
+}
+
 OutputPaths choose_outputs(const RenderOptions& o) {
     OutputPaths paths{o.output.empty() ? stem_of(o.scene) + ".exr" : o.output, o.preview};
     mir::expects(paths.exr != "-", "a picture cannot be written to standard output; name a file");
@@ -60,7 +53,8 @@ OutputPaths choose_outputs(const RenderOptions& o) {
                  "this integrator places no VPLs (there would be none to write); leave --vpls-out "
                  "out or use --integrator vpl");
     check_output_places({o.scene, o.environment.file, o.report_reference},
-                        {paths.exr, paths.png, o.report, o.vpls_out}, "render");
+                        {paths.exr, paths.png, o.report, o.vpls_out, journal_of(o, paths)},
+                        "render");
     return paths;
 }
 

@@ -16,7 +16,10 @@ struct OutputPaths {
     std::string png;  ///< empty: no preview
 };
 
-/// Decides the names and makes sure that both can be written, before any work is done.
+/// The journal of --resume; empty without.
+std::string journal_of(const RenderOptions& options, const OutputPaths& paths);
+
+/// Decides the names and makes sure that all can be written, before any work is done.
 /// @throws mir::Error(io or invalid_argument).
 OutputPaths choose_outputs(const RenderOptions& options);
 

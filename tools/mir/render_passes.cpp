@@ -43,7 +43,7 @@ class Alarm {
 std::optional<mir::PassJournal> open_journal(const RenderOptions& o, const mir::Scene& scene,
                                              const OutputPaths& paths) {
     if (!o.passes.resume) return std::nullopt;
-    return mir::PassJournal(paths.exr + ".journal", scene, o.settings);
+    return mir::PassJournal(journal_of(o, paths), scene, o.settings);
 }
 
 /// The same bits as one pass, without memory for sums.
