@@ -25,6 +25,19 @@ TEST_CASE("An Embree scene without triangles hides nothing and is never hit") {
     CHECK(scene.visibility().visible_packet({1, 1, 1}, points, 0x8001) == 0x8001);
 }
 
+TEST_CASE("A scene beyond the numbers that Embree takes is refused") {
+    for (const float scale : {1e17f, 2e18f, 1e30f}) {
+        mir::Scene scene = mirtest::sphere_in_box().scene;
+        for (mir::Mesh& mesh : scene.meshes)
+            for (mir::Vec3& p : mesh.positions) p *= scale;
+        const mir::WorldGeometry geometry(scene);
+        if (scale < 1e18f)
+            CHECK_NOTHROW(mir::cpu::EmbreeScene(geometry));
+        else
+            CHECK_THROWS_AS(mir::cpu::EmbreeScene(geometry), mir::Error);
+    }
+}
+
 TEST_CASE("An Embree scene may be moved while its handles stay valid") {
     const mirtest::World world = mirtest::sphere_in_box();
     mir::cpu::EmbreeScene first(world.geometry);

@@ -42,6 +42,8 @@ class EmbreeScene {
     /// `max_bytes` of memory.
     /// @throws Error(device) with Embree's words when it reports a failure, the memory bound
     ///         included; when triangles are masked and Embree was built without filter functions.
+    ///         Error(invalid_input) when a coordinate is beyond 1.8e18 m, where Embree ends the
+    ///         process. Rays must not start there either.
     explicit EmbreeScene(const WorldGeometry& geometry,
                          std::int64_t max_bytes = std::numeric_limits<std::int64_t>::max());
 
@@ -124,6 +126,12 @@ inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_
                 ? std::make_unique<AlphaMaskView<Space::host>>(geometry.alpha_masks())
                 : nullptr),
       device_(rtcNewDevice(nullptr)) {
+    constexpr float embree_reach = 1.8e18f;
+    const Bounds& bounds = geometry.bounds();
+    if (!bounds.empty() && !(std::max(max_abs(bounds.low), max_abs(bounds.high)) <= embree_reach))
+        throw Error(ErrorCode::invalid_input,
+                    "the scene reaches farther than 1.8e+18 m from its origin (Embree takes no "
+                    "more); leave out what lies so far away");
     if (device_ == nullptr) {
         const RTCError reason = rtcGetDeviceError(nullptr);
         if (reason == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
