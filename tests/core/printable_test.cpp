@@ -4,6 +4,9 @@
 #include "mir/core/error.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
 #include <set>
 #include <string>
 

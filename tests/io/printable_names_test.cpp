@@ -5,6 +5,9 @@
 #include "mir/io/scene_reader.hpp"
 #include "support/catch.hpp"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 using namespace mirtest;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "mir/io/exr.hpp"
 #include "tool/mir_program.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 using namespace mirtest;
 
