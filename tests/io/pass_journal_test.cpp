@@ -98,7 +98,7 @@ TEST_CASE("a journal belongs to its scene and settings") {
           Change([](mir::RenderSettings& s) { s.vpls = 255; }), Change([](mir::RenderSettings& s) {
               s.bound = {mir::BoundPolicy::Kind::fixed, 0.5f};
           }),
-          Change([](mir::RenderSettings& s) { s.filter.half_width = 2.0f; }),
+          Change([](mir::RenderSettings& s) { s.filter.half_width = 1.5f; }),
           Change([](mir::RenderSettings& s) { s.compensate = 1; }),
           Change([](mir::RenderSettings& s) { s.vsl.enabled = true; }),
           Change([](mir::RenderSettings& s) { s.vsl.scale = 0.5f; }),

@@ -43,7 +43,7 @@ TEST_CASE("a picture that becomes too large is an error and leaves nothing") {
     const TemporaryFolder folder("tool_too_large");
     const Words render = small_render(folder / "a.exr", "builtin:cornell-box", 200, 200);
     // 512 bytes or a KiB each.
-    check_failure(run_in_shell("ulimit -f 8;", render, ""), 1, "(File too large)");
+    check_failure(run_in_shell("ulimit -f 8;", render, ""), 1, "File too large");
     CHECK(folder.files() == 0);
 }
 

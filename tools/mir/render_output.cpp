@@ -8,11 +8,23 @@
 #include "output_places.hpp"
 #include "render_attributes.hpp"
 
+#include <OpenEXR/ImfThreading.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <thread>
 
 namespace mirtool {
+namespace {
+
+/// OpenEXR compresses blocks of lines beside each other, which changes no byte.
+void compress_with(unsigned threads) {
+    const unsigned cores = std::max(std::thread::hardware_concurrency(), 1u);
+    Imf::setGlobalThreadCount(static_cast<int>(threads > 0 ? std::min(threads, cores) : cores));
+}
+
+}  // namespace
 
 const char* sampler_name(const mir::RenderSettings& s) {
     if (s.integrator == mir::Integrator::path) return "path";
@@ -67,6 +79,7 @@ mir::PreviewLook preview_look(const RenderOptions& o, const mir::Image<mir::Rgb>
 }
 
 void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o) {
+    compress_with(o.settings.threads);
     mir::write_exr(paths.exr, r.beauty.extent(), layers_of(r, o), attributes_of(r, o));
     if (!paths.png.empty()) mir::write_png(paths.png, r.beauty, preview_look(o, r.beauty));
     if (o.vpls_out.ends_with(".glb")) mir::write_vpls_glb(o.vpls_out, r.vpls, r.statistics.origin);
