@@ -59,21 +59,41 @@ inline void place_everything(const tinygltf::Model& model, const std::vector<int
     loaded.report.remarks = recentre(loaded.scene, std::move(places));
 }
 
+/// For every material, whether a primitive has it.
+inline std::vector<char> used_materials(const tinygltf::Model& model) {
+    std::vector<char> used(model.materials.size(), 0);
+    for (const tinygltf::Mesh& mesh : model.meshes)
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            if (primitive.material >= 0) used[static_cast<std::size_t>(primitive.material)] = 1;
+    return used;
+}
+
+/// Adds the materials of the file; returns the set of texture coordinates of each. What materials
+/// ask for and do not get is a loss where something is made of them.
+inline std::vector<int> convert_materials(const tinygltf::Model& model, GltfImages& images,
+                                          LoadedScene& loaded) {
+    SceneReport of_no_matter;
+    GltfMaterials used(model, images, loaded.report);
+    GltfMaterials unused(model, images, of_no_matter);
+    const std::vector<char> is_used = used_materials(model);
+    std::vector<int> coordinates;
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        GltfMaterials& materials = is_used[i] != 0 ? used : unused;
+        loaded.scene.add(materials.convert(i));
+        coordinates.push_back(materials.coordinates());
+    }
+    return coordinates;
+}
+
 inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& limits) {
     FileBudget budget(limits);
-    const tinygltf::Model model = load_gltf_model(path, budget);
-    check_ranges(model);
     LoadedScene loaded;
+    const tinygltf::Model model = load_gltf_model(path, limits, budget, loaded.report);
     const std::size_t chosen =
         model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
     if (chosen < model.scenes.size()) loaded.scene.name = model.scenes[chosen].name;
     GltfImages images(model, path.parent_path(), budget, limits, loaded.scene, loaded.report);
-    GltfMaterials materials(model, images, loaded.report);
-    std::vector<int> coordinates;
-    for (std::size_t i = 0; i < model.materials.size(); ++i) {
-        loaded.scene.add(materials.convert(i));
-        coordinates.push_back(materials.coordinates());
-    }
+    const std::vector<int> coordinates = convert_materials(model, images, loaded);
     place_everything(model, coordinates, limits, loaded);
     note_unused_of_file(model, loaded.report);
     count_scene(loaded.scene, loaded.report);

@@ -56,10 +56,8 @@ class GltfMeshes {
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> convert_all() {
         std::vector<std::vector<std::uint32_t>> parts(model_.meshes.size());
         for (std::size_t m = 0; m < parts.size(); ++m) {
+            // None: it is broken, and no node has it.
             const std::size_t primitives = model_.meshes[m].primitives.size();
-            if (primitives == 0)
-                gltf_fail(gltf_place("mesh", m, model_.meshes[m].name),
-                          "it has no list of primitives (glTF asks for one at least); repair it");
             for (std::size_t k = 0; k < primitives; ++k) convert(m, k, parts[m]);
         }
         return parts;
@@ -116,8 +114,8 @@ class GltfMeshes {
 
     /// Number of elements of an accessor that nothing has been read from yet.
     [[nodiscard]] std::uint64_t count_of(int accessor) const {
-        return model_
-            .accessors[checked_index(accessor, model_.accessors.size(), "accessor", place_)]
+        return accessor_elements(
+                   model_, checked_index(accessor, model_.accessors.size(), "accessor", place_))
             .count;
     }
 
