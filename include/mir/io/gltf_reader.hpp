@@ -7,7 +7,7 @@
 #include "mir/io/detail/gltf_lights.hpp"
 #include "mir/io/detail/gltf_load.hpp"
 #include "mir/io/detail/gltf_materials.hpp"
-#include "mir/io/detail/gltf_meshes.hpp"
+#include "mir/io/detail/gltf_node_meshes.hpp"
 #include "mir/io/loaded_scene.hpp"
 #include "mir/scene/recentre.hpp"
 
@@ -22,7 +22,6 @@ namespace detail {
 
 /// Counts what a node asks for beyond meshes, lights and cameras.
 inline void note_unused_of_node(const tinygltf::Node& node, SceneReport& report) {
-    if (node.skin >= 0) ++report.ignored["skin"];
     for (const auto& [name, value] : node.extensions)
         if (name != "KHR_lights_punctual" && name != "EXT_mesh_gpu_instancing")
             ++report.ignored[name];
@@ -41,13 +40,16 @@ inline void note_unused_of_file(const tinygltf::Model& model, SceneReport& repor
 
 inline void place_everything(const tinygltf::Model& model, const std::vector<int>& coordinates,
                              const Limits& limits, LoadedScene& loaded) {
-    const auto parts =
-        GltfMeshes(model, coordinates, limits, loaded.scene, loaded.report).convert_all();
+    const std::vector<PlacedNode> nodes = placed_nodes(model, loaded.report);
     Placements places;
-    GltfInstances instances(model, parts, limits, loaded.scene, places);
-    for (const PlacedNode& placed : placed_nodes(model, loaded.report)) {
+    GltfInstances instances(model, limits, loaded.scene, places);
+    GltfNodeMeshes meshes(model, nodes, coordinates, limits, loaded);
+    for (const PlacedNode& placed : nodes) {
         const tinygltf::Node& node = model.nodes[placed.node];
-        if (node.mesh >= 0) instances.add(placed);
+        if (node.mesh >= 0) {
+            const auto [parts, to_world] = meshes.at(placed);
+            instances.add(placed, parts, to_world);
+        }
         if (node.camera >= 0)
             add_camera(model, node.camera, placed, loaded.scene, places, loaded.report);
         const auto light = node.extensions.find("KHR_lights_punctual");

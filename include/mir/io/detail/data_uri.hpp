@@ -93,8 +93,9 @@ inline Bytes from_base64(std::string_view text, const std::string& place) {
     }
     const unsigned int rest = count % 4;
     if (rest == 1)
-        gltf_fail(place, "its data URI is broken (it ends inside of a byte); repair or export it "
-                         "again");
+        gltf_fail(place,
+                  "its data URI is broken (it ends inside of a byte); repair or export it "
+                  "again");
     if (rest >= 2) bytes.push_back(static_cast<unsigned char>(bits >> (rest == 2 ? 4 : 10)));
     if (rest == 3) bytes.push_back(static_cast<unsigned char>(bits >> 2));
     return bytes;
@@ -107,15 +108,15 @@ inline Bytes from_base64(std::string_view text, const std::string& place) {
 inline Bytes data_uri_bytes(std::string_view uri, const std::string& place) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos)
-        gltf_fail(place, "its data URI has no comma, behind which the data stand; repair or export "
-                         "it again");
+        gltf_fail(place,
+                  "its data URI has no comma, behind which the data stand; repair or export "
+                  "it again");
     constexpr std::string_view base64 = ";base64";
     std::string_view kind = uri.substr(0, comma);
     while (!kind.empty() && kind.back() == ' ') kind.remove_suffix(1);
     const std::string_view data = uri.substr(comma + 1);
-    const bool is_base64 =
-        kind.size() >= base64.size() &&
-        equals_in_any_case(kind.substr(kind.size() - base64.size()), base64);
+    const bool is_base64 = kind.size() >= base64.size() &&
+                           equals_in_any_case(kind.substr(kind.size() - base64.size()), base64);
     if (is_base64 && data.find('%') == std::string_view::npos) return from_base64(data, place);
     const std::string plain = unescaped(data);
     if (is_base64) return from_base64(plain, place);

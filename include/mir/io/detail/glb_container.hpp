@@ -32,8 +32,7 @@ inline bool is_binary_gltf(const Bytes& bytes) {
 /// 32 bits, the lowest first, whatever this machine is.
 inline std::uint32_t glb_number(const Bytes& bytes, std::size_t at) {
     std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        value |= static_cast<std::uint32_t>(bytes[at + i]) << 8 * i;
+    for (std::size_t i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(bytes[at + i]) << 8 * i;
     return value;
 }
 
@@ -42,8 +41,9 @@ inline std::uint32_t glb_number(const Bytes& bytes, std::size_t at) {
 inline std::size_t glb_length(const Bytes& bytes) {
     constexpr std::size_t header = 12;
     if (bytes.size() < header)
-        gltf_fail("header", "it is cut short (a binary glTF file begins with 12 bytes, this one has " +
-                                std::to_string(bytes.size()) + "); copy or export the file again");
+        gltf_fail("header",
+                  "it is cut short (a binary glTF file begins with 12 bytes, this one has " +
+                      std::to_string(bytes.size()) + "); copy or export the file again");
     const std::uint32_t version = glb_number(bytes, 4);
     if (version != 2)
         gltf_fail("header",

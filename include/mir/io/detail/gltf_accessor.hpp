@@ -54,8 +54,7 @@ inline void check_buffer_view(const tinygltf::Model& model, std::size_t index) {
 inline GltfElements elements_in_view(const tinygltf::Model& model, int view_index,
                                      std::uint64_t offset, std::uint64_t count, std::uint64_t size,
                                      int component_type, const std::string& place) {
-    const std::size_t at =
-        checked_index(view_index, model.bufferViews.size(), "bufferView", place);
+    const std::size_t at = checked_index(view_index, model.bufferViews.size(), "bufferView", place);
     check_buffer_view(model, at);
     const tinygltf::BufferView& view = model.bufferViews[at];
     const std::uint64_t stride = view.byteStride == 0 ? size : view.byteStride;

@@ -48,8 +48,9 @@ class GltfBuffers {
  private:
     [[nodiscard]] Bytes from_chunk(std::size_t index, const std::string& place) {
         if (index != 0 || !binary_)
-            gltf_fail(place, "it has no bytes (no uri, and the file has no binary chunk for it); "
-                             "export it again");
+            gltf_fail(place,
+                      "it has no bytes (no uri, and the file has no binary chunk for it); "
+                      "export it again");
         return std::exchange(*binary_, {});
     }
 

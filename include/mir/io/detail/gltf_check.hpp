@@ -35,6 +35,10 @@ inline std::size_t checked_index(int index, std::size_t size, const char* kind,
                          "); repair the index");
 }
 
+// What tinygltf's Node::skin is beside an index.
+inline constexpr int no_skin = -1;
+inline constexpr int broken_skin = -2;
+
 /// Number under `key` of an extension or of extras, `otherwise` when it is not there.
 inline double number_or(const tinygltf::Value& object, const char* key, double otherwise,
                         const std::string& place) {

@@ -5,10 +5,15 @@
 
 #include <tiny_gltf.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace mir::detail {
 
@@ -16,22 +21,39 @@ namespace mir::detail {
 class GltfDocument {
  public:
     /// `json` must outlive this.
-    explicit GltfDocument(const Json& json) : root_(json) {}
+    explicit GltfDocument(const Json& json) : root_(json) {
+        constexpr std::array<std::pair<const char*, const char*>, 13> names = {
+            {{"node", "nodes"},
+             {"mesh", "meshes"},
+             {"accessor", "accessors"},
+             {"bufferView", "bufferViews"},
+             {"buffer", "buffers"},
+             {"material", "materials"},
+             {"texture", "textures"},
+             {"sampler", "samplers"},
+             {"image", "images"},
+             {"camera", "cameras"},
+             {"scene", "scenes"},
+             {"skin", "skins"},
+             {"animation", "animations"}}};
+        for (const auto& [kind, list] : names) add(kind, list, root_);
+        const auto extensions = root_.find("extensions");
+        if (!extensions || !extensions->json().is_object()) return;
+        const auto lights = extensions->find("KHR_lights_punctual");
+        if (lights && lights->json().is_object()) add("light", "lights", *lights);
+    }
 
     [[nodiscard]] const GltfValue& root() const { return root_; }
 
     /// Things called `kind` ("node", "light", ...). What is no list has none.
-    [[nodiscard]] std::size_t count(const std::string& kind) const {
-        const Json* list = list_of(kind);
-        return list != nullptr && list->is_array() ? list->size() : 0;
+    [[nodiscard]] std::size_t count(std::string_view kind) const {
+        const GltfValue* list = list_of(kind);
+        return list != nullptr && list->json().is_array() ? list->json().size() : 0;
     }
 
     /// @pre index < count(kind)
     [[nodiscard]] GltfValue element(const char* kind, std::size_t index) const {
-        GltfValue list = root_;
-        if (std::string(kind) == "light")
-            list = *root_.find("extensions")->find("KHR_lights_punctual");
-        return list.find(name_of(kind).c_str())->at(index).as(kind, index);
+        return list_of(kind)->at(index).as(kind, index);
     }
 
     /// An index into the things called `kind`.
@@ -42,31 +64,32 @@ class GltfDocument {
     }
 
     /// @throws Error(invalid_input) when the list of `kind` is there and no array.
-    void check_list(const char* kind) const {
-        const Json* list = list_of(kind);
-        if (list == nullptr || list->is_array()) return;
-        if (std::string(kind) != "light") (void)root_.find(name_of(kind).c_str())->size();
-        (void)root_.find("extensions")->find("KHR_lights_punctual")->find("lights")->size();
+    void check_list(std::string_view kind) const {
+        if (const GltfValue* list = list_of(kind)) return (void)list->size();
+        if (kind != "light") return;
+        if (const auto extensions = root_.find("extensions"))
+            if (const auto lights = extensions->find("KHR_lights_punctual"))
+                (void)lights->find("lights");
     }
 
  private:
-    [[nodiscard]] static std::string name_of(const std::string& kind) {
-        return kind + (kind == "mesh" ? "es" : "s");
+    struct List {
+        std::string_view kind;
+        GltfValue value;
+    };
+
+    void add(const char* kind, const char* name, const GltfValue& parent) {
+        if (const auto list = parent.find(name)) lists_.push_back({kind, *list});
     }
 
-    [[nodiscard]] static const Json* member(const Json* object, const std::string& key) {
-        if (object == nullptr || !object->is_object()) return nullptr;
-        const auto found = object->find(key);
-        return found == object->end() ? nullptr : &*found;
-    }
-
-    [[nodiscard]] const Json* list_of(const std::string& kind) const {
-        const Json* from = &root_.json();
-        if (kind == "light") from = member(member(from, "extensions"), "KHR_lights_punctual");
-        return member(from, name_of(kind));
+    [[nodiscard]] const GltfValue* list_of(std::string_view kind) const {
+        for (const List& list : lists_)
+            if (list.kind == kind) return &list.value;
+        return nullptr;
     }
 
     GltfValue root_;
+    std::vector<List> lists_;
 };
 
 /// Overwrites `to` where the property is there.

@@ -21,10 +21,13 @@ using Json = nlohmann::json;
 
 /// Extensions of which more than the name is read.
 inline bool is_read_extension(std::string_view name) {
-    constexpr std::array<std::string_view, 7> known = {
-        "EXT_mesh_gpu_instancing", "KHR_lights_punctual",
-        "KHR_materials_emissive_strength", "KHR_materials_ior",
-        "KHR_materials_pbrSpecularGlossiness", "KHR_materials_specular", "KHR_texture_transform"};
+    constexpr std::array<std::string_view, 7> known = {"EXT_mesh_gpu_instancing",
+                                                       "KHR_lights_punctual",
+                                                       "KHR_materials_emissive_strength",
+                                                       "KHR_materials_ior",
+                                                       "KHR_materials_pbrSpecularGlossiness",
+                                                       "KHR_materials_specular",
+                                                       "KHR_texture_transform"};
     return std::find(known.begin(), known.end(), name) != known.end();
 }
 
@@ -110,10 +113,10 @@ class GltfJsonBuilder {
     const Limits& limits_;
     Json root_;
     std::vector<Open> open_;
-    std::string key_;            ///< of the value that comes next
-    Json* member_ = nullptr;     ///< where that goes
-    bool skips_next_ = false;    ///< that goes nowhere
-    std::size_t skipped_ = 0;    ///< levels that are open and go nowhere
+    std::string key_;          ///< of the value that comes next
+    Json* member_ = nullptr;   ///< where that goes
+    bool skips_next_ = false;  ///< that goes nowhere
+    std::size_t skipped_ = 0;  ///< levels that are open and go nowhere
     std::size_t depth_ = 0;
     std::uint64_t values_ = 0;
 };
@@ -193,10 +196,12 @@ inline bool GltfJsonBuilder::key(std::string& name) {
 /// The parser's complaint, with the place in the text and nothing that a terminal could obey.
 inline bool GltfJsonBuilder::parse_error(std::size_t position, const std::string&,
                                          const nlohmann::detail::exception& why) {
-    const std::string_view before = text_.substr(0, position);
+    // The last character that was read is the one that is wrong.
+    const std::string_view before = text_.substr(0, position == 0 ? 0 : position - 1);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t start = before.rfind('\n');
-    const std::size_t column = position - (start == std::string_view::npos ? 0 : start + 1);
+    const std::size_t column =
+        before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
     std::string reason = why.what();
     const std::size_t place = reason.find("column ");
     const std::size_t words = reason.find(place == std::string::npos ? "] " : ": ",

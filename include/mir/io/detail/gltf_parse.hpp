@@ -51,8 +51,10 @@ class GltfParser {
 
     void use_node(std::size_t i);
     void use_mesh(std::size_t i);
-    void use_primitive(const GltfValue& from, bool is_skinned, bool is_morphed,
-                       tinygltf::Primitive& to);
+    void use_primitive(const GltfValue& from, std::size_t mesh, tinygltf::Primitive& to);
+    void use_joints(const GltfValue& attributes, tinygltf::Primitive& to);
+    void use_weights(const tinygltf::Node& node, std::size_t i);
+    void use_skin(const GltfValue& from, tinygltf::Node& node);
     void use_material(std::size_t i);
     void use_texture(int index);
     void use_image(int index);
@@ -82,7 +84,7 @@ class GltfParser {
     std::vector<char> images_;
     std::vector<char> accessors_;
     std::vector<char> views_;
-    std::vector<char> data_;  ///< of buffers
+    std::vector<char> data_;               ///< of buffers
     std::vector<char> skinned_, morphed_;  ///< meshes that a node has so
 };
 
@@ -94,6 +96,7 @@ inline void GltfParser::make_lists() {
     make_list("texture", model_.textures);
     make_list("sampler", model_.samplers);
     make_list("image", model_.images);
+    make_list("skin", model_.skins);
     make_list("camera", model_.cameras);
     make_list("light", model_.lights);
     make_list("accessor", model_.accessors);
@@ -167,6 +170,10 @@ inline void GltfParser::use_node(std::size_t i) {
     tinygltf::Node& node = model_.nodes[i];
     node.children = parse_indices(document_, from, "children", "node");
     parse_node(document_, from, node);
+    if (node.mesh >= 0) {
+        use_weights(node, i);
+        use_skin(from, node);
+    }
     if (node.camera >= 0) {
         const auto camera = static_cast<std::size_t>(node.camera);
         model_.cameras[camera] = parse_camera(document_.element("camera", camera));
@@ -193,17 +200,23 @@ inline void GltfParser::use_mesh(std::size_t i) {
                   "it has no list of primitives (glTF asks for one at least); repair it");
     std::vector<tinygltf::Primitive> primitives(count);
     for (std::size_t k = 0; k < count; ++k)
-        use_primitive(list->at(k).as("primitive", k), skinned_[i] != 0, morphed_[i] != 0,
-                      primitives[k]);
+        use_primitive(list->at(k).as("primitive", k), i, primitives[k]);
     mesh.primitives = std::move(primitives);
     meshes_[i] = 1;
 }
 
-inline void GltfParser::use_primitive(const GltfValue& from, bool, bool,
+inline void GltfParser::use_primitive(const GltfValue& from, std::size_t mesh,
                                       tinygltf::Primitive& to) {
     parse_primitive(document_, from, to);
     for (const auto& [name, accessor] : to.attributes) use_accessor(accessor);
     if (to.indices >= 0) use_accessor(to.indices);
+    if (to.attributes.empty()) return;
+    if (morphed_[mesh] != 0) {
+        parse_targets(document_, from, to);
+        for (const auto& target : to.targets)
+            for (const auto& [name, accessor] : target) use_accessor(accessor);
+    }
+    if (skinned_[mesh] != 0) use_joints(*from.find("attributes"), to);
     if (to.material < 0) return;
     use_material(static_cast<std::size_t>(to.material));
     const auto& material = model_.materials[static_cast<std::size_t>(to.material)];
@@ -213,6 +226,46 @@ inline void GltfParser::use_primitive(const GltfValue& from, bool, bool,
         use_accessor(accessor);
         to.attributes[name] = accessor;
     }
+}
+
+inline void GltfParser::use_joints(const GltfValue& attributes, tinygltf::Primitive& to) {
+    for (std::size_t set = 0;; ++set) {
+        const std::string number = std::to_string(set);
+        const auto found =
+            parse_attributes(document_, attributes, {"JOINTS_" + number, "WEIGHTS_" + number});
+        if (found.size() != 2) return;
+        for (const auto& [name, accessor] : found) {
+            use_accessor(accessor);
+            to.attributes[name] = accessor;
+        }
+    }
+}
+
+/// Weights of morph targets that are zero move nothing, and then no target is needed.
+inline void GltfParser::use_weights(const tinygltf::Node& node, std::size_t i) {
+    const auto mesh = static_cast<std::size_t>(node.mesh);
+    const auto is_set = [](double weight) { return weight != 0.0; };
+    if (!has_targets(document_.element("mesh", mesh))) return;
+    take(document_.element("node", i), "weights", 0, model_.nodes[i].weights);
+    take(document_.element("mesh", mesh), "weights", 0, model_.meshes[mesh].weights);
+    const auto& weights = node.weights.empty() ? model_.meshes[mesh].weights : node.weights;
+    if (std::any_of(weights.begin(), weights.end(), is_set)) morphed_[mesh] = 1;
+}
+
+/// A skin that cannot be used is no reason to refuse a picture: its mesh stands as it is stored.
+inline void GltfParser::use_skin(const GltfValue& from, tinygltf::Node& node) {
+    const auto given = from.find("skin");
+    if (!given) return;
+    node.skin = broken_skin;
+    tolerates([&] {
+        const int index = document_.index(*given, "skin");
+        const auto i = static_cast<std::size_t>(index);
+        model_.skins[i] = parse_skin(document_, document_.element("skin", i));
+        if (model_.skins[i].inverseBindMatrices >= 0)
+            use_accessor(model_.skins[i].inverseBindMatrices);
+        node.skin = index;
+        skinned_[static_cast<std::size_t>(node.mesh)] = 1;
+    });
 }
 
 inline void GltfParser::use_material(std::size_t i) {
@@ -277,7 +330,8 @@ inline void GltfParser::parse_the_rest() {
     for (std::size_t i = 0; i < materials_.size(); ++i) {
         if (materials_[i] != 0) continue;
         tinygltf::Material material = model_.materials[i];
-        if (!tolerates([&] { parse_material(document_, document_.element("material", i), material); }))
+        if (!tolerates(
+                [&] { parse_material(document_, document_.element("material", i), material); }))
             continue;
         // Nobody sees its textures.
         material.pbrMetallicRoughness.baseColorTexture = {};

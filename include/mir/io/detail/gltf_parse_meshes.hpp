@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,8 +58,8 @@ inline tinygltf::Accessor parse_accessor(const GltfDocument& document, const Glt
     take_index(document, from, "bufferView", "bufferView", to.bufferView);
     take(from, "byteOffset", to.byteOffset);
     take(from, "normalized", to.normalized);
-    to.componentType = static_cast<int>(from.need("componentType", "a whole number")
-                                            .whole(std::numeric_limits<int>::max()));
+    to.componentType = static_cast<int>(
+        from.need("componentType", "a whole number").whole(std::numeric_limits<int>::max()));
     to.type = parse_accessor_type(from.need("type", "text"));
     (void)from.need("count", "a whole number");
     take(from, "count", to.count);
@@ -65,8 +67,7 @@ inline tinygltf::Accessor parse_accessor(const GltfDocument& document, const Glt
     return to;
 }
 
-inline tinygltf::BufferView parse_buffer_view(const GltfDocument& document,
-                                              const GltfValue& from) {
+inline tinygltf::BufferView parse_buffer_view(const GltfDocument& document, const GltfValue& from) {
     tinygltf::BufferView to;
     to.name = from.name();
     to.buffer = document.index(from.need("buffer", "a whole number"), "buffer");
@@ -88,8 +89,8 @@ inline std::map<std::string, int> parse_attributes(const GltfDocument& document,
     return to;
 }
 
-/// A primitive of triangles with positions, as far as it is drawn; of others what tells why it is
-/// not. `coordinates`: the sets of texture coordinates that its material uses.
+/// A primitive of triangles with positions, as far as every one is drawn; of others what tells why
+/// they are not.
 inline void parse_primitive(const GltfDocument& document, const GltfValue& from,
                             tinygltf::Primitive& to) {
     to.mode = TINYGLTF_MODE_TRIANGLES;
@@ -103,12 +104,20 @@ inline void parse_primitive(const GltfDocument& document, const GltfValue& from,
     take_extension_names(from, to.extensions);
 }
 
-/// Morph targets, read where a weight is not zero.
+inline bool has_targets(const GltfValue& mesh) {
+    const auto list = mesh.find("primitives");
+    if (!list || !list->json().is_array()) return false;
+    for (const Json& primitive : list->json())
+        if (primitive.is_object() && primitive.contains("targets")) return true;
+    return false;
+}
+
 inline void parse_targets(const GltfDocument& document, const GltfValue& from,
                           tinygltf::Primitive& to) {
     const auto targets = from.find("targets");
     if (!targets) return;
-    for (std::size_t i = 0; i < targets->size(); ++i)
+    const std::size_t count = targets->size();
+    for (std::size_t i = 0; i < count; ++i)
         to.targets.push_back(parse_attributes(document, targets->at(i), {"POSITION", "NORMAL"}));
 }
 

@@ -16,10 +16,11 @@ inline std::vector<int> parse_indices(const GltfDocument& document, const GltfVa
     std::vector<int> indices;
     const auto list = from.find(key);
     if (!list) return indices;
-    const std::size_t count = list->size();
-    indices.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-        indices.push_back(document.index(list->at(i), kind));
+    const std::size_t size = list->size();
+    const std::size_t count = document.count(kind);
+    document.check_list(kind);
+    indices.reserve(size);
+    for (std::size_t i = 0; i < size; ++i) indices.push_back(list->index_at(i, kind, count));
     return indices;
 }
 
@@ -62,7 +63,7 @@ inline tinygltf::Value parse_node_extension(const GltfDocument& document, const 
     return tinygltf::Value(std::move(to));
 }
 
-/// Everything of a node but its children.
+/// Everything of a node but its children, its skin and the weights of its morph targets.
 inline void parse_node(const GltfDocument& document, const GltfValue& from, tinygltf::Node& to) {
     take(from, "matrix", 16, to.matrix);
     if (to.matrix.empty()) {
@@ -72,11 +73,17 @@ inline void parse_node(const GltfDocument& document, const GltfValue& from, tiny
     }
     take_index(document, from, "mesh", "mesh", to.mesh);
     take_index(document, from, "camera", "camera", to.camera);
-    // A skin of a wrong type changes no picture.
-    if (from.json().contains("skin")) to.skin = 0;
     take_extensions(from, to.extensions, [&](const std::string& name, const GltfValue& value) {
         return parse_node_extension(document, name, value);
     });
+}
+
+inline tinygltf::Skin parse_skin(const GltfDocument& document, const GltfValue& from) {
+    tinygltf::Skin to;
+    to.name = from.name();
+    to.joints = parse_indices(document, from, "joints", "node");
+    take_index(document, from, "inverseBindMatrices", "accessor", to.inverseBindMatrices);
+    return to;
 }
 
 inline tinygltf::Camera parse_camera(const GltfValue& from) {

@@ -55,8 +55,7 @@ inline void check_references(const GltfDocument& document) {
     for_each("image", [&](const GltfValue& from) {
         check_reference(document, from, "bufferView", "bufferView");
     });
-    for_each("material",
-             [&](const GltfValue& from) { check_material_references(document, from); });
+    for_each("material", [&](const GltfValue& from) { check_material_references(document, from); });
     for_each("mesh", [&](const GltfValue& from) {
         if (!from.json().is_object()) return;
         const auto list = from.find("primitives");

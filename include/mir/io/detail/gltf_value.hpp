@@ -110,6 +110,14 @@ class GltfValue {
     /// An index into a list of `count` things called `kind`.
     [[nodiscard]] int index(const char* kind, std::size_t count) const;
 
+    /// at(i).index(kind, count), without a path while it is good: lists can be long.
+    [[nodiscard]] int index_at(std::size_t i, const char* kind, std::size_t count) const {
+        const Json& element = (*json_)[i];
+        if (element.is_number_unsigned() && element.get<std::uint64_t>() < count)
+            return element.get<int>();
+        return at(i).index(kind, count);
+    }
+
     /// @throws Error(invalid_input) "PLACE: PATH problem".
     [[noreturn]] void fail(const std::string& problem) const {
         const auto [place, path] = where(count_);
@@ -196,8 +204,8 @@ inline std::uint64_t GltfValue::whole(std::uint64_t most) const {
         if (is_whole) value = static_cast<std::uint64_t>(given);
     }
     if (!is_whole || value > most)
-        fail("is " + json_->dump() + ", where a whole number of 0.." + std::to_string(most) +
-             " is wanted (no other can be meant); repair or export it again");
+        fail("is " + json_->dump() + ", where a whole number is wanted (not negative, at most " +
+             std::to_string(most) + "); repair or export it again");
     return value;
 }
 
@@ -210,15 +218,17 @@ inline int GltfValue::index(const char* kind, std::size_t count) const {
              ", where a whole number is wanted (it is an index); repair or export it again");
     if (given >= 0.0 && given < static_cast<double>(count) && given <= static_cast<double>(largest))
         return static_cast<int>(given);
-    const Way parent = where(count_ - 1);
     const Step& last = steps_[count_ - 1];
-    const std::string own = last.name != nullptr ? last.name : std::to_string(last.index);
+    const bool is_element = last.name == nullptr && count_ > 1;
+    const Way parent = where(is_element ? count_ - 2 : count_ - 1);
+    const std::string own =
+        is_element ? steps_[count_ - 2].name + ("[" + std::to_string(last.index) + "]") : last.name;
     std::string place = parent.place;
     if (!parent.path.empty()) place += (place.empty() ? "" : ", ") + parent.path;
-    gltf_fail(place.empty() ? own : place,
-              "it names " + std::string(kind) + " " + json_->dump() + " (" + own +
-                  "), which does not exist (the file has " + std::to_string(count) +
-                  "); repair the index");
+    gltf_fail(place.empty() ? own : place, "it names " + std::string(kind) + " " + json_->dump() +
+                                               " (" + own +
+                                               "), which does not exist (the file has " +
+                                               std::to_string(count) + "); repair the index");
 }
 
 }  // namespace mir::detail

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <system_error>
 
@@ -21,11 +22,14 @@ inline bool lies_outside(const std::filesystem::path& folder, const std::filesys
     if (!inside.empty() && *inside.begin() == "..") return true;
     std::error_code failure;
     const fs::path home = fs::weakly_canonical(folder.empty() ? "." : folder, failure);
-    if (failure) return true;
-    const fs::path file = fs::weakly_canonical((folder.empty() ? "." : folder) / name, failure);
-    if (failure) return true;
-    const auto [rest, end] = std::mismatch(home.begin(), home.end(), file.begin(), file.end());
-    return rest != home.end();
+    if (!failure) {
+        const fs::path file = fs::weakly_canonical((folder.empty() ? "." : folder) / name, failure);
+        const auto [rest, end] = std::mismatch(home.begin(), home.end(), file.begin(), file.end());
+        if (!failure) return rest != home.end();
+    }
+    // Memory that fails says nothing about the file.
+    if (failure == std::errc::not_enough_memory) throw std::bad_alloc();
+    return true;
 }
 
 }  // namespace mir::detail
