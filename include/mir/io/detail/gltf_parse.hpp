@@ -3,8 +3,7 @@
 
 #include "mir/io/detail/gltf_buffers.hpp"
 #include "mir/io/detail/gltf_document.hpp"
-#include "mir/io/detail/gltf_parse_materials.hpp"
-#include "mir/io/detail/gltf_parse_meshes.hpp"
+#include "mir/io/detail/gltf_parse_data.hpp"
 #include "mir/io/detail/gltf_parse_nodes.hpp"
 #include "mir/io/detail/gltf_references.hpp"
 
@@ -18,17 +17,50 @@
 
 namespace mir::detail {
 
+template <class Element>
+void make_list(const GltfDocument& document, const char* kind, std::vector<Element>& list) {
+    list.resize(document.count(kind));
+    for (std::size_t i = 0; i < list.size(); ++i) list[i].name = document.element(kind, i).name();
+}
+
+/// Gives the lists of `model` their lengths and their elements names; returns it.
+inline tinygltf::Model& make_lists(const GltfDocument& document, tinygltf::Model& model) {
+    make_list(document, "node", model.nodes);
+    make_list(document, "mesh", model.meshes);
+    make_list(document, "material", model.materials);
+    make_list(document, "texture", model.textures);
+    make_list(document, "sampler", model.samplers);
+    make_list(document, "image", model.images);
+    make_list(document, "skin", model.skins);
+    make_list(document, "camera", model.cameras);
+    make_list(document, "light", model.lights);
+    make_list(document, "accessor", model.accessors);
+    make_list(document, "bufferView", model.bufferViews);
+    make_list(document, "buffer", model.buffers);
+    model.animations.resize(document.count("animation"));
+    model.scenes.resize(document.count("scene"));
+    for (tinygltf::Material& material : model.materials) material.emissiveFactor = {0, 0, 0};
+    return model;
+}
+
 /// Fills tinygltf's structures from the JSON of a file: what can be reached from the scene that is
 /// shown, of the types that glTF asks for; the rest as far as it is in order. So a file is refused
 /// for nothing that its picture does not need.
 class GltfParser {
  public:
     GltfParser(const GltfDocument& document, GltfBuffers& buffers, tinygltf::Model& model)
-        : document_(document), buffers_(buffers), model_(model) {}
+        : document_(document),
+          model_(make_lists(document, model)),
+          data_(document, buffers, model) {
+        document_.check_list("node");
+        document_.check_list("scene");
+        nodes_.resize(model_.nodes.size());
+        meshes_.resize(model_.meshes.size());
+        skinned_ = morphed_ = meshes_;
+    }
 
     /// @throws Error(invalid_input) with the path of the property; Error(limit_exceeded)
     void parse() {
-        make_lists();
         parse_scenes();
         walk();
         parse_the_rest();
@@ -36,14 +68,6 @@ class GltfParser {
     }
 
  private:
-    template <class Element>
-    void make_list(const char* kind, std::vector<Element>& list) {
-        list.resize(document_.count(kind));
-        for (std::size_t i = 0; i < list.size(); ++i)
-            list[i].name = document_.element(kind, i).name();
-    }
-
-    void make_lists();
     void parse_scenes();
     [[nodiscard]] std::vector<int> roots() const;
     void walk();
@@ -55,11 +79,6 @@ class GltfParser {
     void use_joints(const GltfValue& attributes, tinygltf::Primitive& to);
     void use_weights(const tinygltf::Node& node, std::size_t i);
     void use_skin(const GltfValue& from, tinygltf::Node& node);
-    void use_material(std::size_t i);
-    void use_texture(int index);
-    void use_image(int index);
-    void use_accessor(int index);
-    void use_view(int index);
 
     /// Reads what no picture needs: false, and nothing is refused, when it is broken.
     template <class Read>
@@ -74,47 +93,13 @@ class GltfParser {
     }
 
     const GltfDocument& document_;
-    GltfBuffers& buffers_;
     tinygltf::Model& model_;
-    // What is done, for each element of a list.
-    std::vector<char> nodes_;
-    std::vector<char> meshes_;
-    std::vector<char> materials_;
-    std::vector<char> textures_;
-    std::vector<char> images_;
-    std::vector<char> accessors_;
-    std::vector<char> views_;
-    std::vector<char> data_;               ///< of buffers
-    std::vector<char> skinned_, morphed_;  ///< meshes that a node has so
+    GltfData data_;
+    std::vector<char> nodes_;    ///< those that are done
+    std::vector<char> meshes_;   ///< those that are done
+    std::vector<char> skinned_;  ///< meshes that a node has so
+    std::vector<char> morphed_;  ///< meshes that a node has so
 };
-
-inline void GltfParser::make_lists() {
-    for (const char* kind : {"node", "scene"}) document_.check_list(kind);
-    make_list("node", model_.nodes);
-    make_list("mesh", model_.meshes);
-    make_list("material", model_.materials);
-    make_list("texture", model_.textures);
-    make_list("sampler", model_.samplers);
-    make_list("image", model_.images);
-    make_list("skin", model_.skins);
-    make_list("camera", model_.cameras);
-    make_list("light", model_.lights);
-    make_list("accessor", model_.accessors);
-    make_list("bufferView", model_.bufferViews);
-    make_list("buffer", model_.buffers);
-    model_.animations.resize(document_.count("animation"));
-    model_.scenes.resize(document_.count("scene"));
-    nodes_.resize(model_.nodes.size());
-    meshes_.resize(model_.meshes.size());
-    skinned_ = morphed_ = meshes_;
-    materials_.resize(model_.materials.size());
-    textures_.resize(model_.textures.size());
-    images_.resize(model_.images.size());
-    accessors_.resize(model_.accessors.size());
-    views_.resize(model_.bufferViews.size());
-    data_.resize(model_.buffers.size());
-    for (tinygltf::Material& material : model_.materials) material.emissiveFactor = {0, 0, 0};
-}
 
 inline void GltfParser::parse_scenes() {
     const auto chosen = document_.root().find("scene");
@@ -186,7 +171,7 @@ inline void GltfParser::use_node(std::size_t i) {
     const auto copies = node.extensions.find("EXT_mesh_gpu_instancing");
     if (copies != node.extensions.end() && copies->second.Has("attributes"))
         for (const auto& name : copies->second.Get("attributes").Keys())
-            use_accessor(copies->second.Get("attributes").Get(name).GetNumberAsInt());
+            data_.accessor(copies->second.Get("attributes").Get(name).GetNumberAsInt());
 }
 
 inline void GltfParser::use_mesh(std::size_t i) {
@@ -208,22 +193,22 @@ inline void GltfParser::use_mesh(std::size_t i) {
 inline void GltfParser::use_primitive(const GltfValue& from, std::size_t mesh,
                                       tinygltf::Primitive& to) {
     parse_primitive(document_, from, to);
-    for (const auto& [name, accessor] : to.attributes) use_accessor(accessor);
-    if (to.indices >= 0) use_accessor(to.indices);
+    for (const auto& [name, accessor] : to.attributes) data_.accessor(accessor);
+    if (to.indices >= 0) data_.accessor(to.indices);
     if (to.attributes.empty()) return;
     if (morphed_[mesh] != 0) {
         parse_targets(document_, from, to);
         for (const auto& target : to.targets)
-            for (const auto& [name, accessor] : target) use_accessor(accessor);
+            for (const auto& [name, accessor] : target) data_.accessor(accessor);
     }
     if (skinned_[mesh] != 0) use_joints(*from.find("attributes"), to);
     if (to.material < 0) return;
-    use_material(static_cast<std::size_t>(to.material));
+    data_.material(static_cast<std::size_t>(to.material));
     const auto& material = model_.materials[static_cast<std::size_t>(to.material)];
     const auto sets = coordinate_sets(material);
     for (const auto& [name, accessor] :
          parse_attributes(document_, *from.find("attributes"), sets)) {
-        use_accessor(accessor);
+        data_.accessor(accessor);
         to.attributes[name] = accessor;
     }
 }
@@ -235,7 +220,7 @@ inline void GltfParser::use_joints(const GltfValue& attributes, tinygltf::Primit
             parse_attributes(document_, attributes, {"JOINTS_" + number, "WEIGHTS_" + number});
         if (found.size() != 2) return;
         for (const auto& [name, accessor] : found) {
-            use_accessor(accessor);
+            data_.accessor(accessor);
             to.attributes[name] = accessor;
         }
     }
@@ -262,73 +247,18 @@ inline void GltfParser::use_skin(const GltfValue& from, tinygltf::Node& node) {
         const auto i = static_cast<std::size_t>(index);
         model_.skins[i] = parse_skin(document_, document_.element("skin", i));
         if (model_.skins[i].inverseBindMatrices >= 0)
-            use_accessor(model_.skins[i].inverseBindMatrices);
+            data_.accessor(model_.skins[i].inverseBindMatrices);
         node.skin = index;
         skinned_[static_cast<std::size_t>(node.mesh)] = 1;
     });
-}
-
-inline void GltfParser::use_material(std::size_t i) {
-    if (materials_[i] != 0) return;
-    tinygltf::Material material = model_.materials[i];
-    parse_material(document_, document_.element("material", i), material);
-    use_texture(material.pbrMetallicRoughness.baseColorTexture.index);
-    use_texture(material.pbrMetallicRoughness.metallicRoughnessTexture.index);
-    use_texture(material.normalTexture.index);
-    use_texture(material.emissiveTexture.index);
-    model_.materials[i] = std::move(material);
-    materials_[i] = 1;
-}
-
-inline void GltfParser::use_texture(int index) {
-    if (index < 0 || textures_[static_cast<std::size_t>(index)] != 0) return;
-    const auto i = static_cast<std::size_t>(index);
-    model_.textures[i] = parse_texture(document_, document_.element("texture", i));
-    if (const int sampler = model_.textures[i].sampler; sampler >= 0) {
-        const auto at = static_cast<std::size_t>(sampler);
-        model_.samplers[at] = parse_sampler(document_.element("sampler", at));
-    }
-    use_image(model_.textures[i].source);
-    textures_[i] = 1;
-}
-
-inline void GltfParser::use_image(int index) {
-    if (index < 0 || images_[static_cast<std::size_t>(index)] != 0) return;
-    const auto i = static_cast<std::size_t>(index);
-    model_.images[i] = parse_image(document_, document_.element("image", i), i);
-    use_view(model_.images[i].bufferView);
-    images_[i] = 1;
-}
-
-inline void GltfParser::use_accessor(int index) {
-    const auto i = static_cast<std::size_t>(index);
-    if (accessors_[i] != 0) return;
-    model_.accessors[i] = parse_accessor(document_, document_.element("accessor", i));
-    const tinygltf::Accessor& accessor = model_.accessors[i];
-    use_view(accessor.bufferView);
-    if (accessor.sparse.isSparse) {
-        use_view(accessor.sparse.indices.bufferView);
-        use_view(accessor.sparse.values.bufferView);
-    }
-    accessors_[i] = 1;
-}
-
-inline void GltfParser::use_view(int index) {
-    if (index < 0 || views_[static_cast<std::size_t>(index)] != 0) return;
-    const auto i = static_cast<std::size_t>(index);
-    model_.bufferViews[i] = parse_buffer_view(document_, document_.element("bufferView", i));
-    const auto buffer = static_cast<std::size_t>(model_.bufferViews[i].buffer);
-    if (data_[buffer] == 0)
-        model_.buffers[buffer].data = buffers_.load(document_.element("buffer", buffer), buffer);
-    data_[buffer] = views_[i] = 1;
 }
 
 /// Meshes and materials that no node of the scene has: kept where they are in order.
 inline void GltfParser::parse_the_rest() {
     for (std::size_t i = 0; i < meshes_.size(); ++i)
         if (meshes_[i] == 0 && !tolerates([&] { use_mesh(i); })) model_.meshes[i].primitives = {};
-    for (std::size_t i = 0; i < materials_.size(); ++i) {
-        if (materials_[i] != 0) continue;
+    for (std::size_t i = 0; i < model_.materials.size(); ++i) {
+        if (data_.has_material(i)) continue;
         tinygltf::Material material = model_.materials[i];
         if (!tolerates(
                 [&] { parse_material(document_, document_.element("material", i), material); }))
