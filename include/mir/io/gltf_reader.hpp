@@ -110,8 +110,11 @@ inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& li
 /// base colour. Images are PNG or JPEG; their textures and vertex colours are read. A scene without
 /// light or camera is no error: the report says so. Transforms of nodes are multiplied in double
 /// precision and counted from the origin that recentre() chooses. Alpha mode MASK is read; BLEND
-/// and environments are not, the report counts them. Thread-safe for different or equal files.
-/// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules;
+/// and environments are not, the report counts them. Morph targets and skins are as the scene
+/// stands. What the picture does not need refuses no file. Buffers outside of the file's folder are
+/// refused unless `limits.allow_outside`. Thread-safe for different or equal files.
+/// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules, by the
+///         path of a property that is of a wrong type;
 ///         Error(unsupported) when it requires an extension that is not known;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.
 ///         Each message reads "FILE: PLACE: problem (why); remedy".
