@@ -19,8 +19,9 @@ struct Limits {
     std::uint64_t pixels = 1ull << 28;             ///< of one image
     std::uint64_t file_bytes = 4ull << 30;         ///< of one input file
     std::uint64_t visibility_bytes = 8ull << 30;   ///< of stored visibility, with its luxels
-    /// Of the JSON of one glTF file, as far as something is read from it: numbers, texts, lists,
-    /// and 4 or 24 for each structure that is made of an element of a list. 100 bytes each at most.
+    /// Of the JSON of one glTF file, as far as something is read from it: numbers, texts and lists,
+    /// and 4 or 24 more for what becomes a structure. One takes about 100 bytes at most, beside
+    /// what a text holds.
     std::uint64_t json_values = 8'000'000;
     std::uint64_t mesh_bytes = 4ull << 30;  ///< of the stored meshes of one glTF file, estimated
     /// Files that a scene names may lie outside of its folder (`--allow-outside`). Without it

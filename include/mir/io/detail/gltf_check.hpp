@@ -73,7 +73,8 @@ inline bool can_read_extension(std::string_view name) {
 
 /// Why a required extension is refused and what to do about it.
 inline std::string extension_remedy(std::string_view name) {
-    if (name == "KHR_draco_mesh_compression" || name.find("meshopt_compression") != name.npos)
+    if (name == "KHR_draco_mesh_compression" ||
+        name.find("meshopt_compression") != std::string_view::npos)
         return "(its meshes are compressed, and nothing here undoes that); export it without "
                "compression of meshes, or undo it with gltf-transform";
     if (name == "KHR_texture_basisu")

@@ -28,14 +28,9 @@ inline void parse_asset(const GltfDocument& document, tinygltf::Model& model) {
     check_version_and_extensions(model);
 }
 
-/// The JSON of a file, whose bytes are let go, and its binary chunk.
-struct GltfSource {
-    Json json;
-    std::optional<Bytes> binary;
-};
-
-inline GltfSource read_gltf_source(const std::filesystem::path& path, const Limits& limits,
-                                   FileBudget& budget, SceneReport& report) {
+/// The JSON of a file, and in `binary` its binary chunk; its other bytes are let go.
+inline Json read_gltf_json(const std::filesystem::path& path, const Limits& limits,
+                           FileBudget& budget, SceneReport& report, std::optional<Bytes>& binary) {
     Bytes bytes = read_whole_file(path, budget);
     const GltfParts parts = gltf_parts(bytes);
     if (parts.behind > 0)
@@ -43,15 +38,14 @@ inline GltfSource read_gltf_source(const std::filesystem::path& path, const Limi
                                " bytes behind the end that its header announces: they were not "
                                "read");
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    GltfSource source;
-    source.json = parse_gltf_json(all.substr(parts.json.first, parts.json.size), limits);
-    if (!parts.binary) return source;
+    Json json = parse_gltf_json(all.substr(parts.json.first, parts.json.size), limits);
+    if (!parts.binary) return json;
     // Moved within its own memory: a copy would need twice of it.
     const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(parts.binary->first);
     bytes.erase(first + static_cast<std::ptrdiff_t>(parts.binary->size), bytes.end());
     bytes.erase(bytes.begin(), first);
-    source.binary = std::move(bytes);
-    return source;
+    binary = std::move(bytes);
+    return json;
 }
 
 /// Reads a .gltf with those of its buffers that its scene needs, or a .glb. Ranges are not checked
@@ -59,11 +53,12 @@ inline GltfSource read_gltf_source(const std::filesystem::path& path, const Limi
 /// @throws Error(invalid_input), Error(unsupported) or Error(limit_exceeded).
 inline tinygltf::Model load_gltf_model(const std::filesystem::path& path, const Limits& limits,
                                        FileBudget& budget, SceneReport& report) {
-    GltfSource source = read_gltf_source(path, limits, budget, report);
-    const GltfDocument document(source.json);
+    std::optional<Bytes> binary;
+    const Json json = read_gltf_json(path, limits, budget, report, binary);
+    const GltfDocument document(json);
     tinygltf::Model model;
     parse_asset(document, model);
-    GltfBuffers buffers(path.parent_path(), std::move(source.binary), limits, budget);
+    GltfBuffers buffers(path.parent_path(), std::move(binary), limits, budget);
     GltfParser(document, buffers, model).parse();
     return model;
 }
