@@ -18,10 +18,18 @@ namespace mir::detail {
     fail_at(place, problem, code);
 }
 
-/// "node 3 'lamp'", for messages.
+/// "node 3 'lamp'", for messages; a name that would fill the screen is cut.
 inline std::string gltf_place(const char* kind, std::size_t index, const std::string& name = {}) {
+    constexpr std::size_t longest = 120;
     std::string place = std::string(kind) + " " + std::to_string(index);
-    if (!name.empty()) place += " '" + name + "'";
+    if (name.size() > longest) {
+        // Not inside of a character of UTF-8.
+        std::size_t end = longest;
+        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0u) == 0x80u) --end;
+        place += " '" + name.substr(0, end) + "...'";
+    } else if (!name.empty()) {
+        place += " '" + name + "'";
+    }
     return place;
 }
 
