@@ -77,7 +77,7 @@ std::vector<json> other_types(const json& value) {
 
 /// The last name on a path, with the number of the element behind it: "translation[0]".
 std::string last_name(const Pointer& path) {
-    const std::string last = path.back();
+    const std::string& last = path.back();
     const bool is_number =
         std::all_of(last.begin(), last.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (!is_number) return last;
@@ -93,7 +93,7 @@ TEST_CASE("the file that has everything is read") {
     CHECK(loaded.scene.spot_lights.size() == 1);
     CHECK(loaded.scene.cameras.size() == 1);
     CHECK(loaded.scene.images.size() == 1);
-    CHECK(loaded.report.ignored.count("skin") == 0);
+    CHECK_FALSE(loaded.report.ignored.contains("skin"));
     CHECK(loaded.report.ignored.at("animation") == 1);
 }
 
@@ -138,6 +138,10 @@ TEST_CASE("a message about a type names place, path, what is there and what is w
         changed("/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength", "x"),
         "material 0 'a': extensions.KHR_materials_emissive_strength.emissiveStrength is "
         "text, where a number is wanted"));
+    json long_name = everything_json();
+    long_name["nodes"][0]["name"] = std::string(119, 'x') + "\xc3\xa4" + std::string(9000, 'y');
+    long_name["nodes"][0]["scale"] = nullptr;
+    CHECK(has(says(long_name), "node 0 '" + std::string(119, 'x') + "...': scale is null"));
     CHECK(has(changed("/scene", "hello"), "scene.gltf: scene is text, where a whole number"));
     CHECK(has(changed("/asset/version", 2.0), "asset.version is 2.0, where text is wanted"));
     CHECK(has(changed("/nodes/0/rotation", json::array({1, 2})),
@@ -259,7 +263,7 @@ TEST_CASE("values of JSON are bounded, and what nothing reads takes none of them
         json file = small;
         file[Pointer(path)] = zeros;
         mir::ErrorCode code = mir::ErrorCode::internal;
-        const std::string message =
+        std::string message =
             message_of([&] { (void)read_text(file.dump(), triangle_bytes(), limits); }, &code);
         if (message != "no error") CHECK(code == mir::ErrorCode::limit_exceeded);
         return message;

@@ -18,25 +18,26 @@
 namespace mir::detail {
 
 template <class Element>
-void make_list(const GltfDocument& document, const char* kind, std::vector<Element>& list) {
+void make_named_list(const GltfDocument& document, const char* kind, std::vector<Element>& list) {
     list.resize(document.count(kind));
     for (std::size_t i = 0; i < list.size(); ++i) list[i].name = document.element(kind, i).name();
 }
 
-/// Gives the lists of `model` their lengths and their elements names; returns it.
+/// Gives the lists of `model` their lengths, and names to those elements that a picture knows even
+/// when it does not need them; returns it.
 inline tinygltf::Model& make_lists(const GltfDocument& document, tinygltf::Model& model) {
-    make_list(document, "node", model.nodes);
-    make_list(document, "mesh", model.meshes);
-    make_list(document, "material", model.materials);
-    make_list(document, "texture", model.textures);
-    make_list(document, "sampler", model.samplers);
-    make_list(document, "image", model.images);
-    make_list(document, "skin", model.skins);
-    make_list(document, "camera", model.cameras);
-    make_list(document, "light", model.lights);
-    make_list(document, "accessor", model.accessors);
-    make_list(document, "bufferView", model.bufferViews);
-    make_list(document, "buffer", model.buffers);
+    make_named_list(document, "node", model.nodes);
+    make_named_list(document, "mesh", model.meshes);
+    make_named_list(document, "material", model.materials);
+    model.textures.resize(document.count("texture"));
+    model.samplers.resize(document.count("sampler"));
+    model.images.resize(document.count("image"));
+    model.skins.resize(document.count("skin"));
+    model.cameras.resize(document.count("camera"));
+    model.lights.resize(document.count("light"));
+    model.accessors.resize(document.count("accessor"));
+    model.bufferViews.resize(document.count("bufferView"));
+    model.buffers.resize(document.count("buffer"));
     model.animations.resize(document.count("animation"));
     model.scenes.resize(document.count("scene"));
     for (tinygltf::Material& material : model.materials) material.emissiveFactor = {0, 0, 0};
