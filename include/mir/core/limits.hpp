@@ -19,7 +19,15 @@ struct Limits {
     std::uint64_t pixels = 1ull << 28;             ///< of one image
     std::uint64_t file_bytes = 4ull << 30;         ///< of one input file
     std::uint64_t visibility_bytes = 8ull << 30;   ///< of stored visibility, with its luxels
-    bool allow_outside = false;  ///< scene files may name files outside of their own folder
+    /// Of the JSON of one glTF file, as far as something is read from it: numbers, texts and lists,
+    /// and 4 or 24 more for what becomes a structure. One takes about 100 bytes at most, beside
+    /// what a text holds.
+    std::uint64_t json_values = 8'000'000;
+    std::uint64_t mesh_bytes = 4ull << 30;  ///< of the stored meshes of one glTF file, estimated
+    /// Files that a scene names may lie outside of its folder (`--allow-outside`). Without it
+    /// buffers and libraries there are refused, and images count as missing: a scene from elsewhere
+    /// could have any file of the machine read.
+    bool allow_outside = false;
 };
 
 /// Product that saturates instead of wrapping.

@@ -7,7 +7,7 @@
 #include "mir/io/detail/gltf_lights.hpp"
 #include "mir/io/detail/gltf_load.hpp"
 #include "mir/io/detail/gltf_materials.hpp"
-#include "mir/io/detail/gltf_meshes.hpp"
+#include "mir/io/detail/gltf_node_meshes.hpp"
 #include "mir/io/loaded_scene.hpp"
 #include "mir/scene/recentre.hpp"
 
@@ -22,7 +22,6 @@ namespace detail {
 
 /// Counts what a node asks for beyond meshes, lights and cameras.
 inline void note_unused_of_node(const tinygltf::Node& node, SceneReport& report) {
-    if (node.skin >= 0) ++report.ignored["skin"];
     for (const auto& [name, value] : node.extensions)
         if (name != "KHR_lights_punctual" && name != "EXT_mesh_gpu_instancing")
             ++report.ignored[name];
@@ -41,13 +40,16 @@ inline void note_unused_of_file(const tinygltf::Model& model, SceneReport& repor
 
 inline void place_everything(const tinygltf::Model& model, const std::vector<int>& coordinates,
                              const Limits& limits, LoadedScene& loaded) {
-    const auto parts =
-        GltfMeshes(model, coordinates, limits, loaded.scene, loaded.report).convert_all();
+    const std::vector<PlacedNode> nodes = placed_nodes(model, loaded.report);
     Placements places;
-    GltfInstances instances(model, parts, limits, loaded.scene, places);
-    for (const PlacedNode& placed : placed_nodes(model, loaded.report)) {
+    GltfInstances instances(model, limits, loaded.scene, places);
+    GltfNodeMeshes meshes(model, nodes, coordinates, limits, loaded);
+    for (const PlacedNode& placed : nodes) {
         const tinygltf::Node& node = model.nodes[placed.node];
-        if (node.mesh >= 0) instances.add(placed);
+        if (node.mesh >= 0) {
+            const auto [parts, to_world] = meshes.at(placed);
+            instances.add(placed, parts, to_world);
+        }
         if (node.camera >= 0)
             add_camera(model, node.camera, placed, loaded.scene, places, loaded.report);
         const auto light = node.extensions.find("KHR_lights_punctual");
@@ -59,21 +61,41 @@ inline void place_everything(const tinygltf::Model& model, const std::vector<int
     loaded.report.remarks = recentre(loaded.scene, std::move(places));
 }
 
+/// For every material, whether a primitive has it.
+inline std::vector<char> used_materials(const tinygltf::Model& model) {
+    std::vector<char> used(model.materials.size(), 0);
+    for (const tinygltf::Mesh& mesh : model.meshes)
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            if (primitive.material >= 0) used[static_cast<std::size_t>(primitive.material)] = 1;
+    return used;
+}
+
+/// Adds the materials of the file; returns the set of texture coordinates of each. What materials
+/// ask for and do not get is a loss where something is made of them.
+inline std::vector<int> convert_materials(const tinygltf::Model& model, GltfImages& images,
+                                          LoadedScene& loaded) {
+    SceneReport of_no_matter;
+    GltfMaterials used(model, images, loaded.report);
+    GltfMaterials unused(model, images, of_no_matter);
+    const std::vector<char> is_used = used_materials(model);
+    std::vector<int> coordinates;
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        GltfMaterials& materials = is_used[i] != 0 ? used : unused;
+        loaded.scene.add(materials.convert(i));
+        coordinates.push_back(materials.coordinates());
+    }
+    return coordinates;
+}
+
 inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& limits) {
     FileBudget budget(limits);
-    const tinygltf::Model model = load_gltf_model(path, budget);
-    check_ranges(model);
     LoadedScene loaded;
+    const tinygltf::Model model = load_gltf_model(path, limits, budget, loaded.report);
     const std::size_t chosen =
         model.defaultScene >= 0 ? static_cast<std::size_t>(model.defaultScene) : 0;
     if (chosen < model.scenes.size()) loaded.scene.name = model.scenes[chosen].name;
     GltfImages images(model, path.parent_path(), budget, limits, loaded.scene, loaded.report);
-    GltfMaterials materials(model, images, loaded.report);
-    std::vector<int> coordinates;
-    for (std::size_t i = 0; i < model.materials.size(); ++i) {
-        loaded.scene.add(materials.convert(i));
-        coordinates.push_back(materials.coordinates());
-    }
+    const std::vector<int> coordinates = convert_materials(model, images, loaded);
     place_everything(model, coordinates, limits, loaded);
     note_unused_of_file(model, loaded.report);
     count_scene(loaded.scene, loaded.report);
@@ -88,8 +110,11 @@ inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& li
 /// base colour. Images are PNG or JPEG; their textures and vertex colours are read. A scene without
 /// light or camera is no error: the report says so. Transforms of nodes are multiplied in double
 /// precision and counted from the origin that recentre() chooses. Alpha mode MASK is read; BLEND
-/// and environments are not, the report counts them. Thread-safe for different or equal files.
-/// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules;
+/// and environments are not, the report counts them. Morph targets and skins are as the scene
+/// stands. What the picture does not need refuses no file. Buffers outside of the file's folder are
+/// refused unless `limits.allow_outside`. Thread-safe for different or equal files.
+/// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules, by the
+///         path of a property that is of a wrong type;
 ///         Error(unsupported) when it requires an extension that is not known;
 ///         Error(limit_exceeded) before memory beyond `limits` is taken.
 ///         Each message reads "FILE: PLACE: problem (why); remedy".

@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/io/detail/scene_kind.hpp"
 #include "mir/io/gltf_reader.hpp"
 #include "mir/io/obj_reader.hpp"
 #include "mir/io/ply_reader.hpp"
 
 #include <filesystem>
-#include <string>
 
 namespace mir {
 
-/// Reads a scene with the reader that the file's name asks for: read_obj() for .obj, read_ply() for
-/// .ply in any case of letters, read_gltf() for everything else. Thread-safe.
-/// @throws Error as these do.
+/// Reads a scene with the reader that the file's name asks for, in any case of letters: read_obj()
+/// for .obj, read_ply() for .ply, read_gltf() for .gltf, .glb and .vrm. Under any other name a file
+/// is PLY where it begins so and glTF else. Thread-safe.
+/// @throws Error as these do; Error(unsupported) for files of other programs, with what to do.
 inline LoadedScene read_scene(const std::filesystem::path& path, const Limits& limits = {}) {
-    const std::string ending = detail::lower_case_extension(path);
-    if (ending == ".obj") return read_obj(path, limits);
-    if (ending == ".ply") return read_ply(path, limits);
-    return read_gltf(path, limits);
+    switch (detail::scene_kind(path)) {
+        case detail::SceneKind::obj:
+            return read_obj(path, limits);
+        case detail::SceneKind::ply:
+            return read_ply(path, limits);
+        default:
+            return read_gltf(path, limits);
+    }
 }
 
 }  // namespace mir

@@ -54,8 +54,9 @@ inline void check_buffer_view(const tinygltf::Model& model, std::size_t index) {
 inline GltfElements elements_in_view(const tinygltf::Model& model, int view_index,
                                      std::uint64_t offset, std::uint64_t count, std::uint64_t size,
                                      int component_type, const std::string& place) {
-    const tinygltf::BufferView& view =
-        model.bufferViews[checked_index(view_index, model.bufferViews.size(), "bufferView", place)];
+    const std::size_t at = checked_index(view_index, model.bufferViews.size(), "bufferView", place);
+    check_buffer_view(model, at);
+    const tinygltf::BufferView& view = model.bufferViews[at];
     const std::uint64_t stride = view.byteStride == 0 ? size : view.byteStride;
     if (stride < size)
         gltf_fail(place, "its elements of " + std::to_string(size) + " bytes overlap (byteStride " +
@@ -70,7 +71,7 @@ inline GltfElements elements_in_view(const tinygltf::Model& model, int view_inde
     return {bytes.data() + view.byteOffset + offset, stride, count, component_type};
 }
 
-/// @pre the buffer views of the model are checked.
+/// @throws Error(invalid_input) when they do not lie inside of their buffer.
 inline GltfElements accessor_elements(const tinygltf::Model& model, std::size_t index) {
     const tinygltf::Accessor& accessor = model.accessors[index];
     const std::string place = gltf_place("accessor", index, accessor.name);
@@ -94,13 +95,6 @@ inline GltfElements accessor_elements(const tinygltf::Model& model, std::size_t 
                              " elements without data (the file has " + std::to_string(bytes) +
                              " bytes of data); give it a bufferView");
     return {nullptr, 0, accessor.count, accessor.componentType};
-}
-
-/// Every range of the file that is going to be read lies inside its buffer.
-/// @throws Error(invalid_input)
-inline void check_ranges(const tinygltf::Model& model) {
-    for (std::size_t i = 0; i < model.bufferViews.size(); ++i) check_buffer_view(model, i);
-    for (std::size_t i = 0; i < model.accessors.size(); ++i) accessor_elements(model, i);
 }
 
 template <class T>

@@ -3,6 +3,7 @@
 
 #include "mir/core/math.hpp"
 #include "mir/io/detail/gltf_accessor.hpp"
+#include "mir/io/detail/gltf_triangles.hpp"
 
 #include <cstdint>
 #include <string>
@@ -64,6 +65,35 @@ std::vector<Vec> read_vectors(const tinygltf::Model& model, int index, const std
             values[i] = load_vector<Vec>(elements.first + i * elements.stride,
                                          elements.component_type, accessor.normalized);
     if (accessor.sparse.isSparse) apply_sparse(model, accessor, place, values);
+    return values;
+}
+
+/// The chosen vertices of an accessor that has one element for every vertex of its primitive.
+/// `what` names them, `user` whoever has them.
+/// @throws Error(invalid_input) when there are more or fewer.
+template <class Vec>
+std::vector<Vec> read_vertices(const tinygltf::Model& model, int index, const VertexChoice& choice,
+                               const std::string& what, const std::string& user) {
+    const std::size_t at = checked_index(index, model.accessors.size(), "accessor", user);
+    const tinygltf::Accessor& accessor = model.accessors[at];
+    if (accessor.count != choice.all)
+        gltf_fail(user, "it has " + std::to_string(accessor.count) + " " + what + " for " +
+                            std::to_string(choice.all) + " positions; give one each or none");
+    const bool is_plain = !accessor.sparse.isSparse && accessor.type == Vec::length();
+    if (choice.chosen.empty() || !is_plain) {
+        std::vector<Vec> all = read_vectors<Vec>(model, index, user);
+        if (choice.chosen.empty()) return all;
+        for (std::size_t i = 0; i < choice.chosen.size(); ++i) all[i] = all[choice.chosen[i]];
+        all.resize(choice.chosen.size());
+        all.shrink_to_fit();
+        return all;
+    }
+    const GltfElements elements = accessor_elements(model, at);
+    std::vector<Vec> values(choice.chosen.size(), Vec(0.0f));
+    if (elements.first == nullptr) return values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = load_vector<Vec>(elements.first + choice.chosen[i] * elements.stride,
+                                     elements.component_type, accessor.normalized);
     return values;
 }
 

@@ -35,6 +35,10 @@ inline std::size_t checked_index(int index, std::size_t size, const char* kind,
                          "); repair the index");
 }
 
+// What tinygltf's Node::skin is beside an index.
+inline constexpr int no_skin = -1;
+inline constexpr int broken_skin = -2;
+
 /// Number under `key` of an extension or of extras, `otherwise` when it is not there.
 inline double number_or(const tinygltf::Value& object, const char* key, double otherwise,
                         const std::string& place) {
@@ -61,9 +65,22 @@ inline std::uint16_t light_group_of(const tinygltf::Value& extras, const std::st
 /// Extensions that change nothing but the look of materials may be required: what of them is not
 /// supported is counted where it is used.
 inline bool can_read_extension(std::string_view name) {
+    if (name == "KHR_texture_basisu") return false;
     return name == "KHR_lights_punctual" || name == "KHR_mesh_quantization" ||
            name == "EXT_mesh_gpu_instancing" || name.rfind("KHR_materials_", 0) == 0 ||
            name.find("_texture_") != std::string_view::npos;
+}
+
+/// Why a required extension is refused and what to do about it.
+inline std::string extension_remedy(std::string_view name) {
+    if (name == "KHR_draco_mesh_compression" ||
+        name.find("meshopt_compression") != std::string_view::npos)
+        return "(its meshes are compressed, and nothing here undoes that); export it without "
+               "compression of meshes, or undo it with gltf-transform";
+    if (name == "KHR_texture_basisu")
+        return "(its images are KTX files, and only PNG and JPEG are read); export it with PNG or "
+               "JPEG images";
+    return "(this reader does not know that extension); export it without";
 }
 
 /// @throws Error(unsupported) by name.
@@ -77,10 +94,10 @@ inline void check_version_and_extensions(const tinygltf::Model& model) {
                   ErrorCode::unsupported);
     for (const std::string& name : model.extensionsRequired)
         if (!can_read_extension(name))
-            gltf_fail("extensionsRequired",
-                      "the file cannot be read without " + in_quotes(name) +
-                          "' (this reader does not know that extension); export it without",
-                      ErrorCode::unsupported);
+            gltf_fail(
+                "extensionsRequired",
+                "the file cannot be read without " + in_quotes(name) + " " + extension_remedy(name),
+                ErrorCode::unsupported);
 }
 
 }  // namespace mir::detail

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/io/detail/gltf_check.hpp"
+#include "mir/io/detail/data_uri.hpp"
+#include "mir/io/detail/gltf_accessor.hpp"
 #include "mir/io/detail/image_decoder.hpp"
+#include "mir/io/detail/outside.hpp"
 #include "mir/io/detail/read_file.hpp"
 #include "mir/io/detail/text_number.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <tiny_gltf.h>
 
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -17,37 +18,20 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace mir::detail {
 
-/// A URI with its %20 and the like as the characters that they stand for.
-inline std::string unescaped(std::string_view uri) {
-    std::string text;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned int code = 0;
-        const char* digits = uri.data() + i + 1;
-        if (uri[i] == '%' && i + 2 < uri.size() &&
-            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
-            text += static_cast<char>(code);
-            i += 2;
-        } else {
-            text += uri[i];
-        }
-    }
-    return text;
-}
-
 /// Reads the images of one glTF file that its materials use.
 class GltfImages {
  public:
-    /// @pre the buffer views of the model are checked; images in data URIs keep their bytes.
+    /// @pre images in data URIs keep their bytes.
     GltfImages(const tinygltf::Model& model, std::filesystem::path folder, FileBudget& budget,
                const Limits& limits, Scene& scene, SceneReport& report)
         : model_(model),
           folder_(std::move(folder)),
           budget_(budget),
+          allow_outside_(limits.allow_outside),
           scene_(scene),
           report_(report),
           decoder_(limits, report) {}
@@ -71,6 +55,7 @@ class GltfImages {
     const tinygltf::Model& model_;
     std::filesystem::path folder_;
     FileBudget& budget_;
+    bool allow_outside_;
     Scene& scene_;
     SceneReport& report_;
     ImageDecoder decoder_;
@@ -83,17 +68,24 @@ inline std::optional<std::uint32_t> GltfImages::read(std::size_t at) {
     if (from.bufferView >= 0) {
         const auto index =
             checked_index(from.bufferView, model_.bufferViews.size(), "bufferView", place);
+        check_buffer_view(model_, index);
         const tinygltf::BufferView& view = model_.bufferViews[index];
         const auto& bytes = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
         return decode({bytes.data() + view.byteOffset, view.byteLength}, from, place);
     }
     if (from.uri.empty()) return decode(from.image, from, place);
-    const std::string name = unescaped(from.uri);
-    std::error_code failure;
-    if (!std::filesystem::is_regular_file(folder_ / name, failure)) {
-        ++report_.ignored["image " + in_quotes(name) + " (not found)"];
+    const auto count = [&](const std::string& what) {
+        ++report_.ignored[what];
         return std::nullopt;
-    }
+    };
+    const std::string name = unescaped(from.uri);
+    if (!uri_scheme(from.uri).empty())
+        return count("image " + in_quotes(name) + " (only files beside the scene are read)");
+    if (!allow_outside_ && leads_outside(folder_, name))
+        return count("image outside of the scene's folder");
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(folder_ / name, failure))
+        return count("image " + in_quotes(name) + " (not found)");
     return decode(read_whole_file(folder_ / name, budget_), from, place);
 }
 

@@ -17,26 +17,25 @@ namespace mir::detail {
 /// Places the meshes of a file's nodes, several times where EXT_mesh_gpu_instancing says so.
 class GltfInstances {
  public:
-    /// `parts`: for every mesh of the file, the scene meshes of its primitives. `places` gets one
-    /// for each instance that `scene` gets.
-    GltfInstances(const tinygltf::Model& model,
-                  const std::vector<std::vector<std::uint32_t>>& parts, const Limits& limits,
-                  Scene& scene, Placements& places)
-        : model_(model), parts_(parts), limits_(limits), scene_(scene), places_(places) {}
+    /// `places` gets one for each instance that `scene` gets.
+    GltfInstances(const tinygltf::Model& model, const Limits& limits, Scene& scene,
+                  Placements& places)
+        : model_(model), limits_(limits), scene_(scene), places_(places) {}
 
+    /// `parts`: the scene meshes of the node, which stand at `to_world`.
     /// @throws Error(invalid_input), Error(limit_exceeded) before the instances are stored.
-    void add(const PlacedNode& placed) {
+    void add(const PlacedNode& placed, const std::vector<std::uint32_t>& parts,
+             const DMat4& to_world) {
         const tinygltf::Node& node = model_.nodes[placed.node];
         place_ = node_place(model_, placed.node);
-        const auto& parts = parts_[checked_index(node.mesh, parts_.size(), "mesh", place_)];
         const auto copies = node.extensions.find("EXT_mesh_gpu_instancing");
         if (copies == node.extensions.end()) {
             reserve(parts, 1);
-            return store(parts, placed.to_world);
+            return store(parts, to_world);
         }
         read_copies(copies->second);
         reserve(parts, copies_);
-        for (std::size_t i = 0; i < copies_; ++i) store(parts, placed.to_world * copy_transform(i));
+        for (std::size_t i = 0; i < copies_; ++i) store(parts, to_world * copy_transform(i));
     }
 
  private:
@@ -88,7 +87,6 @@ class GltfInstances {
     }
 
     const tinygltf::Model& model_;
-    const std::vector<std::vector<std::uint32_t>>& parts_;
     const Limits& limits_;
     Scene& scene_;
     Placements& places_;

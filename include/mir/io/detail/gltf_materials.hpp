@@ -124,29 +124,18 @@ class GltfMaterials {
     void textures(const tinygltf::Material& from, Material& to) {
         const auto& pbr = from.pbrMetallicRoughness;
         MaterialTextures& t = to.textures;
-        t.base_color = texture("baseColorTexture", from.values, pbr.baseColorTexture);
-        t.metallic_roughness =
-            texture("metallicRoughnessTexture", from.values, pbr.metallicRoughnessTexture);
-        t.normal = texture("normalTexture", from.additionalValues, from.normalTexture);
-        t.emission = texture("emissiveTexture", from.additionalValues, from.emissiveTexture);
+        t.base_color = texture("baseColorTexture", pbr.baseColorTexture);
+        t.metallic_roughness = texture("metallicRoughnessTexture", pbr.metallicRoughnessTexture);
+        t.normal = texture("normalTexture", from.normalTexture);
+        t.emission = texture("emissiveTexture", from.emissiveTexture);
         t.normal_scale =
             checked_float(from.normalTexture.scale, "scale of a normalTexture", place_);
-        if (!has("occlusionTexture", from.additionalValues, from.occlusionTexture)) return;
-        ignore("texture occlusionTexture");
-    }
-
-    /// A texture without index cannot be told from one of index -1 by its info alone.
-    template <class TextureInfo>
-    bool has(const char* name, const tinygltf::ParameterMap& given, const TextureInfo& info) {
-        if (given.find(name) == given.end() && info.index == -1) return false;
-        (void)checked_index(info.index, model_.textures.size(), "texture", place_ + ", " + name);
-        return true;
+        if (from.occlusionTexture.index >= 0) ignore("texture occlusionTexture");
     }
 
     template <class TextureInfo>
-    Texture texture(const char* name, const tinygltf::ParameterMap& given,
-                    const TextureInfo& info) {
-        if (!has(name, given, info)) return {};
+    Texture texture(const char* name, const TextureInfo& info) {
+        if (info.index < 0) return {};
         int set = 0;
         const Texture to =
             textures_.convert(name, info.index, info.texCoord, info.extensions, place_, set);

@@ -3,40 +3,21 @@
 
 #include "mir/core/limits.hpp"
 #include "mir/io/detail/gltf_arrays.hpp"
+#include "mir/io/detail/gltf_deform.hpp"
 #include "mir/io/detail/gltf_materials.hpp"
+#include "mir/io/detail/gltf_tints.hpp"
 #include "mir/io/detail/unit_direction.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mir::detail {
-
-/// Triangles from the vertex order of a primitive: lists, strips or fans (glTF 2.0, 3.7.2.1).
-/// @pre `mode` is one of the three.
-inline std::vector<TriangleIndices> gltf_triangles(const std::vector<std::uint32_t>& order,
-                                                   int mode) {
-    std::vector<TriangleIndices> triangles;
-    const std::size_t n = order.size();
-    if (n < 3) return triangles;
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
-        triangles.reserve(n / 3);
-        for (std::size_t i = 0; i + 2 < n; i += 3)
-            triangles.push_back({order[i], order[i + 1], order[i + 2]});
-        return triangles;
-    }
-    triangles.reserve(n - 2);
-    for (std::size_t i = 0; i + 2 < n; ++i)
-        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
-            triangles.push_back({order[i + 1], order[i + 2], order[0]});
-        else
-            triangles.push_back({order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
-    return triangles;
-}
 
 /// Turns the primitives of a file into meshes of a scene whose materials are already there.
 class GltfMeshes {
@@ -51,22 +32,38 @@ class GltfMeshes {
           scene_(scene),
           report_(report) {}
 
-    /// For every mesh of the file, the scene meshes of its primitives.
+    /// For every mesh of the file, the scene meshes of its primitives; none for those that no node
+    /// has as they are stored, which `is_plain` tells.
     /// @throws Error(invalid_input), Error(limit_exceeded)
-    [[nodiscard]] std::vector<std::vector<std::uint32_t>> convert_all() {
+    [[nodiscard]] std::vector<std::vector<std::uint32_t>> convert_all(
+        const std::vector<char>& is_plain) {
         std::vector<std::vector<std::uint32_t>> parts(model_.meshes.size());
-        for (std::size_t m = 0; m < parts.size(); ++m) {
-            const std::size_t primitives = model_.meshes[m].primitives.size();
-            if (primitives == 0)
-                gltf_fail(gltf_place("mesh", m, model_.meshes[m].name),
-                          "it has no list of primitives (glTF asks for one at least); repair it");
-            for (std::size_t k = 0; k < primitives; ++k) convert(m, k, parts[m]);
-        }
+        for (std::size_t m = 0; m < parts.size(); ++m)
+            if (is_plain[m] != 0) reserve(m);
+        for (std::size_t m = 0; m < parts.size(); ++m)
+            if (is_plain[m] != 0)
+                parts[m] = convert(m, GltfShape{model_.meshes[m].weights, {}, {}});
         return parts;
     }
 
+    /// The scene meshes of one mesh in a shape of its own.
+    /// @throws Error(invalid_input), Error(limit_exceeded)
+    [[nodiscard]] std::vector<std::uint32_t> convert_shaped(std::size_t m, const GltfShape& shape) {
+        reserve(m);
+        return convert(m, shape);
+    }
+
  private:
-    void convert(std::size_t m, std::size_t k, std::vector<std::uint32_t>& parts) {
+    std::vector<std::uint32_t> convert(std::size_t m, const GltfShape& shape) {
+        std::vector<std::uint32_t> parts;
+        // None where the mesh is broken and no node has it.
+        const std::size_t primitives = model_.meshes[m].primitives.size();
+        for (std::size_t k = 0; k < primitives; ++k) convert(m, k, shape, parts);
+        return parts;
+    }
+
+    void convert(std::size_t m, std::size_t k, const GltfShape& shape,
+                 std::vector<std::uint32_t>& parts) {
         const tinygltf::Primitive& from = model_.meshes[m].primitives[k];
         place_ = gltf_place("mesh", m, model_.meshes[m].name) + ", primitive " + std::to_string(k);
         if (!has_triangles(from)) return;
@@ -75,13 +72,34 @@ class GltfMeshes {
         mesh.material = material_of(from);
         read_triangles(from, mesh);
         if (mesh.triangles.empty()) return ignore("primitive without triangles");
-        read_vertices(from, mesh);
+        read_positions(from, shape, mesh);
         read_coordinates(from, mesh);
         read_colors(from, mesh);
         check_mesh(scene_, mesh);
-        note_unused(from);
+        for (const auto& [name, value] : from.extensions) ignore(name);
         parts.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
         scene_.meshes.push_back(std::move(mesh));
+    }
+
+    /// Bounds the memory of a mesh before any of it is taken: a small file can ask for much, by
+    /// primitives that share accessors.
+    void reserve(std::size_t m) {
+        const tinygltf::Mesh& mesh = model_.meshes[m];
+        for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
+            const tinygltf::Primitive& from = mesh.primitives[k];
+            place_ = gltf_place("mesh", m, mesh.name) + ", primitive " + std::to_string(k);
+            const auto positions = from.attributes.find("POSITION");
+            if (positions == from.attributes.end()) continue;
+            const std::uint64_t vertices = count_of(positions->second);
+            const std::uint64_t order = from.indices >= 0 ? count_of(from.indices) : vertices;
+            const std::uint64_t each =
+                sizeof(Vec3) + from.attributes.contains("NORMAL") * sizeof(Vec3) +
+                from.attributes.contains("COLOR_0") * sizeof(Rgb) + sizeof(Vec2);
+            const bool list = from.mode == TINYGLTF_MODE_TRIANGLES;
+            bytes_ += saturating_mul(std::min(vertices, order), each) +
+                      saturating_mul(list ? order / 3 : order, sizeof(TriangleIndices));
+            check_limit(bytes_, limits_.mesh_bytes, "mesh_bytes");
+        }
     }
 
     void ignore(const std::string& what) { ++report_.ignored[what]; }
@@ -116,8 +134,8 @@ class GltfMeshes {
 
     /// Number of elements of an accessor that nothing has been read from yet.
     [[nodiscard]] std::uint64_t count_of(int accessor) const {
-        return model_
-            .accessors[checked_index(accessor, model_.accessors.size(), "accessor", place_)]
+        return accessor_elements(
+                   model_, checked_index(accessor, model_.accessors.size(), "accessor", place_))
             .count;
     }
 
@@ -138,14 +156,18 @@ class GltfMeshes {
         mesh.triangles = gltf_triangles(order, from.mode);
     }
 
-    void read_vertices(const tinygltf::Primitive& from, Mesh& mesh) {
+    void read_positions(const tinygltf::Primitive& from, const GltfShape& shape, Mesh& mesh) {
         const int positions = from.attributes.at("POSITION");
-        vertices_ += count_of(positions);
+        choice_ = choose_vertices(mesh.triangles, count_of(positions));
+        vertices_ += choice_.size();
         check_limit(vertices_, limits_.vertices, "vertices");
-        mesh.positions = read_vectors<Vec3>(model_, positions, place_);
+        mesh.positions = read_vertices<Vec3>(model_, positions, choice_, "positions", place_);
         const auto normals = from.attributes.find("NORMAL");
-        if (normals == from.attributes.end()) return;
-        mesh.normals = read_vectors<Vec3>(model_, normals->second, place_);
+        if (normals != from.attributes.end())
+            mesh.normals = read_vertices<Vec3>(model_, normals->second, choice_, "normals", place_);
+        morph(model_, from, shape.weights, choice_, place_, mesh);
+        if (!shape.joints.empty())
+            bend(JointBlend(model_, from, shape.joints, choice_, place_), shape.origin, mesh);
         bool all_directions = true;
         for (Vec3& n : mesh.normals) {
             n = unit_direction(n);
@@ -161,29 +183,37 @@ class GltfMeshes {
         const auto found = from.attributes.find("TEXCOORD_" + std::to_string(set));
         if (found == from.attributes.end())
             return ignore("textured mesh without texture coordinates");
-        mesh.texture_coordinates = read_vectors<Vec2>(model_, found->second, place_);
+        mesh.texture_coordinates =
+            read_vertices<Vec2>(model_, found->second, choice_, "texture coordinates", place_);
     }
 
-    /// Linear, with an alpha that nothing here uses.
+    /// Linear. Alpha cuts out where the material is a mask, and does nothing else.
     void read_colors(const tinygltf::Primitive& from, Mesh& mesh) {
         const auto found = from.attributes.find("COLOR_0");
         if (found == from.attributes.end()) return;
         const auto at = checked_index(found->second, model_.accessors.size(), "accessor", place_);
+        std::vector<float> alpha;
         const auto add = [&](const auto& colors) {
             for (const auto& c : colors)
                 mesh.colors.push_back({unit_factor(c.x, "COLOR_0", place_, report_),
                                        unit_factor(c.y, "COLOR_0", place_, report_),
                                        unit_factor(c.z, "COLOR_0", place_, report_)});
         };
-        if (model_.accessors[at].type == TINYGLTF_TYPE_VEC4)
-            add(read_vectors<Vec4>(model_, found->second, place_));
-        else
-            add(read_vectors<Vec3>(model_, found->second, place_));
+        if (model_.accessors[at].type == TINYGLTF_TYPE_VEC4) {
+            const auto colors =
+                read_vertices<Vec4>(model_, found->second, choice_, "colors", place_);
+            add(colors);
+            for (const Vec4& c : colors)
+                alpha.push_back(unit_factor(c.w, "COLOR_0", place_, report_));
+        } else {
+            add(read_vertices<Vec3>(model_, found->second, choice_, "colors", place_));
+        }
+        if (from.material >= 0) tints_.apply(is_unlit(from), alpha, scene_, report_, mesh);
     }
 
-    void note_unused(const tinygltf::Primitive& from) {
-        if (!from.targets.empty()) ignore("morph targets");
-        for (const auto& [name, value] : from.extensions) ignore(name);
+    [[nodiscard]] bool is_unlit(const tinygltf::Primitive& from) const {
+        return model_.materials[static_cast<std::size_t>(from.material)].extensions.contains(
+            "KHR_materials_unlit");
     }
 
     const tinygltf::Model& model_;
@@ -194,6 +224,9 @@ class GltfMeshes {
     std::optional<std::uint32_t> default_material_;
     std::uint64_t triangles_ = 0;
     std::uint64_t vertices_ = 0;
+    std::uint64_t bytes_ = 0;
+    VertexChoice choice_;  ///< of the primitive that is read
+    GltfTints tints_;
     std::string place_;
 };
 

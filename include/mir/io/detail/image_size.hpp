@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/io/detail/check_input.hpp"
+#include "mir/io/detail/jpeg_tables.hpp"
 
 #include <algorithm>
 #include <array>
@@ -96,7 +97,10 @@ inline std::uint64_t checked_texels(ByteSpan bytes, const std::string& place) {
         fail_at(place, "it is no image (its " + std::to_string(bytes.size()) + " bytes announce " +
                            std::to_string(size.width) + " x " + std::to_string(size.height) +
                            " pixels); repair or export the image again");
-    if (is_png(bytes)) check_png_chunks(bytes, place);
+    if (is_png(bytes))
+        check_png_chunks(bytes, place);
+    else
+        check_jpeg_tables(bytes, place);
     return size.width * size.height;
 }
 
