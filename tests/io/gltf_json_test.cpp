@@ -141,7 +141,8 @@ TEST_CASE("a message about a type names place, path, what is there and what is w
     json long_name = everything_json();
     long_name["nodes"][0]["name"] = std::string(119, 'x') + "\xc3\xa4" + std::string(9000, 'y');
     long_name["nodes"][0]["scale"] = nullptr;
-    CHECK(has(says(long_name), "node 0 '" + std::string(119, 'x') + "...': scale is null"));
+    CHECK(has(says(long_name), "node 0 '" + std::string(119, 'x') + "\xc3\xa4" +
+                                   std::string(63, 'y') + "... (9121 bytes)': scale is null"));
     CHECK(has(changed("/scene", "hello"), "scene.gltf: scene is text, where a whole number"));
     CHECK(has(changed("/asset/version", 2.0), "asset.version is 2.0, where text is wanted"));
     CHECK(has(changed("/nodes/0/rotation", json::array({1, 2})),
