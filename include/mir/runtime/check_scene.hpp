@@ -176,9 +176,10 @@ inline void add_lobe_warning(const RenderResult& result, std::vector<std::string
     const double share = static_cast<double>(result.statistics.non_lambertian_share) *
                          share_of_picture(result.indirect, result.beauty);
     if (share <= 0.05) return;
-    warnings.push_back("reflections in glossy surfaces bring " + rounded(100.0 * share) +
-                       " % of the picture's light, and VPLs spread it evenly; --glossy keeps its "
-                       "direction, --integrator path too");
+    warnings.push_back(
+        "reflections in glossy surfaces bring " + rounded(100.0 * share) +
+        " % of the picture's light, and VPLs spread it evenly; --sampler ir --glossy "
+        "keeps its direction, --integrator path too");
 }
 
 }  // namespace detail
