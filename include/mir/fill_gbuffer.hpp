@@ -28,9 +28,19 @@ struct CameraRays {
 /// First phase: traces the camera ray of every luxel of `gbuffer`, which holds the rows from
 /// `first_row` on of the luxel image. `rays(x, y)` is the ray of a luxel, as in CameraRays. Points
 /// are lifted.
+/// @throws Error(invalid_argument) when rays of an image's luxels are given and the G-buffer has
+///         columns or rows that the image does not have.
 template <Bsdf B, class Rays, RayCaster R, Executor E>
 void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t first_row,
                   const Rays& rays, const R& caster, const SurfaceTable<B>& surfaces, E& executor) {
+    if constexpr (requires { rays.grid.luxels(); }) {
+        const Extent image = rays.grid.luxels();
+        const Extent band = gbuffer.extent();
+        expects(band.width == image.width && first_row <= image.height &&
+                    band.height <= image.height - first_row,
+                "a G-buffer does not fit the image of its camera rays (its width differs, or its "
+                "rows end below the last); make it of the grid's luxels, all columns wide");
+    }
     struct Row {
         TileIndex tile;
         std::uint32_t y;

@@ -281,6 +281,7 @@
 #include "mir/sched/reconstruct_visibility_parallel.hpp"
 #include "mir/sched/shading_only.hpp"
 #include "mir/shading/bsdf_sample.hpp"
+#include "mir/shading/check_bound.hpp"
 #include "mir/shading/contribution.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/direct_samples.hpp"

@@ -6,6 +6,7 @@
 #include "mir/concepts/scheduler.hpp"
 #include "mir/concepts/shading.hpp"
 #include "mir/concepts/vpl_set.hpp"
+#include "mir/shading/check_bound.hpp"
 
 namespace mir {
 
@@ -23,7 +24,8 @@ struct Inputs {
 /// W m^-2 sr^-1, one element per luxel of the G-buffer in row order. Emission is not included.
 ///
 /// The scheduler decides where and when things run, never what comes out.
-/// @throws Error whatever the backend reports.
+/// @throws Error(invalid_argument) when the shading has a bound that is none (check_bound()), and
+///         whatever the backend reports.
 template <class S, TiledGBuffer G, VplSet P, VisibilitySource V, Shading F>
 Image<Rgb> reconstruct(const S& scheduler, const G& gbuffer, P vpls, V visibility, F shading) {
     using In = Inputs<G, P, V, F>;
@@ -33,6 +35,7 @@ Image<Rgb> reconstruct(const S& scheduler, const G& gbuffer, P vpls, V visibilit
                   "for both");
     static_assert(Scheduler<S, In>,
                   "mir: the first argument of reconstruct() is not a Scheduler for these inputs");
+    check_shading(shading);
     const In in{gbuffer, vpls, visibility, shading};
     Image<Rgb> luxels(gbuffer.extent());
     auto pipeline = scheduler.open(in, luxels);

@@ -8,6 +8,7 @@
 #include "mir/data/visibility_matrix.hpp"
 #include "mir/normalise/detail/response_bands.hpp"
 #include "mir/sched/detail/lit_vpls.hpp"
+#include "mir/shading/check_bound.hpp"
 
 #include <bit>
 
@@ -99,6 +100,7 @@ template <TiledGBuffer G, VplSet P, KnownVisibility V, Shading F, Executor E>
 void ResponseSum::add_band(const G& gbuffer, P vpls, V bits, const F& shading, E& executor,
                            InstructionSet instructions) {
     bands_.check(gbuffer.extent(), gbuffer.tiles(), vpls.size());
+    check_shading(shading);
     const std::uint32_t count = vpls.size();
     const std::uint32_t rows =
         (gbuffer.extent().height + BlockedLayout::side - 1) / BlockedLayout::side;

@@ -7,6 +7,7 @@
 #include "mir/paths/path.hpp"
 #include "mir/scene/camera.hpp"
 #include "mir/scene/light_table.hpp"
+#include "mir/shading/check_bound.hpp"
 #include "mir/shading/surface_table.hpp"
 
 #include <cmath>
@@ -50,6 +51,7 @@ struct PathWorld {
 
     /// Views that lie in space `S`; `geometry_bound`, m^-2, limits the geometry term between x1 and
     /// x2.
+    /// @throws Error(invalid_argument) as check_bound(), and for an aspect ratio that is none.
     PathWorld(const GeometryView<S>& geometry_view, const LightTableView<S>& light_table,
               const SurfaceTableView<S, B>& surface_table, R ray_caster, V sight,
               const CameraOptics& optics, float film_aspect = 1.0f,
@@ -62,7 +64,11 @@ struct PathWorld {
           camera(optics),
           aspect(film_aspect),
           bound(geometry_bound),
-          area_unit(unit_for(geometry_view.ray_offset)) {}
+          area_unit(unit_for(geometry_view.ray_offset)) {
+        check_bound(geometry_bound);
+        expects(film_aspect > 0.0f && film_aspect <= std::numeric_limits<float>::max(),
+                "the aspect ratio of a film is not a positive number; give width / height");
+    }
 
     /// Views of what the host has.
     PathWorld(const WorldGeometry& world_geometry, const LightTable& light_table,
