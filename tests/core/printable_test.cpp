@@ -92,6 +92,37 @@ TEST_CASE("what is no UTF-8 is shown byte by byte") {
     }
 }
 
+namespace {
+
+/// `count` times `text`.
+std::string repeated(const std::string& text, std::size_t count) {
+    std::string all;
+    for (std::size_t i = 0; i < count; ++i) all += text;
+    return all;
+}
+
+/// What printable() makes of `count` times a character, which it shows as `one`: all of it, or as
+/// many as fit before an ending that says how long it is.
+void check_cut(const std::string& character, const std::string& one, std::size_t count,
+               std::size_t longest) {
+    const std::string text = repeated(character, count);
+    const std::string all = repeated(one, count);
+    const std::string shown = printable(text, longest);
+    if (all.size() <= longest) {
+        if (shown != all) FAIL(shown);
+        return;
+    }
+    const std::string ending = "... (" + std::to_string(text.size()) + " bytes)";
+    if (!shown.ends_with(ending)) FAIL(shown);
+    const std::string front = shown.substr(0, shown.size() - ending.size());
+    const bool whole = front.size() % one.size() == 0 && all.starts_with(front);
+    const bool fits = shown.size() <= std::max(longest, ending.size());
+    const bool most = shown.size() + one.size() > longest;
+    if (!whole || !fits || !most) FAIL(shown << ", " << longest);
+}
+
+}  // namespace
+
 TEST_CASE("long text is cut between characters and says how long it is") {
     CHECK(printable(std::string(200, 'a')) == std::string(200, 'a'));
     CHECK(printable(std::string(201, 'a')) == std::string(185, 'a') + "... (201 bytes)");
@@ -100,24 +131,8 @@ TEST_CASE("long text is cut between characters and says how long it is") {
          {"a", "\n", "\x1b", "\xff", "\xc3\xa4", "\xe2\x80\xae", "\xf0\x9f\x98\x80"}) {
         const std::string one = printable(character);
         for (std::size_t count : {0u, 1u, 7u, 30u, 100u, 1000u})
-            for (std::size_t longest = 0; longest < 300; ++longest) {
-                std::string text;
-                std::string all;
-                for (std::size_t i = 0; i < count; ++i) text += character;
-                for (std::size_t i = 0; i < count; ++i) all += one;
-                const std::string shown = printable(text, longest);
-                if (all.size() <= longest) {
-                    if (shown != all) FAIL(shown);
-                    continue;
-                }
-                const std::string ending = "... (" + std::to_string(text.size()) + " bytes)";
-                if (!shown.ends_with(ending)) FAIL(shown);
-                const std::string front = shown.substr(0, shown.size() - ending.size());
-                const bool whole = front.size() % one.size() == 0 && all.starts_with(front);
-                const bool fits = shown.size() <= std::max(longest, ending.size());
-                const bool most = shown.size() + one.size() > longest;
-                if (!whole || !fits || !most) FAIL(shown << ", " << longest);
-            }
+            for (std::size_t longest = 0; longest < 300; ++longest)
+                check_cut(character, one, count, longest);
     }
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("lines of MTL that say nothing are counted, and the file is read") {
         INFO(key);
         const Ignored once = {{"MTL '" + key + "' without a value", 1}};
         CHECK(lost(key) == once);
-        CHECK(lost(key + " \t\n" + key) == once);
+        CHECK(lost(std::string(key).append(" \t\n").append(key)) == once);
     }
     CHECK(material("Kd .1 .2 .3\nKd\nmap_Kd ").base_color == Rgb{.1f, .2f, .3f});
     CHECK(lost("Kd # none") == Ignored{{"MTL 'Kd' without a value", 1}});

@@ -120,8 +120,10 @@ TEST_CASE("an empty field of a corner means that it has none") {
 TEST_CASE("a face with normals at some corners alone is flat, and counted") {
     for (const std::string face : {"f 1//1 2//1 3", "f 1// 2//1 3//1", "f 1//1 2 3/"}) {
         INFO(face);
-        const auto loaded =
-            read_obj_text(obj_corners + "vn .6 0 .8\n" + face + "\nf 1//1 3//1 4//1\n");
+        const auto loaded = read_obj_text(std::string(obj_corners)
+                                              .append("vn .6 0 .8\n")
+                                              .append(face)
+                                              .append("\nf 1//1 3//1 4//1\n"));
         const mir::Mesh& mesh = loaded.scene.meshes.at(0);
         CHECK(loaded.report.ignored ==
               Ignored{{"face with normals at some corners alone (shaded flat)", 1}});

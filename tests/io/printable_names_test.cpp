@@ -68,8 +68,11 @@ TEST_CASE("names of a PLY file and of files themselves can be printed") {
     for (const auto& [what, times] : mir::read_scene(file).report.ignored)
         check_says(what, shown_red);
     for (const std::string ending : {".obj", ".glb", ".ply"})
-        check_says(refusal([&] { mir::read_scene(folder / ("none" + raw_red + ending)); }),
-                   "none" + shown_red + ending + ": it cannot be read (no such file)");
+        check_says(refusal([&] {
+                       mir::read_scene(folder / std::string("none").append(raw_red).append(ending));
+                   }),
+                   std::string("none").append(shown_red).append(ending).append(
+                       ": it cannot be read (no such file)"));
 }
 
 TEST_CASE("names in an OpenEXR file can be printed") {

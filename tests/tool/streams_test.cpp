@@ -11,7 +11,7 @@ namespace {
 
 /// Runs `mir ARGUMENTS` by a shell; `before` comes before it, `behind` behind it.
 Outcome run_in_shell(const std::string& before, const Words& arguments, const std::string& behind) {
-    const std::string line = before + " exec \"$0\" \"$@\" " + behind;
+    const std::string line = before + R"( exec "$0" "$@" )" + behind;
     return RunningProgram(Words{"/bin/sh", "-c", line, MIR_TOOL} + arguments).wait();
 }
 

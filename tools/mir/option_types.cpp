@@ -21,7 +21,7 @@ std::string misread(const std::string& value) {
 
 CLI::Validator between(double low, double high, const std::string& text) {
     return {[=](std::string& value) {
-                if (const std::string why = misread(value); !why.empty()) return why;
+                if (std::string why = misread(value); !why.empty()) return why;
                 double number = 0.0;
                 if (!CLI::detail::lexical_cast(value, number))
                     return "'" + value + "' is no number";
@@ -33,7 +33,7 @@ CLI::Validator between(double low, double high, const std::string& text) {
 
 CLI::Validator seed_number() {
     return {[](std::string& value) {
-                if (const std::string why = misread(value); !why.empty()) return why;
+                if (std::string why = misread(value); !why.empty()) return why;
                 std::uint64_t number = 0;
                 if (read_whole(value, number)) return std::string();
                 return "'" + value + "' is no seed; give 0 to 18446744073709551615";
