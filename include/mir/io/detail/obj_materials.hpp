@@ -68,7 +68,7 @@ class ObjMaterials : public tinyobj::MaterialReader {
     /// A material that no face has had yet.
     struct Unused {
         MtlMaterial text;
-        std::string library;
+        std::string read_from;  ///< name of its library
     };
 
     [[nodiscard]] bool exists(const std::string& library) const {
@@ -154,7 +154,7 @@ inline void ObjMaterials::use(std::uint32_t material) {
     if (node.empty()) return;
     const Unused& from = node.mapped();
     for (const auto& [what, times] : from.text.lost.ignored) report_.ignored[what] += times;
-    textures_.begin_library(from.library);
+    textures_.begin_library(from.read_from);
     textures_of(from.text, scene_.materials[material]);
 }
 
