@@ -154,6 +154,20 @@ TEST_CASE("a material that nothing is made of loses nothing") {
     CHECK(used.report.ignored.size() == 3);
 }
 
+TEST_CASE("a material that nothing is made of may have values that mean nothing") {
+    const std::string wrong =
+        GENERATE(R"({"name":"m","emissiveFactor":[-1,0,0]})",
+                 R"({"name":"m","extensions":{"KHR_materials_ior":{"ior":0.5}}})",
+                 R"({"name":"m","alphaMode":"MASK","alphaCutoff":-1})");
+    const std::string text =
+        with(triangle_json(), R"("scene":0)", R"("materials":[)" + wrong + R"(],"scene":0)");
+    const auto unused = read_text(text, triangle_bytes());
+    CHECK(unused.scene.materials.at(0).name == "m");
+    CHECK_FALSE(unused.scene.materials.at(0).emits());
+    const std::string used = with(text, R"("indices":1)", R"("indices":1,"material":0)");
+    CHECK_THROWS_AS(read_text(used, triangle_bytes()), mir::Error);
+}
+
 TEST_CASE("a binary file is read with its chunks, others skipped") {
     CHECK(read_text(triangle_glb(), "").report.triangles == 1);
     const std::string other = chunk(0x12345678, "abcd");

@@ -134,6 +134,16 @@ TEST_CASE("of materials with one name the first is taken, and the others are cou
               .report.ignored.empty());
 }
 
+TEST_CASE("materials that no face uses may have lines that mean nothing") {
+    const std::string text = "mtllib my scene.mtl\n" + obj_corners;
+    const std::string wrong = GENERATE("Kd red 0 0\n", "Ke -1 0 0\n", "Kd 1 0\n", "Ns nan\n");
+    const std::string library = "Kd what\nnewmtl a\n" + wrong + "Kd 0 1 0\nnewmtl b\nKd 1 0 0\n";
+    const auto unused = read_obj_text(text + "usemtl b\nf 1 2 3\n", library);
+    CHECK(unused.scene.materials.at(0).name == "a");
+    CHECK(unused.scene.materials.at(1).base_color == Rgb{1, 0, 0});
+    CHECK_THROWS_AS(read_obj_text(text + "usemtl a\nf 1 2 3\n", library), mir::Error);
+}
+
 TEST_CASE("materials that no face uses lose nothing") {
     const std::string glass =
         "newmtl glass\nKd 2 0 0\nd .5\nillum 7\nfoo\nmap_Kd none.png\nKs 1 0 0\nnewmtl glass\n";

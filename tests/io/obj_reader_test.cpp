@@ -166,7 +166,7 @@ TEST_CASE("damage in an OBJ file is refused with its line and a remedy") {
         const char* says;
         std::string mtl;
     };
-    const std::string lib = "mtllib my scene.mtl\nnothing\n";
+    const std::string lib = "mtllib my scene.mtl\n" + obj_corners + "usemtl a\nf 1 2 3\n";
     const auto damage = GENERATE_COPY(values<Damage>({
         {"v 0 0 nan\n", "line 1: a vertex is not a finite number", ""},
         {"\n\nv 0 1e39 0\n", "line 3: a vertex is not a finite number", ""},

@@ -21,12 +21,14 @@ enum class ExrPrecision { half, single };
 
 /// Channel letter of a layer with one number per pixel.
 enum class ExrScalar {
-    depth,     ///< Z
-    luminance  ///< Y, also for counts and errors
+    depth,      ///< Z
+    luminance,  ///< Y, also for counts and errors
+    alpha       ///< A, 0..1; colours of its layer are multiplied with it
 };
 
 /// One image of an OpenEXR file. The type of the image names the channels: Rgb gives R G B, Vec3
-/// gives X Y Z, float gives Z or Y. `image` is not owned and must outlive the call that writes it.
+/// gives X Y Z, float gives Z, Y or A. `image` is not owned and must outlive the call that writes
+/// it.
 struct ExrLayer {
     std::string name;  ///< "albedo" gives albedo.R and so on; empty for the beauty
     /// Not null; every layer of a file has the same size.
@@ -63,6 +65,11 @@ const Image<T>& checked_image(const Image<T>* image, Extent extent, const std::s
                     " pixels); give every layer of a file the same size");
 }
 
+inline const char* letter_of(ExrScalar scalar) {
+    if (scalar == ExrScalar::alpha) return "A";
+    return scalar == ExrScalar::depth ? "Z" : "Y";
+}
+
 /// Adds the channels of `layer` to `channels`.
 /// @throws Error(invalid_argument) when its image is missing or has another size.
 inline void append_channels(std::vector<ExrChannel>& channels, const ExrLayer& layer,
@@ -85,7 +92,7 @@ inline void append_channels(std::vector<ExrChannel>& channels, const ExrLayer& l
     } else {
         const auto* scalar = std::get<const Image<float>*>(layer.image);
         const float& front = checked_image(scalar, extent, layer.name).pixels().front();
-        add(layer.scalar == ExrScalar::depth ? "Z" : "Y", &front, 1);
+        add(letter_of(layer.scalar), &front, 1);
     }
 }
 

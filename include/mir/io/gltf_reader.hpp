@@ -70,6 +70,19 @@ inline std::vector<char> used_materials(const tinygltf::Model& model) {
     return used;
 }
 
+/// Material `index`, which no primitive has: of values that mean nothing it keeps its name alone.
+inline Material convert_unused(GltfMaterials& materials, const tinygltf::Model& model,
+                               std::size_t index) {
+    try {
+        return materials.convert(index);
+    } catch (const Error& failure) {
+        if (failure.code() != ErrorCode::invalid_input) throw;
+        Material name_alone;
+        name_alone.name = model.materials[index].name;
+        return name_alone;
+    }
+}
+
 /// Adds the materials of the file; returns the set of texture coordinates of each. What materials
 /// ask for and do not get is a loss where something is made of them.
 inline std::vector<int> convert_materials(const tinygltf::Model& model, GltfImages& images,
@@ -80,9 +93,8 @@ inline std::vector<int> convert_materials(const tinygltf::Model& model, GltfImag
     const std::vector<char> is_used = used_materials(model);
     std::vector<int> coordinates;
     for (std::size_t i = 0; i < model.materials.size(); ++i) {
-        GltfMaterials& materials = is_used[i] != 0 ? used : unused;
-        loaded.scene.add(materials.convert(i));
-        coordinates.push_back(materials.coordinates());
+        loaded.scene.add(is_used[i] != 0 ? used.convert(i) : convert_unused(unused, model, i));
+        coordinates.push_back(is_used[i] != 0 ? used.coordinates() : unused.coordinates());
     }
     return coordinates;
 }

@@ -26,7 +26,8 @@ struct MtlMaterial {
     /// By keywords; what has one number has it three times. Kt is found as Tf.
     std::map<std::string, Numbers, std::less<>> numbers;
     std::map<std::string, ObjTextureUse, std::less<>> images;
-    SceneReport lost;  ///< `ignored`: what is not read of it
+    SceneReport lost;              ///< `ignored`: what is not read of it
+    std::optional<Error> failure;  ///< of the first line that means nothing
 
     [[nodiscard]] std::optional<Numbers> find(std::string_view keyword) const {
         const auto found = numbers.find(keyword);
@@ -50,12 +51,13 @@ class MtlText {
  public:
     explicit MtlText(std::string library) : library_(std::move(library)) {}
 
-    /// The materials in their order, each name once. `text` has plain_lines().
-    /// @throws Error(invalid_input) with the library's name and the line.
+    /// The materials in their order, each name once, with their failures, which are of no matter
+    /// until a face has the material. `text` has plain_lines().
     [[nodiscard]] std::vector<MtlMaterial> read(const std::string& text);
 
  private:
     void begin(const std::string& name);
+    void keep_failure(std::string_view keyword, std::string_view rest);
     void statement(std::string_view keyword, std::string_view rest);
     void color(std::string_view keyword, std::string_view rest);
     void number(std::string_view keyword, std::string_view rest);
@@ -84,11 +86,19 @@ inline std::vector<MtlMaterial> MtlText::read(const std::string& text) {
         const std::string_view keyword = keyword_of(line);
         if (keyword.empty()) continue;
         place_ = printable(library_) + ", line " + std::to_string(count);
-        statement(keyword,
-                  std::string_view(line).substr(
-                      static_cast<std::size_t>(keyword.data() - line.data()) + keyword.size()));
+        keep_failure(keyword,
+                     std::string_view(line).substr(
+                         static_cast<std::size_t>(keyword.data() - line.data()) + keyword.size()));
     }
     return std::move(materials_);
+}
+
+inline void MtlText::keep_failure(std::string_view keyword, std::string_view rest) {
+    try {
+        statement(keyword, rest);
+    } catch (const Error& failure) {
+        if (!to_->failure) to_->failure = failure;
+    }
 }
 
 inline void MtlText::begin(const std::string& name) {

@@ -61,7 +61,8 @@ class ObjMaterials : public tinyobj::MaterialReader {
     }
 
     /// Completes a material that a face has.
-    /// @throws Error(invalid_input) when an image of it is broken; Error(limit_exceeded)
+    /// @throws Error(invalid_input) when it has values that mean nothing or an image of it is
+    ///         broken; Error(limit_exceeded)
     void use(std::uint32_t material);
 
  private:
@@ -78,6 +79,7 @@ class ObjMaterials : public tinyobj::MaterialReader {
     void check_inside(const std::string& library) const;
     void read(const std::string& library);
     void add(MtlMaterial text, const std::string& library);
+    [[nodiscard]] Material converted(MtlMaterial& from);
     [[nodiscard]] Material convert(MtlMaterial& from);
     void interface_of(MtlMaterial& from, Material& to);
     void textures_of(const MtlMaterial& from, Material& to);
@@ -137,7 +139,7 @@ inline void ObjMaterials::read(const std::string& library) {
 /// Of two materials with one name the first is taken.
 inline void ObjMaterials::add(MtlMaterial text, const std::string& library) {
     place_ = printable(library) + ", material " + in_quotes(text.name);
-    Material material = convert(text);
+    Material material = converted(text);
     const auto known = indices_.find(text.name);
     if (known != indices_.end()) {
         const auto unused = unused_.find(known->second);
@@ -153,9 +155,22 @@ inline void ObjMaterials::use(std::uint32_t material) {
     const auto node = unused_.extract(material);
     if (node.empty()) return;
     const Unused& from = node.mapped();
+    if (from.text.failure) throw Error(*from.text.failure);
     for (const auto& [what, times] : from.text.lost.ignored) report_.ignored[what] += times;
     textures_.begin_library(from.read_from);
     textures_of(from.text, scene_.materials[material]);
+}
+
+/// What fails is kept for the first face that has the material.
+inline Material ObjMaterials::converted(MtlMaterial& from) {
+    try {
+        if (!from.failure) return convert(from);
+    } catch (const Error& failure) {
+        from.failure = failure;
+    }
+    Material name_alone;
+    name_alone.name = from.name;
+    return name_alone;
 }
 
 inline Material ObjMaterials::convert(MtlMaterial& from) {
