@@ -50,6 +50,11 @@ TEST_CASE("the work of a monitor is its contributions, or its gathers where disc
     monitor.planned_contributions = 8;
     monitor.contributions = 2;
     CHECK(mir::work_of(monitor).unit_share() == 0.25);
+    monitor.looping_contributions = 4;
+    CHECK(mir::work_of(monitor).unit_share() == 0.25);
+    monitor.begin_loop(4);
+    monitor.blocks = 3;
+    CHECK(mir::work_of(monitor).unit_share() == 0.625);
     monitor.planned_gathers = 4;
     monitor.gathers = 3;
     CHECK(mir::work_of(monitor).unit_share() == 0.75);

@@ -13,6 +13,7 @@ namespace mir {
 struct Monitor {
     std::atomic<std::uint64_t> contributions{0};          ///< luxel-VPL pairs done
     std::atomic<std::uint64_t> planned_contributions{0};  ///< 0 until known
+    std::atomic<std::uint64_t> looping_contributions{0};  ///< of the present loop, done as it is
     std::atomic<std::uint64_t> gathers{0};                ///< of a MicroRender: luxels done
     std::atomic<std::uint64_t> planned_gathers{0};        ///< times bounces; 0 until known
     std::atomic<std::uint32_t> bands{0};                  ///< of the image: begun
@@ -26,7 +27,8 @@ struct Monitor {
     /// Nothing done and nothing known of the pass that begins, `passes` being behind it.
     void begin_pass(std::uint32_t done) {
         passes = done;
-        contributions = planned_contributions = gathers = planned_gathers = 0;
+        contributions = planned_contributions = looping_contributions = 0;
+        gathers = planned_gathers = 0;
         bands = planned_bands = 0;
     }
 

@@ -136,6 +136,11 @@ auto ImageBands<B, Engine, E>::make(std::uint32_t i) const -> Band {
 template <Bsdf B, class Engine, Executor E>
 void ImageBands<B, Engine, E>::find_visible(Band& band, VplSpan<Space::host> vpls) const {
     const auto stage = context_.clock.measure(&StageSeconds::visibility);
+    const std::uint64_t pairs = band.extent().area() * vpls.size();
+    if (context_.monitor != nullptr) {
+        context_.monitor->begin_loop(0);  // what the loop before has done is none of these
+        context_.monitor->looping_contributions = pairs;
+    }
     if constexpr (BandEngine<Engine>) {
         context_.engine.find_visible(band.luxels, vpls, context_.settings.limits);
     } else {
@@ -147,8 +152,9 @@ void ImageBands<B, Engine, E>::find_visible(Band& band, VplSpan<Space::host> vpl
             fill_visibility(*band.visibility, band.gbuffer, vpls, context_.engine.visibility(),
                             context_.executor);
     }
-    if (context_.monitor != nullptr)
-        context_.monitor->contributions += band.extent().area() * vpls.size();
+    if (context_.monitor == nullptr) return;
+    context_.monitor->looping_contributions = 0;
+    context_.monitor->contributions += pairs;
 }
 
 template <Bsdf B, class Engine, Executor E>

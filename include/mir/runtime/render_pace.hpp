@@ -33,6 +33,16 @@ struct RenderWork {
     }
 };
 
+namespace detail {
+
+/// What the loop under way has done of the contributions that count when it ends.
+inline std::uint64_t looping_contributions(const Monitor& monitor, const RenderWork& work) {
+    const auto all = static_cast<double>(monitor.looping_contributions.load());
+    return static_cast<std::uint64_t>(all * work.stage_share().value_or(0.0));
+}
+
+}  // namespace detail
+
 /// Reads `monitor`, which may change meanwhile.
 inline RenderWork work_of(const Monitor& monitor) {
     RenderWork work;
@@ -41,7 +51,9 @@ inline RenderWork work_of(const Monitor& monitor) {
     work.all_blocks = monitor.planned_blocks.load();
     const std::uint64_t gathers = monitor.planned_gathers.load();
     work.unit = gathers > 0 ? "gathers" : "contributions";
-    work.units = gathers > 0 ? monitor.gathers.load() : monitor.contributions.load();
+    work.units = gathers > 0
+                     ? monitor.gathers.load()
+                     : monitor.contributions.load() + detail::looping_contributions(monitor, work);
     work.all_units = gathers > 0 ? gathers : monitor.planned_contributions.load();
     work.begun_bands = monitor.bands.load();
     work.bands = monitor.planned_bands.load();
