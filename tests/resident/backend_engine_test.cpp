@@ -80,6 +80,7 @@ void check_same(const RenderResult& a, const RenderResult& b) {
     CHECK(same_bits(a.direct, b.direct));
     CHECK(same_bits(a.indirect, b.indirect));
     CHECK(same_bits(a.removed, b.removed));
+    CHECK(same_bits(a.coverage, b.coverage));
     REQUIRE(a.bounces.size() == b.bounces.size());
     for (std::size_t i = 0; i < a.bounces.size(); ++i) CHECK(same_bits(a.bounces[i], b.bounces[i]));
     CHECK(same_bits(a.guides.albedo, b.guides.albedo));

@@ -20,7 +20,8 @@ struct BareObject {
     /// Direct light of a picture that looks at the ground beside the triangle, which is at its
     /// height.
     [[nodiscard]] mir::Image<mir::Rgb> ground(const Words& more) const {
-        const Words view{"--ground", "--eye", "6,8,3", "--look-at", "6,5,0", "--fov", "20"};
+        const Words view{"--ground", "--eye", "6,8,3", "--look-at", "6,5,0",
+                         "--fov",    "20",    "--aov", "direct"};
         REQUIRE(run_mir(small_render(picture, scene) + view + more).exit_code == 0);
         return mir::read_exr(picture, "direct").image;
     }

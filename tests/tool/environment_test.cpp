@@ -25,7 +25,7 @@ class DarkFloor {
     [[nodiscard]] std::string sky() const { return (folder_ / "sky.exr").string(); }
     [[nodiscard]] std::string picture() const { return (folder_ / "out.exr").string(); }
     [[nodiscard]] Words under_sky() const {
-        return small_render(picture(), scene()) + Words{"--environment", sky()};
+        return small_render(picture(), scene()) + Words{"--environment", sky(), "--aov", "all"};
     }
 
  private:

@@ -65,7 +65,7 @@ TEST_CASE("a distance that no float holds moves a picture by no more than roundi
     const std::string near = (folder / "near.exr").string();
     const std::string far = (folder / "far.exr").string();
     // Direct light alone: where a bit differs, paths part for good. Shadow rays part at edges.
-    const Words how{"--integrator", "path", "--bounces", "1"};
+    const Words how{"--integrator", "path", "--bounces", "1", "--aov", "all"};
     REQUIRE(run_mir(small_render(near, write_box(folder, "home", {0, 0, 0})) + how).exit_code == 0);
     const std::string scene = write_box(folder, "far", {6378137.123, -1234567.89, 0.1});
     REQUIRE(run_mir(small_render(far, scene) + how).exit_code == 0);

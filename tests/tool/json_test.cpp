@@ -118,7 +118,8 @@ TEST_CASE("chains say in the JSON how they did") {
 
 TEST_CASE("the mean radiance of the JSON is that of the file") {
     const TemporaryFolder folder("render_json_mean");
-    const Outcome outcome = run_mir(small_render(folder / "a.exr") + Words{"--json"});
+    const Outcome outcome =
+        run_mir(small_render(folder / "a.exr") + Words{"--json", "--aov", "all"});
     const json means = json::parse(outcome.out).at("mean_radiance");
     for (const char* layer : {"beauty", "emission", "direct", "indirect"}) {
         const std::string name = layer == std::string("beauty") ? "" : layer;

@@ -16,7 +16,7 @@ namespace {
 
 /// Renders with `more` arguments; returns the JSON.
 json rendered(const std::filesystem::path& exr, const Words& more) {
-    const Outcome outcome = run_mir(small_render(exr) + Words{"--json"} + more);
+    const Outcome outcome = run_mir(small_render(exr) + Words{"--json", "--aov", "all"} + more);
     REQUIRE(outcome.exit_code == 0);
     return json::parse(outcome.out);
 }

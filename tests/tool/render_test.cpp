@@ -152,8 +152,13 @@ TEST_CASE("the file holds the layers asked for") {
     const auto path = folder / "a.exr";
     using Names = std::set<std::string>;
     render(small_render(path));
-    CHECK(layers_of(path) ==
-          Names{"", "albedo", "normal", "position", "depth", "direct", "indirect", "emission"});
+    CHECK(layers_of(path) == Names{"", "albedo", "normal", "depth"});
+    Names all{"", "albedo", "normal", "position", "depth", "direct", "indirect", "emission"};
+    render(small_render(path) + Words{"--aov", "all"});
+    CHECK(layers_of(path) == all);
+    all.insert("removed");
+    render(small_render(path) + Words{"--aov", "removed,all"});
+    CHECK(layers_of(path) == all);
     render(small_render(path) + Words{"--aov", "none"});
     CHECK(layers_of(path) == Names{""});
     render(small_render(path) + Words{"--aov", "depth,albedo"});
@@ -167,7 +172,7 @@ TEST_CASE("the file holds the layers asked for") {
 TEST_CASE("the picture is the sum of emission, direct and indirect light") {
     const TemporaryFolder folder("render_sum");
     const std::string direct = GENERATE("separate", "vpl");
-    render(small_render(folder / "a.exr") + Words{"--direct", direct});
+    render(small_render(folder / "a.exr") + Words{"--direct", direct, "--aov", "all"});
     const auto sum = sum_of_layers(folder / "a.exr", {"emission", "direct", "indirect"});
     CHECK(largest_difference(mir::read_exr(folder / "a.exr").image, sum) < 1e-4f);
 }

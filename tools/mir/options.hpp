@@ -51,8 +51,7 @@ struct RenderOptions {
     std::string camera;            ///< name or index; empty: the first
     std::optional<std::uint32_t> width;
     std::optional<std::uint32_t> height;
-    std::vector<std::string> layers{"albedo", "normal",   "position", "depth",
-                                    "direct", "indirect", "emission"};
+    std::vector<std::string> layers{"albedo", "normal", "depth"};
     std::optional<float> exposure;              ///< EV of the preview; none: automatic
     mir::ToneCurve tone = mir::ToneCurve::agx;  ///< of the preview
     bool no_layers = false;                     ///< --aov none

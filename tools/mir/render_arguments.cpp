@@ -8,8 +8,9 @@
 namespace mirtool {
 namespace {
 
-const std::vector<std::string> layer_names{"albedo",   "normal",   "position", "depth",   "direct",
-                                           "indirect", "emission", "bounces",  "removed", "none"};
+const std::vector<std::string> layer_names{"albedo",  "normal",   "position", "depth",
+                                           "direct",  "indirect", "emission", "bounces",
+                                           "removed", "all",      "none"};
 
 /// Reads "WIDTHxHEIGHT" or "SIDE".
 mir::Extent read_tile(const std::string& text) {
@@ -261,9 +262,9 @@ void add_output(CLI::App& app, RenderOptions& o) {
     app.add_option("--exposure", o.exposure, "Exposure of the preview, EV (default: automatic)")
         ->check(between(-100, 100, "-100 to 100"));
     app.add_option("--aov", o.layers,
-                   "Layers of the EXR: albedo, normal, position, depth, direct, indirect, "
-                   "emission, bounces, removed (by the bound), or none (default: all but the two "
-                   "before)")
+                   "Layers of the EXR beside the picture: albedo, normal, position, depth, "
+                   "direct, indirect, emission, or all of these; bounces, removed (by the bound); "
+                   "or none (default: albedo,normal,depth)")
         ->delimiter(',')
         ->check(CLI::IsMember(layer_names))
         ->each([&o](const std::string& name) { o.no_layers |= name == "none"; });

@@ -9,9 +9,12 @@
 namespace mirtool {
 namespace {
 
-bool wants(const RenderOptions& o, const char* layer) {
+bool names(const RenderOptions& o, const char* layer) {
     return std::find(o.layers.begin(), o.layers.end(), layer) != o.layers.end();
 }
+
+/// By its own name or among all those that cost a render nothing.
+bool wants(const RenderOptions& o, const char* layer) { return names(o, layer) || names(o, "all"); }
 
 /// What Markov chains say about themselves.
 void append_chain_attributes(const mir::RenderStatistics& s, mir::ExrAttributes& all) {
@@ -61,7 +64,8 @@ void append_pass_attributes(const mir::RenderStatistics& s, mir::ExrAttributes& 
 
 std::vector<mir::ExrLayer> layers_of(const mir::RenderResult& r, const RenderOptions& o) {
     using mir::ExrPrecision;
-    std::vector<mir::ExrLayer> layers{{"", &r.beauty}};
+    std::vector<mir::ExrLayer> layers{{"", &r.beauty},
+                                      {"", &r.coverage, ExrPrecision::half, mir::ExrScalar::alpha}};
     if (wants(o, "albedo")) layers.push_back({"albedo", &r.guides.albedo, ExrPrecision::half});
     if (wants(o, "normal")) layers.push_back({"normal", &r.guides.normal, ExrPrecision::half});
     if (wants(o, "position")) layers.push_back({"position", &r.guides.position});
@@ -69,7 +73,7 @@ std::vector<mir::ExrLayer> layers_of(const mir::RenderResult& r, const RenderOpt
     if (wants(o, "direct")) layers.push_back({"direct", &r.direct});
     if (wants(o, "indirect")) layers.push_back({"indirect", &r.indirect});
     if (wants(o, "emission")) layers.push_back({"emission", &r.emission});
-    if (wants(o, "removed")) layers.push_back({"removed", &r.removed});
+    if (names(o, "removed")) layers.push_back({"removed", &r.removed});
     for (std::size_t i = 0; i < r.bounces.size(); ++i)
         layers.push_back({"bounce" + std::to_string(i + 1), &r.bounces[i]});
     return layers;

@@ -69,6 +69,20 @@ struct EmissionPass {
 template <class G>
 EmissionPass(G, SoaView<Rgb>) -> EmissionPass<G>;
 
+/// Kernel over the luxels of a tile: white where they see a surface, black elsewhere.
+template <class G>
+struct CoveragePass {
+    G luxels;          ///< of the tile, a view as kernels read them
+    SoaView<Rgb> out;  ///< 0 or 1 in each channel
+
+    /// Luxel i of the tile, padding included.
+    MIR_HD void operator()(LuxelIndex i) const {
+        out.store(i, is_empty(luxels.hit(i)) ? Rgb{} : Rgb{1, 1, 1});
+    }
+};
+template <class G>
+CoveragePass(G, SoaView<Rgb>) -> CoveragePass<G>;
+
 /// Kernel over all luxels of two layers of one grid, padding included: sum += layer.
 struct AddLayer {
     SoaView<Rgb> sum;          ///< read and written

@@ -147,6 +147,8 @@ class BackendEngine {
     /// What the luxels themselves emit, and the environment where they see nothing else.
     [[nodiscard]] Layer emission(const Luxels& luxels, const EnvironmentTable& around,
                                  const CameraRays& rays, std::uint32_t first_row) const;
+    /// White where luxels see a surface.
+    [[nodiscard]] Layer coverage(const Luxels& luxels) const;
     /// Light of VPLs: from the band's visibility where it is known, by tracing otherwise.
     /// `monitor`, which may be null, counts pairs of luxel and VPL.
     /// @throws Error(cancelled).

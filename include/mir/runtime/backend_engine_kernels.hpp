@@ -217,6 +217,18 @@ auto BackendEngine<B, F, E>::emission(const Luxels& luxels, const EnvironmentTab
     return layer;
 }
 
+template <Backend B, Bsdf F, Executor E>
+auto BackendEngine<B, F, E>::coverage(const Luxels& luxels) const -> Layer {
+    Layer layer(backend_, luxels.gbuffer.grid());
+    const WaitAtEnd wait(queue_);
+    for (TileIndex t = 0; t < luxels.gbuffer.tiles().size(); ++t) {
+        const auto view = luxels.gbuffer.view(t);
+        queue_.for_each(view.size(), CoveragePass{view, layer.tile(t)});
+    }
+    queue_.record().sync();
+    return layer;
+}
+
 /// As declared.
 template <Backend B, Bsdf F, Executor E>
 template <Shading S>

@@ -10,7 +10,7 @@ namespace mir {
 /// host has filled them; find_visible(luxels, vpls, limits) keeps with them who sees which VPL.
 /// response(extent, n) is an empty sum, with add(luxels, vpls, shading) and mean() as ResponseSum.
 ///
-/// Layers are what a HostCanvas makes of a band: black(luxels), emission(luxels,
+/// Layers are what a HostCanvas makes of a band: black(luxels), coverage(luxels), emission(luxels,
 /// environment, camera_rays, first_row), direct(luxels, lights, band, samples) and light(luxels,
 /// vpls, shading, monitor), with add(sum, layer) and row_luminances(layer).
 ///

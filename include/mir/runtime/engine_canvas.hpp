@@ -33,6 +33,10 @@ class EngineCanvas {
         return job_.engine.emission(band.luxels, job_.lights.environment(), job_.rays,
                                     band.first_row);
     }
+    /// White where luxels see a surface.
+    [[nodiscard]] Layer coverage(const Band& band) const {
+        return job_.engine.coverage(band.luxels);
+    }
     /// Light of VPLs: from the band's visibility where it is known, by tracing otherwise.
     template <Shading F>
     [[nodiscard]] Layer light(const Band& band, VplSpan<Space::host> vpls, const F& shading,

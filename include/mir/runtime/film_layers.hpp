@@ -4,11 +4,23 @@
 #include "mir/film/film.hpp"
 #include "mir/runtime/render_context.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 namespace mir {
 
 /// Layers of the film of a render. Those of the bounces, if there are any, come next, then what
 /// the bound removed, if that is wanted.
-enum FilmLayer : std::size_t { direct_layer, emission_layer, indirect_layer, first_bounce_layer };
+enum FilmLayer : std::size_t {
+    direct_layer,
+    emission_layer,
+    coverage_layer,
+    indirect_layer,
+    first_bounce_layer
+};
 
 /// Makes the beauty of a result: emission + direct + indirect.
 template <Executor E>
@@ -19,6 +31,17 @@ void add_up_layers(RenderResult& result, E& executor) {
         for (std::uint32_t x = 0; x < result.beauty.width(); ++x)
             result.beauty(x, y) =
                 result.emission(x, y) + (result.direct(x, y) + result.indirect(x, y));
+    });
+}
+
+/// Makes the coverage of a result from its filtered layer. Filters with negative lobes leave 0..1.
+template <Executor E>
+void take_coverage(const Image<Rgb>& layer, RenderResult& result, E& executor) {
+    result.coverage = Image<float>::unwritten(layer.extent());
+    executor.for_each(layer.height(), [&](std::size_t row) {
+        const auto y = static_cast<std::uint32_t>(row);
+        for (std::uint32_t x = 0; x < layer.width(); ++x)
+            result.coverage(x, y) = std::clamp(layer(x, y).r, 0.0f, 1.0f);
     });
 }
 
@@ -33,6 +56,7 @@ void take_layers(std::vector<Image<Rgb>> layers, bool removed_layer, RenderResul
     result.direct = std::move(layers[direct_layer]);
     result.emission = std::move(layers[emission_layer]);
     result.indirect = std::move(layers[indirect_layer]);
+    take_coverage(layers[coverage_layer], result, executor);
     for (std::size_t l = first_bounce_layer; l < layers.size(); ++l)
         result.bounces.push_back(std::move(layers[l]));
     add_up_layers(result, executor);

@@ -7,6 +7,7 @@
 #include "mir/runtime/any_engine.hpp"
 #include "mir/runtime/direct_noise.hpp"
 #include "mir/runtime/film_layers.hpp"
+#include "mir/runtime/luxel_coverage.hpp"
 #include "mir/runtime/missing_light.hpp"
 #include "mir/runtime/render_job.hpp"
 #include "mir/runtime/residual_light.hpp"
@@ -45,6 +46,11 @@ class HostCanvas {
 
     /// What the luxels themselves emit, and the environment where they see nothing else.
     [[nodiscard]] Layer emission(const Band& band) const;
+
+    /// White where luxels see a surface.
+    [[nodiscard]] Layer coverage(const Band& band) const {
+        return luxel_coverage(band.gbuffer, job_.executor);
+    }
 
     /// Light of VPLs: from the band's visibility where it is known, by tracing otherwise.
     template <Shading F>

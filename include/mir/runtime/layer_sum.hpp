@@ -8,15 +8,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 namespace mir {
 
-/// Sum of images of T, three floats a pixel (Rgb, Vec3), in double precision, pixel by pixel in the
-/// order of the calls. One thread at a time.
+/// Sum of images of T, one or three floats a pixel (float, Rgb, Vec3), in double precision, pixel
+/// by pixel in the order of the calls. One thread at a time.
 template <class T>
 class LayerSum {
  public:
-    using Channels = std::array<double, 3>;  ///< red, green, blue or x, y, z
+    /// Red, green, blue or x, y, z or the one number.
+    using Channels = std::array<double, sizeof(T) / sizeof(float)>;
 
     /// The first image fixes the size; all have it.
     void add(const Image<T>& image) {
@@ -29,7 +31,7 @@ class LayerSum {
         }
         for (std::size_t i = 0; i < from.size(); ++i) {
             const Channels c = channels(from[i]);
-            for (std::size_t k = 0; k < 3; ++k) sums_.pixels()[i][k] += c[k];
+            for (std::size_t k = 0; k < c.size(); ++k) sums_.pixels()[i][k] += c[k];
         }
     }
 
@@ -38,8 +40,12 @@ class LayerSum {
         Image<T> image = Image<T>::unwritten(sums_.extent());
         for (std::size_t i = 0; i < image.pixels().size(); ++i) {
             const Channels& c = sums_.pixels()[i];
-            image.pixels()[i] = {static_cast<float>(c[0] / count), static_cast<float>(c[1] / count),
-                                 static_cast<float>(c[2] / count)};
+            if constexpr (std::is_same_v<T, float>)
+                image.pixels()[i] = static_cast<float>(c[0] / count);
+            else
+                image.pixels()[i] = {static_cast<float>(c[0] / count),
+                                     static_cast<float>(c[1] / count),
+                                     static_cast<float>(c[2] / count)};
         }
         return image;
     }
@@ -51,6 +57,7 @@ class LayerSum {
     }
 
  private:
+    static Channels channels(float value) { return {value}; }
     static Channels channels(const Rgb& c) { return {c.r, c.g, c.b}; }
     static Channels channels(const Vec3& v) { return {v.x, v.y, v.z}; }
 

@@ -214,6 +214,7 @@ void MicroRender<B, Engine, E>::render_band(Canvas& canvas, const Band& band,
         const auto stage = job_.clock.measure(&StageSeconds::direct);
         layers.push_back(canvas.direct(band, job_.settings.direct_samples_per_luxel()));
         layers.push_back(canvas.emission(band));
+        layers.push_back(canvas.coverage(band));
     }
     append_indirect(band, sources, layers);
     RenderStatistics& s = job_.result.statistics;

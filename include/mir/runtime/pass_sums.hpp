@@ -18,7 +18,7 @@ namespace mir {
 
 /// What independent renders of one scene, which differ in their seeds alone, amount to together.
 /// Added in a fixed order they give the same bits whatever happens between. Takes 24 bytes for each
-/// pixel and layer (direct, emission, indirect, removed, albedo, normal, bounces) and 32 more for
+/// pixel and layer (direct, emission, indirect, removed, albedo, normal, bounces) and 40 more for
 /// each pixel. One thread at a time.
 class PassSums {
  public:
@@ -34,6 +34,7 @@ class PassSums {
         emission_.add(pass.emission);
         indirect_.add(pass.indirect);
         removed_.add(pass.removed);
+        coverage_.add(pass.coverage);
         albedo_.add(pass.guides.albedo);
         normal_.add(pass.guides.normal);
         add_bounces(pass);
@@ -62,8 +63,8 @@ class PassSums {
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
         archive(self.statistics_, self.remarks_, self.position_, self.depth_, self.spread_,
-                self.direct_, self.emission_, self.indirect_, self.removed_, self.albedo_,
-                self.normal_, self.bounces_);
+                self.direct_, self.emission_, self.indirect_, self.removed_, self.coverage_,
+                self.albedo_, self.normal_, self.bounces_);
     }
 
  private:
@@ -97,6 +98,7 @@ class PassSums {
     LayerSum<Rgb> emission_;
     LayerSum<Rgb> indirect_;
     LayerSum<Rgb> removed_;  ///< empty where no pass has that layer
+    LayerSum<float> coverage_;
     LayerSum<Rgb> albedo_;
     LayerSum<Vec3> normal_;
     std::vector<LayerSum<Rgb>> bounces_;
@@ -116,6 +118,7 @@ inline RenderResult PassSums::result(bool complete) const {
     mean.direct = direct_.mean(n);
     mean.indirect = indirect_.mean(n);
     mean.removed = removed_.mean(n);
+    mean.coverage = coverage_.mean(n);
     for (const LayerSum<Rgb>& bounce : bounces_) mean.bounces.push_back(bounce.mean(n));
     InlineExecutor executor;
     add_up_layers(mean, executor);

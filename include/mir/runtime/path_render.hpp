@@ -3,7 +3,13 @@
 
 #include "mir/reference/trace_reference.hpp"
 #include "mir/runtime/film_layers.hpp"
+#include "mir/runtime/luxel_coverage.hpp"
 #include "mir/runtime/render_job.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace mir {
 
@@ -23,8 +29,10 @@ class PathRender {
 
  private:
     [[nodiscard]] ReferenceImage trace();
-    [[nodiscard]] std::vector<Image<Rgb>> layers_of(const ReferenceImage& reference) const;
-    void add_guides_of_image();
+    [[nodiscard]] std::vector<Image<Rgb>> layers_of(const ReferenceImage& reference,
+                                                    Image<Rgb> coverage) const;
+    /// Guides go to the result, white where luxels see a surface to the image that is returned.
+    [[nodiscard]] Image<Rgb> add_guides_of_image();
 
     RenderJob<B, Engine, E> job_;
 };
@@ -36,8 +44,7 @@ RenderResult PathRender<B, Engine, E>::run() {
     s.luxels = job_.rays.grid.luxels().area();
     s.camera_paths = saturating_mul(s.luxels, job_.settings.path.samples);
     s.emitted_power = static_cast<float>(job_.lights.power());
-    add_guides_of_image();
-    const std::vector<Image<Rgb>> layers = layers_of(reference);
+    const std::vector<Image<Rgb>> layers = layers_of(reference, add_guides_of_image());
     Film film(job_.rays.grid, job_.settings.filter, job_.settings.seed, layers.size());
     {
         const auto stage = job_.clock.measure(&StageSeconds::film);
@@ -68,8 +75,10 @@ ReferenceImage PathRender<B, Engine, E>::trace() {
 }
 
 template <Bsdf B, class Engine, Executor E>
-std::vector<Image<Rgb>> PathRender<B, Engine, E>::layers_of(const ReferenceImage& reference) const {
-    std::vector<Image<Rgb>> layers{reference.bounce(1), reference.bounce(0), reference.beauty()};
+std::vector<Image<Rgb>> PathRender<B, Engine, E>::layers_of(const ReferenceImage& reference,
+                                                            Image<Rgb> coverage) const {
+    std::vector<Image<Rgb>> layers{reference.bounce(1), reference.bounce(0), std::move(coverage),
+                                   reference.beauty()};
     const auto indirect = layers[indirect_layer].pixels();
     for (std::size_t i = 0; i < indirect.size(); ++i)
         indirect[i] =
@@ -81,9 +90,17 @@ std::vector<Image<Rgb>> PathRender<B, Engine, E>::layers_of(const ReferenceImage
 }
 
 template <Bsdf B, class Engine, Executor E>
-void PathRender<B, Engine, E>::add_guides_of_image() {
+Image<Rgb> PathRender<B, Engine, E>::add_guides_of_image() {
     const ImageBands<B, Engine, E> bands(job_.context(), 0);
-    for (std::uint32_t i = 0; i < bands.count(); ++i) job_.add_guides_of(bands.make(i));
+    Image<Rgb> coverage(job_.rays.grid.luxels());
+    for (std::uint32_t i = 0; i < bands.count(); ++i) {
+        const auto band = bands.make(i);
+        job_.add_guides_of(band);
+        const Image<Rgb> rows = luxel_coverage(band.gbuffer, job_.executor);
+        std::copy(rows.pixels().begin(), rows.pixels().end(),
+                  coverage.pixels().begin() + std::size_t{band.first_row} * coverage.width());
+    }
+    return coverage;
 }
 
 }  // namespace mir

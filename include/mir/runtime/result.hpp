@@ -82,6 +82,9 @@ struct RenderResult {
     /// What the bound removed from the VPLs' light, as the VPLs tell it: in no other layer; empty
     /// unless asked for.
     Image<Rgb> removed{};
+    /// Share of a pixel where the camera sees a surface and not the environment, 0..1, through the
+    /// filter of the beauty: its alpha, with which the beauty counts as multiplied.
+    Image<float> coverage{};
 };
 
 }  // namespace mir

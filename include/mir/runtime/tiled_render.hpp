@@ -258,6 +258,7 @@ void TiledRender<B, Engine, E, MakeScheduler>::render_band(Canvas& canvas, const
         const auto stage = job_.clock.measure(&StageSeconds::direct);
         layers.push_back(canvas.direct(band, job_.settings.direct_samples_of_luxel()));
         layers.push_back(canvas.emission(band));
+        layers.push_back(canvas.coverage(band));
     }
     {
         const auto stage = job_.clock.measure(&StageSeconds::reconstruction);
