@@ -184,6 +184,15 @@ inline void check_outcome(const Files& files, const Outcome& expected) {
     if (expected.check) expected.check(loaded);
 }
 
+/// Checks every variant of every row.
+inline void check_all(const Features& list) {
+    for (const Feature& feature : list)
+        for (std::size_t k = 0; k < feature.variants.size(); ++k) {
+            INFO(feature.name << ", variant " << k);
+            check_outcome(feature.variants[k], feature.outcome);
+        }
+}
+
 // --- the page ----------------------------------------------------------------------------------
 
 inline std::string in_backquotes(const std::vector<std::string>& phrases) {
