@@ -3,6 +3,8 @@
 
 #include "io/features/gltf_file.hpp"
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -33,7 +35,7 @@ inline Features gltf_primitives() {
                 counted({"primitive of lines"}), "left out"),
         feature("a mode that glTF has not", "`mode` 7", {square_of_mode(7)},
                 refused("mode 7 is none of glTF 2.0")),
-        feature("four vertices of a list of triangles", "`mode` 4", {square_of_mode(4)},
+        feature("lists of triangles with vertices left over", "`mode` 4", {square_of_mode(4)},
                 counted({"incomplete triangle at the end of a primitive"}, triangles(1)),
                 "the whole triangles are read"),
         feature("primitives without positions", "no `POSITION`",
@@ -59,7 +61,8 @@ inline Features gltf_indices() {
         feature("indices of 8, 16 and 32 bits", "`indices`", {bytes, shorts, words},
                 read(mesh([](const mir::Mesh& m) {
                     CHECK(m.triangles.at(0) == mir::TriangleIndices{{2, 0, 1}});
-                }))),
+                })),
+                "without them vertices come in their order"),
         feature("indices of vertices that do not exist", "`indices`", {beyond},
                 refused("uses vertex 3 of 3")),
     };
@@ -135,6 +138,23 @@ inline Features gltf_accessors() {
     };
 }
 
+/// White vertices of these alphas, of a mask.
+inline Build masked(const std::array<float, 3>& alpha) {
+    return [alpha](Gltf& g) {
+        g.attributes()["COLOR_0"] =
+            g.floats({1, 1, 1, alpha[0], 1, 1, 1, alpha[1], 1, 1, 1, alpha[2]}, "VEC4");
+        g.material()["alphaMode"] = "MASK";
+    };
+}
+
+/// A normal map.
+inline void bumpy(Gltf& g) { g.material()["normalTexture"] = g.texture(); }
+
+inline void bumpy_with_tangents(Gltf& g) {
+    bumpy(g);
+    g.attributes()["TANGENT"] = g.floats({0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}, "VEC4");
+}
+
 inline Features gltf_attributes() {
     const auto colors = [](const std::vector<mir::Rgb>& expected) {
         return read(mesh([=](const mir::Mesh& m) { CHECK(m.colors == expected); }));
@@ -167,25 +187,21 @@ inline Features gltf_attributes() {
                 "the flat normal there"),
         feature("vertex colours of floats, 8 and 16 bits, with alpha and without", "`COLOR_0`",
                 {floats, bytes, shorts}, colors({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}),
-                "they multiply the base colour. Their alpha counts in masks alone, where it is the "
-                "same all over a primitive"),
+                "they multiply the base colour. Their alpha means nothing but in masks"),
         feature("vertex colours outside 0..1", "`COLOR_0`", {with_color([](Gltf& g) {
                     return g.floats({2, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
                 })},
                 counted({"COLOR_0 outside 0..1 (clamped)"})),
-        feature(
-            "alpha of vertex colours that differs in a mask", "`COLOR_0`, `alphaMode` MASK",
-            {[bytes](Gltf& g) {
-                g.attributes()["COLOR_0"] = g.floats({1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1, 1}, "VEC4");
-                g.material()["alphaMode"] = "MASK";
-            }},
-            counted({"alpha of COLOR_0 in a mask"}), "taken as 1"),
-        feature(
-            "tangents", "`TANGENT`", {[](Gltf& g) {
-                g.attributes()["TANGENT"] = g.floats({0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}, "VEC4");
-            }},
-            without_effect(gltf([](Gltf&) {})),
-            "normal maps are read in the frame of the texture coordinates"),
+        feature("alpha of vertex colours in a mask", "`COLOR_0`, `alphaMode` MASK",
+                {masked({0.25f, 0.25f, 0.25f})},
+                read(material([](const mir::Material& m) { CHECK(m.alpha == 0.25f); }))),
+        feature("the same where it differs over a primitive", "`COLOR_0`, `alphaMode` MASK",
+                {masked({1, 0, 1})},
+                counted({"alpha of COLOR_0 in a mask"},
+                        material([](const mir::Material& m) { CHECK(m.alpha == 1.0f); })),
+                "taken as 1"),
+        feature("tangents", "`TANGENT`", {bumpy_with_tangents}, without_effect(gltf(bumpy)),
+                "normal maps are read in the frame of the texture coordinates"),
         feature("attributes of programs, further colours", "`_ANYTHING`, `COLOR_1`",
                 {[](Gltf& g) { g.attributes()["_ANYTHING"] = 0; },
                  [](Gltf& g) { g.attributes()["COLOR_1"] = 0; }},
@@ -220,9 +236,15 @@ inline Build skinned(int sets) {
 
 inline Features gltf_shapes() {
     return {
-        feature("morph targets of positions and normals", "`targets`, `weights`",
-                {morphed("POSITION", 0.5f)}, read(mesh([](const mir::Mesh& m) {
+        feature("morph targets of positions and normals", "`targets`, `weights`", {[](Gltf& g) {
+                    morphed("POSITION", 0.5f)(g);
+                    g.attributes()["NORMAL"] = g.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+                    g.primitive()["targets"][0]["NORMAL"] =
+                        g.floats({0, 0, -4, 0, 0, 0, 0, 0, 0}, "VEC3");
+                }},
+                read(mesh([](const mir::Mesh& m) {
                     CHECK(m.positions.at(0) == mir::Vec3(0, 0, 2));
+                    CHECK(m.normals.at(0) == mir::Vec3(0, 0, -1));
                 })),
                 "by the weights of the node, else of the mesh"),
         feature("morph targets of colours and texture coordinates", "`targets`", {[](Gltf& g) {

@@ -37,7 +37,8 @@ inline Features gltf_factors() {
                     CHECK(m.emission == mir::Rgb{1.0f, 0.5f, 0.0f});
                 }))),
         feature("negative emission", "`emissiveFactor`",
-                {with_material({{"emissiveFactor", {-1, 0, 0}}})}, refused("emissiveFactor")),
+                {with_material({{"emissiveFactor", {-1, 0, 0}}})},
+                refused("emissiveFactor is negative")),
         feature("double-sided materials", "`doubleSided`", {with_material({{"doubleSided", true}})},
                 read(material([](const mir::Material& m) { CHECK(m.emits_from_both_sides); })),
                 "of lamps alone, see [Sides](#sides)"),
@@ -64,7 +65,7 @@ inline Features gltf_alpha() {
                 "the cutoff is 0.5 where it is missing; see [Masks](#masks)"),
         feature("a negative cutoff", "`alphaCutoff`",
                 {with_material({{"alphaMode", "MASK"}, {"alphaCutoff", -1}})},
-                refused("alphaCutoff")),
+                refused("alphaCutoff is negative")),
         feature("alpha of opaque materials", "`alphaMode` OPAQUE",
                 {with_material({{"alphaMode", "OPAQUE"}, {"alphaCutoff", 0.25}})},
                 without_effect(gltf([](Gltf&) {}))),
@@ -190,8 +191,7 @@ inline Features gltf_images() {
     Features all = {
         image("PNG of 8 bits", "image", data("png", png8),
               texels({0xff0000ff, 0xff00ff00, 0xffff0000, 0x80ffffff})),
-        image("PNG of 16 bits", "image", data("png", png16), texels({0xff0180ff}),
-              "8 of the 16 bits"),
+        image("PNG of 16 bits", "image", data("png", png16), texels({0xff0180ff}), "as 8 bits"),
         image("JPEG", "image", data("jpeg", jpeg), texels({0xff808080})),
         feature("images in buffers", "`bufferView`", {in_view},
                 read([](const mir::LoadedScene& loaded) {

@@ -53,8 +53,8 @@ inline Features mtl_colors() {
             refused("has 2 numbers")),
         key("colours outside 0..1", "`Kd`, `Ks`", {"Kd 2 0 0"},
             counted({"Kd outside 0..1 (clamped)"})),
-        key("spectra and CIE colours", "`Kd spectral`, `Kd xyz`", {"Kd xyz 1 1 1"},
-            counted({"MTL 'Kd xyz'"})),
+        key("spectra and CIE colours", "for instance `Kd xyz`, `Ks spectral`",
+            {"Kd xyz 1 1 1\nKs spectral a.rfl"}, counted({"MTL 'Kd xyz'", "MTL 'Ks spectral'"})),
         key("emission", "`Ke`", {"Ke 4 2 1"}, read(material([](const mir::Material& m) {
                 CHECK(m.emission == mir::Rgb{4, 2, 1});
                 CHECK_FALSE(m.emits_from_both_sides);
@@ -79,7 +79,8 @@ inline Features mtl_colors() {
             "light from around is computed"),
         key("keywords with nothing behind them", "for instance `Kd`", {"Kd"},
             counted({"MTL 'Kd' without a value"}), "as though they were not there"),
-        key("numbers that are none", "for instance `Ns x`", {"Ns x"}, refused("a.mtl, line 2")),
+        key("numbers that are none", "for instance `Ns x`", {"Ns x"},
+            refused("a.mtl, line 2: Ns is no number")),
     };
 }
 
@@ -151,8 +152,9 @@ inline Features mtl_textures() {
             counted({"map_d with other options than map_Kd"})),
         key("an opacity of another size than the colour", "`map_d`, `map_Kd`",
             {"map_Kd a.png\nmap_d large.png"}, counted({"map_d of another size than map_Kd"})),
-        key("height maps", "`map_Bump`, `map_bump`, `bump`", {"map_Bump a.png"},
-            mtl_lost("map_Bump")),
+        key("height maps", "`map_Bump`, `map_bump`, `bump`",
+            {"map_Bump a.png\nmap_bump a.png\nbump a.png"},
+            counted({"MTL 'bump'", "MTL 'map_Bump'", "MTL 'map_bump'"})),
         key("textures of the interface", "`map_Ks`, `map_Ns`", {"map_Ks a.png\nmap_Ns a.png"},
             counted({"MTL 'map_Ks'", "MTL 'map_Ns'"})),
         key("textures of roughness, metalness, sheen", "`map_Pr`, `map_Pm`, `map_Ps`",
@@ -192,7 +194,7 @@ inline Features mtl_images() {
             "unless `--allow-outside` (`Limits::allow_outside`) is given"),
         key("images neither PNG nor JPEG", "`map_Kd`", {"map_Kd a.webp"},
             counted({"image that is neither PNG nor JPEG"})),
-        key("broken images", "`map_Kd`", {"map_Kd broken.png"}, refused("a.mtl, line 2, image")),
+        key("broken images", "`map_Kd`", {"map_Kd broken.png"}, refused("it cannot be decoded")),
     };
     const std::string bare = "mtllib a.mtl\nusemtl a\nf 1 2 3\n";
     all.push_back({"textures without coordinates",
