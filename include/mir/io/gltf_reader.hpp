@@ -24,17 +24,17 @@ namespace detail {
 inline void note_unused_of_node(const tinygltf::Node& node, SceneReport& report) {
     for (const auto& [name, value] : node.extensions)
         if (name != "KHR_lights_punctual" && name != "EXT_mesh_gpu_instancing")
-            ++report.ignored[name];
+            count_extension(name, report);
 }
 
 /// Counts what the file as a whole asks for beyond its scene.
 inline void note_unused_of_file(const tinygltf::Model& model, SceneReport& report) {
     if (!model.animations.empty()) report.ignored["animation"] += model.animations.size();
     for (const auto& [name, value] : model.extensions)
-        if (name != "KHR_lights_punctual") ++report.ignored[name];
+        if (name != "KHR_lights_punctual") count_extension(name, report);
     for (const tinygltf::Scene& scene : model.scenes) {
         if (scene.extras.Has("environment")) ++report.ignored["environment"];
-        for (const auto& [name, value] : scene.extensions) ++report.ignored[name];
+        for (const auto& [name, value] : scene.extensions) count_extension(name, report);
     }
 }
 

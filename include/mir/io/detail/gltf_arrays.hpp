@@ -20,10 +20,12 @@ Vec load_vector(const unsigned char* bytes, int type, bool normalized) {
     return value;
 }
 
-/// Overwrites the elements that a sparse accessor lists.
-template <class Vec>
+/// Overwrites the elements that a sparse accessor lists, each of `components` numbers, by what
+/// `element` makes of their bytes.
+template <class T, class Element>
 void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
-                  const std::string& place, std::vector<Vec>& values) {
+                  const std::string& place, std::size_t components, const Element& element,
+                  std::vector<T>& values) {
     const auto& sparse = accessor.sparse;
     const auto& where = sparse.indices;
     if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count ||
@@ -35,7 +37,7 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
         gltf_component_size(where.componentType), where.componentType, place);
     const GltfElements replaced = elements_in_view(
         model, sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset),
-        count, gltf_component_size(accessor.componentType) * Vec::length(), accessor.componentType,
+        count, gltf_component_size(accessor.componentType) * components, accessor.componentType,
         place);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t at =
@@ -43,8 +45,7 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
         if (at >= values.size())
             gltf_fail(place, "its sparse part replaces element " + std::to_string(at) + " of " +
                                  std::to_string(values.size()) + "; repair the index");
-        values[at] = load_vector<Vec>(replaced.first + i * replaced.stride, replaced.component_type,
-                                      accessor.normalized);
+        values[at] = element(replaced.first + i * replaced.stride);
     }
 }
 
@@ -60,11 +61,14 @@ std::vector<Vec> read_vectors(const tinygltf::Model& model, int index, const std
                              " components, which " + user + " needs; repair its type");
     const GltfElements elements = accessor_elements(model, at);
     std::vector<Vec> values(elements.count, Vec(0.0f));
+    const auto element = [&](const unsigned char* bytes) {
+        return load_vector<Vec>(bytes, accessor.componentType, accessor.normalized);
+    };
     if (elements.first != nullptr)
         for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] = load_vector<Vec>(elements.first + i * elements.stride,
-                                         elements.component_type, accessor.normalized);
-    if (accessor.sparse.isSparse) apply_sparse(model, accessor, place, values);
+            values[i] = element(elements.first + i * elements.stride);
+    if (accessor.sparse.isSparse)
+        apply_sparse(model, accessor, place, Vec::length(), element, values);
     return values;
 }
 
@@ -97,7 +101,7 @@ std::vector<Vec> read_vertices(const tinygltf::Model& model, int index, const Ve
     return values;
 }
 
-/// Vertex indices of 8, 16 or 32 bits.
+/// Vertex indices of 8, 16 or 32 bits, sparse parts applied.
 /// @throws Error(invalid_input) when the accessor holds something else.
 inline std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int index,
                                                const std::string& user) {
@@ -107,13 +111,15 @@ inline std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int
     if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_index_type(accessor.componentType))
         gltf_fail(place, "it does not hold unsigned numbers, which the indices of " + user +
                              " have to be; repair its type");
-    if (accessor.sparse.isSparse || accessor.bufferView < 0)
-        gltf_fail(place, "sparse vertex indices are not supported; export the file without",
-                  ErrorCode::unsupported);
     const GltfElements elements = accessor_elements(model, at);
+    const auto element = [&](const unsigned char* bytes) {
+        return load_index(bytes, accessor.componentType);
+    };
     std::vector<std::uint32_t> values(elements.count);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = load_index(elements.first + i * elements.stride, elements.component_type);
+    if (elements.first != nullptr)
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = element(elements.first + i * elements.stride);
+    if (accessor.sparse.isSparse) apply_sparse(model, accessor, place, 1, element, values);
     return values;
 }
 

@@ -62,13 +62,26 @@ inline std::uint16_t light_group_of(const tinygltf::Value& extras, const std::st
     return static_cast<std::uint16_t>(group);
 }
 
+/// Extensions that no picture shows: facts about the file, what a viewer does with a pointer, and
+/// where animations lead, which stand still here.
+inline bool is_never_seen(std::string_view name) {
+    return name == "KHR_xmp_json_ld" || name == "KHR_xmp" || name == "EXT_mesh_manifold" ||
+           name == "KHR_animation_pointer" || name == "KHR_node_hoverability" ||
+           name == "KHR_node_selectability";
+}
+
+/// Counts an extension that is not read, where a picture would show it.
+inline void count_extension(const std::string& name, SceneReport& report) {
+    if (!is_never_seen(name)) ++report.ignored[name];
+}
+
 /// Extensions that change nothing but the look of materials may be required: what of them is not
 /// supported is counted where it is used.
 inline bool can_read_extension(std::string_view name) {
     if (name == "KHR_texture_basisu") return false;
-    return name == "KHR_lights_punctual" || name == "KHR_mesh_quantization" ||
-           name == "EXT_mesh_gpu_instancing" || name.rfind("KHR_materials_", 0) == 0 ||
-           name.find("_texture_") != std::string_view::npos;
+    return is_never_seen(name) || name == "KHR_lights_punctual" ||
+           name == "KHR_mesh_quantization" || name == "EXT_mesh_gpu_instancing" ||
+           name.rfind("KHR_materials_", 0) == 0 || name.find("_texture_") != std::string_view::npos;
 }
 
 /// Why a required extension is refused and what to do about it.

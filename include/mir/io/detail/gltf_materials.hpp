@@ -79,7 +79,7 @@ class GltfMaterials {
         if (name == "KHR_materials_specular") return specular(value, to);
         if (name == "KHR_materials_ior") return ior(value, to);
         if (name == "KHR_materials_pbrSpecularGlossiness") return specular_glossiness(value, to);
-        ignore(name);
+        count_extension(name, report_);
     }
 
     void specular(const tinygltf::Value& from, Material& to) {

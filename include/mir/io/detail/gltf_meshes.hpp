@@ -75,8 +75,9 @@ class GltfMeshes {
         read_positions(from, shape, mesh);
         read_coordinates(from, mesh);
         read_colors(from, mesh);
+        count_targets(from, shape.weights);
         check_mesh(scene_, mesh);
-        for (const auto& [name, value] : from.extensions) ignore(name);
+        for (const auto& [name, value] : from.extensions) count_extension(name, report_);
         parts.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
         scene_.meshes.push_back(std::move(mesh));
     }
@@ -209,6 +210,20 @@ class GltfMeshes {
             add(read_vertices<Vec3>(model_, found->second, choice_, "colors", place_));
         }
         if (from.material >= 0) tints_.apply(is_unlit(from), alpha, scene_, report_, mesh);
+    }
+
+    /// Counts the morph targets that would move what positions and normals are not.
+    void count_targets(const tinygltf::Primitive& from, const std::vector<double>& weights) {
+        const int set =
+            from.material < 0 ? -1 : coordinates_[static_cast<std::size_t>(from.material)];
+        const std::string coordinates = "TEXCOORD_" + std::to_string(set);
+        for (std::size_t i = 0; i < weights.size() && i < from.targets.size(); ++i) {
+            if (weights[i] == 0.0) continue;
+            const tinygltf::Value& moves = from.extras.Get(static_cast<int>(i));
+            for (const std::string& name : {std::string("COLOR_0"), coordinates})
+                if (moves.Has(name) && from.attributes.contains(name))
+                    ignore("morph target of " + name);
+        }
     }
 
     [[nodiscard]] bool is_unlit(const tinygltf::Primitive& from) const {

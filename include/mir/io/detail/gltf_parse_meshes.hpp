@@ -112,13 +112,24 @@ inline bool has_targets(const GltfValue& mesh) {
     return false;
 }
 
+/// Positions and normals of the morph targets. What else they move, which is not read, is named in
+/// `extras`, an object for each target.
 inline void parse_targets(const GltfDocument& document, const GltfValue& from,
                           tinygltf::Primitive& to) {
     const auto targets = from.find("targets");
     if (!targets) return;
     const std::size_t count = targets->size();
-    for (std::size_t i = 0; i < count; ++i)
-        to.targets.push_back(parse_attributes(document, targets->at(i), {"POSITION", "NORMAL"}));
+    tinygltf::Value::Array others;
+    for (std::size_t i = 0; i < count; ++i) {
+        const GltfValue target = targets->at(i);
+        to.targets.push_back(parse_attributes(document, target, {"POSITION", "NORMAL"}));
+        tinygltf::Value::Object other;
+        for (const auto& [name, accessor] : target.json().items())
+            if (name.starts_with("COLOR_") || name.starts_with("TEXCOORD_"))
+                other[name] = tinygltf::Value(true);
+        others.emplace_back(std::move(other));
+    }
+    to.extras = tinygltf::Value(std::move(others));
 }
 
 }  // namespace mir::detail

@@ -48,7 +48,7 @@ inline Texture GltfTextures::convert(const std::string& name, int index, int set
         if (extension == "KHR_texture_transform")
             transform(value, where, to, set);
         else
-            ++report_.ignored[extension];
+            count_extension(extension, report_);
     if (set < 0) gltf_fail(where, "its set of coordinates is negative; repair texCoord");
     if (from.source < 0) {
         // The image is in an extension, of a format that nothing here decodes.

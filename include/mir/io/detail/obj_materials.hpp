@@ -19,6 +19,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,22 @@ namespace mir::detail {
 /// through rough surfaces", EGSR 2007, section 5.2.
 inline float roughness_of_phong(float exponent) {
     return std::sqrt(std::sqrt(2.0f / (exponent + 2.0f)));
+}
+
+/// The names in a list between blanks; a backslash before a blank makes it a part of the name.
+inline std::vector<std::string> library_names(std::string_view list) {
+    std::vector<std::string> names;
+    bool open = false;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const auto is_blank = [&](std::size_t at) { return list[at] == ' ' || list[at] == '\t'; };
+        const bool escapes = list[i] == '\\' && i + 1 < list.size() && is_blank(i + 1);
+        if (escapes) ++i;
+        const bool between = !escapes && is_blank(i);
+        if (!between && !open) names.emplace_back();
+        open = !between;
+        if (open) names.back() += list[i];
+    }
+    return names;
 }
 
 /// Reads the material libraries of one OBJ file and converts what they hold. Images of a material
@@ -109,14 +126,13 @@ inline bool ObjMaterials::operator()(const std::string&, std::vector<tinyobj::ma
         read(text_.libraries());
         return true;
     }
-    for_each_word(text_.libraries(), [&](std::string_view word) {
-        const std::string library(word);
+    for (const std::string& library : library_names(text_.libraries())) {
         check_inside(library);
         if (exists(library))
             read(library);
         else
             ++report_.ignored["material library " + in_quotes(library) + " (not found)"];
-    });
+    }
     return true;
 }
 
@@ -227,7 +243,8 @@ inline void ObjMaterials::textures_of(const MtlMaterial& from, Material& to) {
 }
 
 /// Counts a material once that light is meant to go through: by its opacity, by a filter that is
-/// not white, which exporters write for none, or by a model of glass. `d` counts before `Tr`.
+/// not white, which exporters write for none, or by a model of glass. `d` counts before `Tr`. A
+/// model of surfaces that only catch shadows counts as well.
 inline void ObjMaterials::note_transparency(MtlMaterial& from) {
     const auto d = from.find("d");
     const auto tr = from.find("Tr");
@@ -240,6 +257,7 @@ inline void ObjMaterials::note_transparency(MtlMaterial& from) {
         ++from.lost.ignored["transparency (d, Tr)"];
     else if (glass || from.find("Tf").value_or(white) != white)
         ++from.lost.ignored["transparency (illum, Tf)"];
+    if (is_model(10.0f)) ++from.lost.ignored["illum 10 (shadows on what is not seen)"];
 }
 
 }  // namespace mir::detail

@@ -116,8 +116,15 @@ inline std::vector<std::size_t> PlyMesh::slots_of(const PlyElement& vertex) {
         fail_at("header",
                 "element 'vertex' lacks one of the properties x, y and z (so there is no "
                 "place); export it again");
-    if (has[3] && has[4] && has[5]) mesh_.normals.reserve(vertex.count);
-    if (has[6] && has[7] && has[8]) mesh_.colors.reserve(vertex.count);
+    // A direction or a colour is whole or none.
+    const auto is_whole = [&](std::size_t first) {
+        if (has[first] && has[first + 1] && has[first + 2]) return true;
+        for (std::size_t k = first; k < first + 3; ++k)
+            if (has[k]) ignore("PLY vertex property " + in_quotes(slot_names[k]));
+        return false;
+    };
+    if (is_whole(3)) mesh_.normals.reserve(vertex.count);
+    if (is_whole(6)) mesh_.colors.reserve(vertex.count);
     return slots;
 }
 
