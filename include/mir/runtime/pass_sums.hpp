@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,22 +23,15 @@ namespace mir {
 /// each pixel. One thread at a time.
 class PassSums {
  public:
-    /// Adds one more render, of the size of those before.
+    /// Adds one more render. All have one size.
+    /// @throws Error(invalid_argument) when this one has another; std::bad_alloc. Then nothing was
+    ///         added.
     void add(RenderResult pass) {
-        const std::uint32_t earlier = passes();
-        if (earlier == 0)
-            begin(pass);
-        else
-            add_pass(statistics_, pass.statistics, earlier);
-        vpls_ = std::move(pass.vpls);
-        direct_.add(pass.direct);
-        emission_.add(pass.emission);
-        indirect_.add(pass.indirect);
-        removed_.add(pass.removed);
-        albedo_.add(pass.guides.albedo);
-        normal_.add(pass.guides.normal);
-        add_bounces(pass);
-        spread_.add(pass.beauty, earlier);
+        check_size(pass);
+        if (passes() > 0) return add_next(pass);
+        PassSums first;
+        first.begin(pass);
+        *this = std::move(first);
     }
 
     /// Renders added so far.
@@ -67,6 +61,19 @@ class PassSums {
     }
 
  private:
+    void check_size(const RenderResult& pass) const {
+        const Extent size = pass.beauty.extent();
+        bool fits = passes() == 0 || size == position_.extent();
+        for (const Image<Rgb>* layer :
+             {&pass.direct, &pass.emission, &pass.indirect, &pass.guides.albedo})
+            fits = fits && layer->extent() == size;
+        for (const Image<Rgb>& bounce : pass.bounces) fits = fits && bounce.extent() == size;
+        expects(fits && pass.guides.normal.extent() == size &&
+                    (pass.removed.pixels().empty() || pass.removed.extent() == size),
+                "a pass has another size than those before, or layers of different sizes (their "
+                "mean would be none); render all passes with one size");
+    }
+
     void begin(RenderResult& first) {
         statistics_ = first.statistics;
         position_ = std::move(first.guides.position);
@@ -76,15 +83,34 @@ class PassSums {
         for (const std::string& warning : first.warnings)
             if (std::find(of_numbers.begin(), of_numbers.end(), warning) == of_numbers.end())
                 remarks_.push_back(warning);
+        bounces_.resize(first.bounces.size());
+        removed_.add(first.removed);
+        add_layers(first, 0);
     }
 
-    /// A pass without light of a bounce adds black.
-    void add_bounces(const RenderResult& pass) {
-        while (bounces_.size() < pass.bounces.size()) {
-            bounces_.emplace_back();
-            if (passes() > 1) bounces_.back().add(Image<Rgb>(pass.beauty.extent()));
-        }
+    /// Takes the memory that it needs first, so that nothing is added where there is none.
+    void add_next(RenderResult& pass) {
+        // A pass without light of a bounce adds black.
+        std::vector<LayerSum<Rgb>> more;
+        for (std::size_t b = bounces_.size(); b < pass.bounces.size(); ++b)
+            more.emplace_back().add(Image<Rgb>(pass.beauty.extent()));
+        bounces_.reserve(bounces_.size() + more.size());
+        removed_.add(pass.removed);
+        std::move(more.begin(), more.end(), std::back_inserter(bounces_));
+        const std::uint32_t earlier = passes();
+        add_pass(statistics_, pass.statistics, earlier);
+        add_layers(pass, earlier);
+    }
+
+    void add_layers(RenderResult& pass, std::uint32_t earlier) {
+        vpls_ = std::move(pass.vpls);
+        direct_.add(pass.direct);
+        emission_.add(pass.emission);
+        indirect_.add(pass.indirect);
+        albedo_.add(pass.guides.albedo);
+        normal_.add(pass.guides.normal);
         for (std::size_t b = 0; b < pass.bounces.size(); ++b) bounces_[b].add(pass.bounces[b]);
+        spread_.add(pass.beauty, earlier);
     }
 
     RenderStatistics statistics_ = no_passes();
