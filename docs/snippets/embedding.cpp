@@ -80,10 +80,11 @@ class Threads {
                 if (!failure) failure = std::current_exception();
             }
         };
-        std::vector<std::thread> threads;
-        for (std::size_t t = 1; t < std::min(n, concurrency()); ++t) threads.emplace_back(work);
-        work();
-        for (std::thread& t : threads) t.join();
+        {
+            std::vector<std::jthread> threads;  // joined at the end, also if one cannot be started
+            for (std::size_t t = 1; t < std::min(n, concurrency()); ++t) threads.emplace_back(work);
+            work();
+        }
         if (failure) std::rethrow_exception(failure);
     }
     [[nodiscard]] std::size_t concurrency() const {

@@ -73,6 +73,7 @@
 #include "mir/core/math.hpp"
 #include "mir/core/monitor.hpp"
 #include "mir/core/morton.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/core/point_tree.hpp"
 #include "mir/core/printable.hpp"
 #include "mir/core/random.hpp"

@@ -117,6 +117,21 @@ TEST_CASE("a bounce that some passes lack is black there") {
     CHECK(result.bounces[1](3, 5) == mir::Rgb{0.5f, 0.5f, 0.5f});
 }
 
+TEST_CASE("a pass of another size is refused, and those before stay as they were") {
+    mir::RenderSettings other = settings();
+    other.image = {25, 18};
+    const NoiseRenderer renderer;
+    mir::PassSums sums;
+    sums.add(renderer.render(scene, settings(), nullptr));
+    const mir::RenderResult first = sums.result();
+    CHECK_THROWS_AS(sums.add(renderer.render(scene, other, nullptr)), mir::Error);
+    mir::RenderResult mixed = renderer.render(scene, settings(), nullptr);
+    mixed.direct = mir::Image<mir::Rgb>(other.image);
+    CHECK_THROWS_AS(sums.add(mixed), mir::Error);
+    CHECK(sums.passes() == 1);
+    CHECK(mirtest::same_bits(sums.result().beauty, first.beauty));
+}
+
 TEST_CASE("position and depth are those of the first pass, the VPLs those of the last") {
     const mir::RenderResult result = finished(NoiseRenderer(), {.passes = 3});
     CHECK(result.guides.depth(1, 1) == 0.0f);

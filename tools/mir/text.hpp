@@ -2,35 +2,24 @@
 #pragma once
 
 #include "mir/core/math.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/core/printable.hpp"
 
-#include <array>
 #include <cstddef>
-#include <cstdio>
 #include <string>
 
 namespace mirtool {
 
 /// A number in up to six digits.
-inline std::string number(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.6g", value);
-    return text.data();
-}
+inline std::string number(double value) { return mir::number_text(value); }
 
 /// A number with `digits` behind the point.
-inline std::string fixed(double value, int digits) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-    return text.data();
-}
+inline std::string fixed(double value, int digits) { return mir::fixed_text(value, digits); }
 
 /// "(1.5, 2, -3)", each number in up to `digits` digits. 15 tell every Scene::origin.
 inline std::string place(mir::DVec3 v, int digits = 15) {
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "(%.*g, %.*g, %.*g)", digits, v.x, digits, v.y, digits,
-                  v.z);
-    return text.data();
+    return "(" + mir::number_text(v.x, digits) + ", " + mir::number_text(v.y, digits) + ", " +
+           mir::number_text(v.z, digits) + ")";
 }
 
 /// A name of a file or of something in one, as a terminal may show it.

@@ -8,3 +8,9 @@
 #else
 #define MIR_HD
 #endif
+
+// Values that are no numbers would pass every check, infinities that end a search would not, and
+// what is exact by the order of its operations, such as shafts and edges without gaps, would leak.
+#if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(__ASSOCIATIVE_MATH__)
+#error "mir needs the arithmetic of IEEE 754: compile files that include it with -fno-fast-math"
+#endif

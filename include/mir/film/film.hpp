@@ -31,7 +31,9 @@ namespace mir {
 /// sign (64 luxels under a half-width of 4), and radiances next to an emitter differ by many orders
 /// of magnitude, where the cancellation of float sums would show.
 ///
-/// One thread at a time may use a Film; it spreads its work through the executor it is given.
+/// One thread at a time may use a Film; it spreads its work through the executor it is given. Where
+/// an exception ends add_rows(), part of a band may be added: the film then refuses all further
+/// use.
 class Film {
  public:
     /// `grid` and `seed` must be those that placed the luxels. `instructions` never changes a bit.
@@ -51,7 +53,8 @@ class Film {
     /// Bands come from top to bottom without gaps; their heights are free.
     /// @throws Error(invalid_argument) when the number of images is not that of the layers, or a
     ///         band has the wrong width, does not start where the last one ended, does not fit into
-    ///         the grid or differs in height from that of the first layer.
+    ///         the grid or differs in height from that of the first layer; what the executor
+    ///         throws, after which the film cannot be used.
     template <Executor E>
     void add_rows(E& executor, std::uint32_t first_luxel_row,
                   std::span<const Image<Rgb>* const> layers);
@@ -82,7 +85,7 @@ class Film {
     /// whose own luxels are not complete are black, the others are filtered from what is there, as
     /// at the border of an image. A pixel whose weights cancel to less than a thousandth of its
     /// luxels is black too; no filter of default_filter() lets that happen.
-    /// @throws Error(invalid_argument) when there is no such layer.
+    /// @throws Error(invalid_argument) when there is no such layer, or a band was added in part.
     template <Executor E>
     [[nodiscard]] Image<Rgb> develop(E& executor, std::size_t layer) const;
 
@@ -107,6 +110,12 @@ class Film {
         return layers;
     }
 
+    void check_whole() const {
+        expects(
+            !in_part_,
+            "a film was used to which a band was added in part (an exception ended add_rows()); "
+            "make a new film and add all bands again");
+    }
     void check_band(std::uint32_t first_luxel_row, const Image<Rgb>& luxels) const;
     void check_layers(std::uint32_t first_luxel_row,
                       std::span<const Image<Rgb>* const> layers) const;
@@ -132,6 +141,7 @@ class Film {
     InstructionSet instructions_;
     std::vector<double> sums_;
     std::uint32_t rows_ = 0;
+    bool in_part_ = false;  ///< a band is being added, or an exception ended that
 };
 
 inline void Film::check_band(std::uint32_t first_luxel_row, const Image<Rgb>& luxels) const {
@@ -168,12 +178,15 @@ inline void Film::check_layers(std::uint32_t first_luxel_row,
 template <Executor E>
 void Film::add_rows(E& executor, std::uint32_t first_luxel_row,
                     std::span<const Image<Rgb>* const> layers) {
+    check_whole();
     check_layers(first_luxel_row, layers);
+    in_part_ = true;
     executor.for_each(blocks(), [&](std::size_t block) {
         run_with(instructions_,
                  [&] { add_to_block(static_cast<std::uint32_t>(block), first_luxel_row, layers); });
     });
     rows_ += layers.front()->height();
+    in_part_ = false;
 }
 
 inline void Film::add_to_block(std::uint32_t block, std::uint32_t first_luxel_row,
@@ -203,6 +216,7 @@ inline void Film::add_luxel_row(detail::LuxelColumns& luxels, std::uint32_t bloc
 
 template <Executor E>
 Image<Rgb> Film::develop(E& executor, std::size_t layer) const {
+    check_whole();
     expects(layer < layers_,
             "a layer was asked for that the film does not hold (layers are numbered from 0); ask "
             "for one below layers()");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/data/main_bounces.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/io/detail/write_file.hpp"
@@ -9,7 +10,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,10 +20,9 @@ namespace detail {
 /// The line that says where positions are counted from; none where that is (0, 0, 0).
 inline std::string vpl_ply_origin(DVec3 origin) {
     if (origin == DVec3(0.0)) return {};
-    char line[128];
-    std::snprintf(line, sizeof line, "comment origin of positions, metres: %.17g %.17g %.17g\n",
-                  origin.x, origin.y, origin.z);
-    return line;
+    std::string line = "comment origin of positions, metres:";
+    for (const double x : {origin.x, origin.y, origin.z}) line += ' ' + number_text(x, 17);
+    return line + '\n';
 }
 
 /// Everything before the numbers of a PLY file of VPLs.

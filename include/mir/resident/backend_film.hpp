@@ -49,7 +49,8 @@ class BackendFilm {
     /// Adds a band of complete luxel rows, radiance in W m^-2 sr^-1, a layer for each of the
     /// film's, and develops the pixels that no later band reaches. Bands come from top to bottom
     /// without gaps. All work is done when it returns.
-    /// @throws Error(invalid_argument) when band or layers do not fit.
+    /// @throws Error(invalid_argument) when band or layers do not fit; what the backend throws,
+    ///         after which no band fits any more.
     void add_rows(Queue& queue, std::uint32_t first_row, std::vector<BackendLayer<B>>& layers);
 
     /// Copies what was developed last to the images.
@@ -81,6 +82,7 @@ class BackendFilm {
     std::uint32_t ring_;  ///< rows of pixels
     typename B::template Buffer<double> sums_;
     std::uint32_t luxel_rows_ = 0;  ///< added
+    bool in_part_ = false;          ///< a band is being added, or an error ended that
     std::uint32_t home_ = 0;        ///< rows of pixels in the images
     std::uint32_t developed_ = 0;   ///< rows of pixels, those included
     std::optional<typename B::template Buffer<Rgb>> pixels_;
@@ -93,9 +95,11 @@ template <Backend B>
 void BackendFilm<B>::add_rows(Queue& queue, std::uint32_t first_row,
                               std::vector<BackendLayer<B>>& layers) {
     const Extent whole = grid_.luxels();
-    expects(layers.size() == layers_ && first_row == luxel_rows_ && home_ == developed_,
-            "a band was added to a film whose layers or rows it does not continue; add bands from "
-            "top to bottom, with all layers, and bring each home");
+    expects(
+        layers.size() == layers_ && first_row == luxel_rows_ && home_ == developed_ && !in_part_,
+        "a band was added to a film whose layers or rows it does not continue, or that has "
+        "part of a band since an error; add bands from top to bottom, with all layers, and "
+        "bring each home");
     const Extent band = layers.front().grid().image;
     expects(band.width == whole.width && band.height <= whole.height - first_row &&
                 band.height <= most_rows_,
@@ -106,6 +110,7 @@ void BackendFilm<B>::add_rows(Queue& queue, std::uint32_t first_row,
     const UploadedArray<B, LayerView> there(backend_, queue, views);
     auto offsets = backend_.template buffer<Vec2>(static_cast<std::size_t>(band.area()));
     const WaitAtEnd wait(queue);
+    in_part_ = true;
     queue.for_each(static_cast<std::uint32_t>(band.area()),
                    LuxelOffsets{grid_, seed_, first_row, offsets.data()});
     luxel_rows_ = first_row + band.height;
@@ -120,6 +125,7 @@ void BackendFilm<B>::add_rows(Queue& queue, std::uint32_t first_row,
     develop(queue, luxel_rows_ == whole.height ? grid_.pixels.height
                                                : complete - std::min(complete, taps_.reach()));
     queue.record().sync();
+    in_part_ = false;
 }
 
 template <Backend B>

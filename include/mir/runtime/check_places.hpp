@@ -2,10 +2,10 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/scene/bounds.hpp"
 #include "mir/scene/scene.hpp"
 
-#include <cstdio>
 #include <string>
 
 namespace mir {
@@ -22,10 +22,9 @@ namespace detail {
 inline void check_place(const std::string& what, Vec3 place, float around = 0.0f) {
     const float reach = max_abs(place) + around;
     if (is_finite(place) && reach <= largest_place) return;
-    char distance[32];
-    std::snprintf(distance, sizeof distance, "%.3g m", static_cast<double>(reach));
-    throw Error(ErrorCode::invalid_input, what + " lies " + distance +
-                                              " from the middle of the scene (rays start within "
+    throw Error(ErrorCode::invalid_input, what + " lies " +
+                                              number_text(static_cast<double>(reach), 3) +
+                                              " m from the middle of the scene (rays start within "
                                               "1e+17 m); bring it nearer, or leave it out");
 }
 

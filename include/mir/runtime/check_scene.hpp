@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/number_text.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace mir {
 
@@ -72,13 +72,6 @@ inline std::vector<std::string> check_scene(const Scene& scene, const RenderSett
 
 namespace detail {
 
-/// `value` with so many digits behind the point.
-inline std::string rounded(double value, int digits = 0) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
-
 inline void add_luminance_warnings(const ChainHealth& h, std::vector<std::string>& warnings) {
     const PathLuminance& p = h.luminance;
     if (p.contributing == 0) {
@@ -91,12 +84,12 @@ inline void add_luminance_warnings(const ChainHealth& h, std::vector<std::string
     }
     if (p.relative_error() > 0.05)
         warnings.push_back("the brightness of the VPLs' light is known to " +
-                           rounded(100.0 * p.relative_error()) + " % only (" +
+                           fixed_text(100.0 * p.relative_error()) + " % only (" +
                            std::to_string(p.contributing) + " of " + std::to_string(p.paths) +
                            " paths carried light); a smaller --bootstrap-error knows it better");
     if (std::fabs(h.luminance_z()) > 4.0)
         warnings.push_back("two estimates of the mean luminance disagree by " +
-                           rounded(std::fabs(h.luminance_z()), 1) +
+                           fixed_text(std::fabs(h.luminance_z()), 1) +
                            " standard errors: some light is found too rarely to be measured");
 }
 
@@ -111,24 +104,25 @@ inline void add_mixing_warnings(const ChainHealth& h, std::vector<std::string>& 
             "help");
     const auto n = static_cast<double>(h.recorded_states);
     if (h.effective_samples < 0.25 * n)
-        warnings.push_back("the " + rounded(n) + " recorded states are worth " +
-                           rounded(h.effective_samples) +
+        warnings.push_back("the " + fixed_text(n) + " recorded states are worth " +
+                           fixed_text(h.effective_samples) +
                            " independent ones; a longer --stride or more --tries mix better");
     if (h.split_r_hat > 1.5 && h.effective_samples < 0.5 * n)
-        warnings.push_back("the Markov chains disagree (split R-hat " + rounded(h.split_r_hat, 2) +
+        warnings.push_back("the Markov chains disagree (split R-hat " +
+                           fixed_text(h.split_r_hat, 2) +
                            ", 1 is ideal); a longer --stride or fewer --chains help");
 }
 
 /// "17.3 +- 0.8 %".
 inline std::string percent(const ShareEstimate& e) {
-    return rounded(100.0 * e.share, 1) + " +- " + rounded(100.0 * e.standard_error, 1) + " %";
+    return fixed_text(100.0 * e.share, 1) + " +- " + fixed_text(100.0 * e.standard_error, 1) + " %";
 }
 
 inline void add_missing_warnings(const RenderStatistics& s, std::vector<std::string>& warnings) {
     if (s.removed_share() > 0.05 && s.residual_paths == 0)
         warnings.push_back(
             "the bound removed " +
-            (s.removed ? percent(*s.removed) : rounded(100.0 * s.removed_share(), 1) + " %") +
+            (s.removed ? percent(*s.removed) : fixed_text(100.0 * s.removed_share(), 1) + " %") +
             " of the indirect light; more VPLs lose less, --compensate 4 traces it back");
     if (s.cut && s.cut->share > 0.005)
         warnings.push_back("the largest number of reflections cuts " + percent(*s.cut) +
@@ -139,11 +133,11 @@ inline void add_missing_warnings(const RenderStatistics& s, std::vector<std::str
 /// More than 5 %, beyond what the noise of the paths explains.
 inline void add_gather_warning(const LightDifference& d, std::vector<std::string>& warnings) {
     if (std::fabs(d.mean) - 2.0 * d.standard_error <= 0.05) return;
-    warnings.push_back("the light gathered from discs is " + rounded(100.0 * std::fabs(d.mean), 1) +
-                       " +- " + rounded(100.0 * d.standard_error, 1) + " % too " +
-                       (d.mean > 0.0 ? "bright" : "dark") +
-                       " in the mean; more --surfels or --gather exact may lie nearer, "
-                       "--gather-check correct brings it nearer, --integrator path is right");
+    warnings.push_back(
+        "the light gathered from discs is " + fixed_text(100.0 * std::fabs(d.mean), 1) + " +- " +
+        fixed_text(100.0 * d.standard_error, 1) + " % too " + (d.mean > 0.0 ? "bright" : "dark") +
+        " in the mean; more --surfels or --gather exact may lie nearer, "
+        "--gather-check correct brings it nearer, --integrator path is right");
 }
 
 /// Of the picture's luminance, 0..1; 0 of a black picture.
@@ -166,8 +160,8 @@ inline void add_direct_noise_warning(const RenderResult& result,
     const double noise = of_direct * share_of_picture(result.direct, result.beauty);
     if (noise <= bearable) return;
     const double times = std::ceil(noise * noise / (bearable * bearable));
-    warnings.push_back("direct light is noisy, by " + rounded(100.0 * of_direct) +
-                       " % in a typical pixel; " + rounded(times) +
+    warnings.push_back("direct light is noisy, by " + fixed_text(100.0 * of_direct) +
+                       " % in a typical pixel; " + fixed_text(times) +
                        " times as many --direct-samples make it smooth");
 }
 
@@ -177,7 +171,7 @@ inline void add_lobe_warning(const RenderResult& result, std::vector<std::string
                          share_of_picture(result.indirect, result.beauty);
     if (share <= 0.05) return;
     warnings.push_back(
-        "reflections in glossy surfaces bring " + rounded(100.0 * share) +
+        "reflections in glossy surfaces bring " + fixed_text(100.0 * share) +
         " % of the picture's light, and VPLs spread it evenly; --sampler ir --glossy "
         "keeps its direction, --integrator path too");
 }
@@ -190,7 +184,7 @@ inline void add_chain_warnings(const RenderStatistics& s, std::vector<std::strin
     detail::add_luminance_warnings(*s.health, warnings);
     if (s.health->recorded_states > 0) detail::add_mixing_warnings(*s.health, warnings);
     if (s.dropped_share > 0.001)
-        warnings.push_back(detail::rounded(100.0 * s.dropped_share, 1) +
+        warnings.push_back(fixed_text(100.0 * s.dropped_share, 1) +
                            " % of the VPLs light no luxel and their light is missing; more luxels "
                            "or --normalise proposal lose less");
 }
@@ -213,7 +207,7 @@ inline void add_result_warnings(const RenderResult& result, std::vector<std::str
     detail::add_direct_noise_warning(result, warnings);
     detail::add_lobe_warning(result, warnings);
     if (s.widened_share > 0.01f)
-        warnings.push_back(detail::rounded(100.0 * static_cast<double>(s.widened_share), 1) +
+        warnings.push_back(fixed_text(100.0 * static_cast<double>(s.widened_share), 1) +
                            " % of the VPLs' light comes from surfaces smoother than "
                            "--glossy-roughness and through lobes of that roughness");
     if (s.vpls == 0 && s.emitted_power > 0.0f && !s.health && s.camera_paths == 0 && s.surfels == 0)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,23 +23,15 @@ namespace mir {
 /// each pixel. One thread at a time.
 class PassSums {
  public:
-    /// Adds one more render, of the size of those before.
+    /// Adds one more render. All have one size.
+    /// @throws Error(invalid_argument) when this one has another; std::bad_alloc. Then nothing was
+    ///         added.
     void add(RenderResult pass) {
-        const std::uint32_t earlier = passes();
-        if (earlier == 0)
-            begin(pass);
-        else
-            add_pass(statistics_, pass.statistics, earlier);
-        vpls_ = std::move(pass.vpls);
-        direct_.add(pass.direct);
-        emission_.add(pass.emission);
-        indirect_.add(pass.indirect);
-        removed_.add(pass.removed);
-        coverage_.add(pass.coverage);
-        albedo_.add(pass.guides.albedo);
-        normal_.add(pass.guides.normal);
-        add_bounces(pass);
-        spread_.add(pass.beauty, earlier);
+        check_size(pass);
+        if (passes() > 0) return add_next(pass);
+        PassSums first;
+        first.begin(pass);
+        *this = std::move(first);
     }
 
     /// Renders added so far.
@@ -68,6 +61,22 @@ class PassSums {
     }
 
  private:
+    void check_size(const RenderResult& pass) const {
+        const Extent size = pass.beauty.extent();
+        bool fits = passes() == 0 || size == position_.extent();
+        for (const Image<Rgb>* layer :
+             {&pass.direct, &pass.emission, &pass.indirect, &pass.guides.albedo})
+            fits = fits && layer->extent() == size;
+        for (const Image<Rgb>& bounce : pass.bounces) fits = fits && bounce.extent() == size;
+        const auto fits_or_none = [&](const auto& layer) {
+            return layer.pixels().empty() || layer.extent() == size;
+        };
+        expects(fits && pass.guides.normal.extent() == size && fits_or_none(pass.removed) &&
+                    fits_or_none(pass.coverage),
+                "a pass has another size than those before, or layers of different sizes (their "
+                "mean would be none); render all passes with one size");
+    }
+
     void begin(RenderResult& first) {
         statistics_ = first.statistics;
         position_ = std::move(first.guides.position);
@@ -77,15 +86,35 @@ class PassSums {
         for (const std::string& warning : first.warnings)
             if (std::find(of_numbers.begin(), of_numbers.end(), warning) == of_numbers.end())
                 remarks_.push_back(warning);
+        bounces_.resize(first.bounces.size());
+        removed_.add(first.removed);
+        add_layers(first, 0);
     }
 
-    /// A pass without light of a bounce adds black.
-    void add_bounces(const RenderResult& pass) {
-        while (bounces_.size() < pass.bounces.size()) {
-            bounces_.emplace_back();
-            if (passes() > 1) bounces_.back().add(Image<Rgb>(pass.beauty.extent()));
-        }
+    /// Takes the memory that it needs first, so that nothing is added where there is none.
+    void add_next(RenderResult& pass) {
+        // A pass without light of a bounce adds black.
+        std::vector<LayerSum<Rgb>> more;
+        for (std::size_t b = bounces_.size(); b < pass.bounces.size(); ++b)
+            more.emplace_back().add(Image<Rgb>(pass.beauty.extent()));
+        bounces_.reserve(bounces_.size() + more.size());
+        removed_.add(pass.removed);
+        std::move(more.begin(), more.end(), std::back_inserter(bounces_));
+        const std::uint32_t earlier = passes();
+        add_pass(statistics_, pass.statistics, earlier);
+        add_layers(pass, earlier);
+    }
+
+    void add_layers(RenderResult& pass, std::uint32_t earlier) {
+        vpls_ = std::move(pass.vpls);
+        direct_.add(pass.direct);
+        emission_.add(pass.emission);
+        indirect_.add(pass.indirect);
+        coverage_.add(pass.coverage);
+        albedo_.add(pass.guides.albedo);
+        normal_.add(pass.guides.normal);
         for (std::size_t b = 0; b < pass.bounces.size(); ++b) bounces_[b].add(pass.bounces[b]);
+        spread_.add(pass.beauty, earlier);
     }
 
     RenderStatistics statistics_ = no_passes();
@@ -97,8 +126,8 @@ class PassSums {
     LayerSum<Rgb> direct_;
     LayerSum<Rgb> emission_;
     LayerSum<Rgb> indirect_;
-    LayerSum<Rgb> removed_;  ///< empty where no pass has that layer
-    LayerSum<float> coverage_;
+    LayerSum<Rgb> removed_;     ///< empty where no pass has that layer
+    LayerSum<float> coverage_;  ///< empty where renders leave it out
     LayerSum<Rgb> albedo_;
     LayerSum<Vec3> normal_;
     std::vector<LayerSum<Rgb>> bounces_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/error.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/scene/alpha_mask.hpp"
 #include "mir/scene/texture_table.hpp"
 
@@ -63,10 +64,10 @@ class AlphaMaskTable {
                         "material " + detail::in_quotes(m.name) + ": " + what);
         };
         if (!(m.alpha >= 0.0f && m.alpha <= 1.0f))
-            fail("its alpha is " + std::to_string(m.alpha) +
+            fail("its alpha is " + number_text(m.alpha) +
                  " (it is a share of the surface); use a number from 0 to 1");
         if (!(m.alpha_cutoff >= 0.0f) || !std::isfinite(m.alpha_cutoff))
-            fail("its alpha cutoff is " + std::to_string(m.alpha_cutoff) +
+            fail("its alpha cutoff is " + number_text(m.alpha_cutoff) +
                  " (no alpha can be compared with it); use a number from 0, which cuts nothing "
                  "away, to 1");
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/bsdf.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/validation/detail/bsdf_directions.hpp"
 #include "mir/validation/detail/direction_grid.hpp"
 #include "mir/validation/detail/random.hpp"
@@ -51,9 +52,9 @@ void expect_reciprocal(const typename B::Params& p, Report& report) {
             if (a != b)
                 worst = worse(worst, std::fabs(a - b) / std::max(std::fabs(a), std::fabs(b)));
     }
-    report.expect(worst < 1e-5, "eval is reciprocal",
-                  "eval(wi, wo) and eval(wo, wi) differ by up to " + std::to_string(worst) +
-                      " of the larger");
+    report.expect(
+        worst < 1e-5, "eval is reciprocal",
+        "eval(wi, wo) and eval(wo, wi) differ by up to " + number_text(worst) + " of the larger");
 }
 
 /// Prepared it is the same in every bit, and with fused sums of products to a relative 1e-3, which
@@ -81,7 +82,7 @@ void expect_same_when_prepared(const typename B::Params& p, Report& report) {
     report.expect(different == 0, "prepared, it is the same in every bit",
                   std::to_string(different) + " of 2000 values are not");
     report.expect(worst < 1e-3, "rounded otherwise, it is the same function",
-                  "values differ by up to " + std::to_string(worst) + " of the larger");
+                  "values differ by up to " + number_text(worst) + " of the larger");
 }
 
 /// Directional albedo towards `wo`, and what pdf() integrates to, by quadrature around the mirrored
@@ -119,11 +120,11 @@ void expect_energy(const typename B::Params& p, Report& report) {
     constexpr double most = 1.0 + 4e-3;
     for (float cosine : usual_cosines) {
         const BsdfIntegrals sum = integrate<B>(p, at_angle(cosine, 0.4f));
-        const std::string at = " at a cosine of " + std::to_string(cosine);
+        const std::string at = " at a cosine of " + number_text(cosine);
         report.expect(sum.albedo <= most, "no more light is reflected than arrives",
-                      std::to_string(sum.albedo) + " of it" + at);
+                      number_text(sum.albedo) + " of it" + at);
         report.expect(sum.pdf <= most, "pdf integrates to at most 1",
-                      "it gives " + std::to_string(sum.pdf) + at);
+                      "it gives " + number_text(sum.pdf) + at);
     }
 }
 
@@ -178,7 +179,7 @@ void expect_weights(const typename B::Params& p, Report& report) {
     report.expect(bad == 0, "samples are unit directions above the surface with finite weights",
                   std::to_string(bad) + " of 4000 are not");
     report.expect(worst < 1e-4, "weights of samples are eval cos / pdf",
-                  "they differ by up to " + std::to_string(worst) + " of it");
+                  "they differ by up to " + number_text(worst) + " of it");
     if (max_channel(B::albedo(p, slanted_normal, slanted_normal)) > 0.0f)
         report.expect(kept > 2000, "samples of what reflects are mostly kept",
                       std::to_string(4000 - kept) + " of 4000 are thrown away");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/bsdf.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/validation/detail/bsdf_directions.hpp"
 #include "mir/validation/detail/random.hpp"
 #include "mir/validation/report.hpp"
@@ -109,15 +110,15 @@ class CellCounts {
             add(std::exchange(found_in_others_, 0.0), std::exchange(expected_in_others_, 0.0));
         report.expect(poisson_tail(expected_in_others_ + quadrature_error, found_in_others_) > 1e-6,
                       "samples follow pdf",
-                      std::to_string(found_in_others_) + " samples lie where " +
-                          std::to_string(expected_in_others_) + " are expected");
+                      number_text(found_in_others_) + " samples lie where " +
+                          number_text(expected_in_others_) + " are expected");
         if (cells_ < 2) return;  // one cell holds all that the others do not
         const double freedom = cells_ - 1.0;
         const double spread = 2.0 / (9.0 * freedom);
         const double normal =
             (std::cbrt(chi_squared_ / freedom) - (1.0 - spread)) / std::sqrt(spread);
         report.expect(normal < 4.75, "samples follow pdf",
-                      "chi-squared is " + std::to_string(chi_squared_) + " for " +
+                      "chi-squared is " + number_text(chi_squared_) + " for " +
                           std::to_string(cells_ - 1) + " degrees of freedom");
     }
 

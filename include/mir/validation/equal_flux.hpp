@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/number_text.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sched/cpu.hpp"
@@ -37,7 +38,7 @@ Report check_equal_flux(const G& gbuffer, const VplList& vpls, V visibility, F s
     report.expect(2 * flux.size() > vpls.size(), "luxels see most of the VPLs",
                   std::to_string(flux.size()) + " of " + std::to_string(vpls.size()));
     report.expect(worst < 1e-3, "every recorded state brings the same light to the image",
-                  "one differs from their mean by " + std::to_string(worst) + " of it");
+                  "one differs from their mean by " + number_text(worst) + " of it");
     return report;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/number_text.hpp"
 #include "mir/data/image.hpp"
 #include "mir/scene/builtin/check_rooms.hpp"
 #include "mir/scene/builtin/shapes.hpp"
@@ -44,9 +45,9 @@ Report check_furnace(const Render& render, double tolerance) {
             const bool holds = std::fabs(r - 1.0) <= tolerance && std::fabs(g - 1.0) <= tolerance &&
                                std::fabs(b - 1.0) <= tolerance;
             report.expect(holds,
-                          "a furnace of reflectance " + std::to_string(reflectance) +
+                          "a furnace of reflectance " + number_text(reflectance) +
                               (block ? " with a block" : "") + " has radiance 1",
-                          std::to_string(r) + ", " + std::to_string(g) + ", " + std::to_string(b));
+                          number_text(r) + ", " + number_text(g) + ", " + number_text(b));
         }
     return report;
 }

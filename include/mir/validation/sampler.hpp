@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/sampler.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/validation/detail/image_light.hpp"
 #include "mir/validation/detail/same_records.hpp"
 #include "mir/validation/known_light.hpp"
@@ -42,10 +43,10 @@ inline void expect_sound_records(const VplRecords& from, Report& report) {
                   so_many(uncounted, all));
     report.expect(std::isfinite(from.emitted_power) && from.emitted_power >= 0.0f,
                   "the emitted power is finite and not negative",
-                  std::to_string(from.emitted_power) + " W");
+                  number_text(from.emitted_power) + " W");
     const float share = from.non_lambertian_share;
     report.expect(share >= 0.0f && share <= 1.0f, "the non-Lambertian share is 0 to 1",
-                  std::to_string(share));
+                  number_text(share));
 }
 
 /// What normalisation by the image relies on.
@@ -56,7 +57,7 @@ inline void expect_counted_states(const VplRecords& from, Report& report) {
                   "weights add up to the recorded states",
                   std::to_string(weights) + " of " + std::to_string(from.states));
     report.expect(std::isfinite(from.path_luminance) && from.path_luminance >= 0.0,
-                  "P_c is finite and not negative", std::to_string(from.path_luminance));
+                  "P_c is finite and not negative", number_text(from.path_luminance));
 }
 
 /// Whether a VPL lies at most `reach` metres off a triangle, above the side that its normal names.
@@ -140,10 +141,9 @@ Report check_sampler_light(const Make& make, const KnownLight& room, Bounces bou
         light.add<std::remove_cv_t<decltype(sampler)>::normalisation>(from);
     }
     const double power = static_cast<double>(from.emitted_power);
-    report.expect(
-        std::fabs(power / room.emitted_power() - 1.0) < 1e-4,
-        "the emitted power is that of the lamps",
-        std::to_string(power) + " instead of " + std::to_string(room.emitted_power()) + " W");
+    report.expect(std::fabs(power / room.emitted_power() - 1.0) < 1e-4,
+                  "the emitted power is that of the lamps",
+                  number_text(power) + " instead of " + number_text(room.emitted_power()) + " W");
     light.judge(report);
     return report;
 }

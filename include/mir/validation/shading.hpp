@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/shading.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/shading/vpl_shading.hpp"
 #include "mir/validation/detail/shaded_places.hpp"
 #include "mir/validation/detail/worse.hpp"
@@ -68,7 +69,7 @@ void expect_linear(const F& shade, const MakeSurface& surface, Report& report) {
         worst = worse(worst, relative_difference(found, wanted));
     }
     report.expect(worst < 1e-5, "light is linear in the VPL's intensity, channel by channel",
-                  "it differs by up to " + std::to_string(worst) + " of it");
+                  "it differs by up to " + number_text(worst) + " of it");
 }
 
 /// What schedulers may skip is black: surfaces that reflect nothing, VPLs beyond the reach.
@@ -167,7 +168,7 @@ Report check_shading_by_closed_form(const F& shade, const MakeSurface& surface,
     Report report;
     report.expect(asked > 1000, "pairs face each other", std::to_string(asked) + " of 20000 do");
     report.expect(worst <= tolerance, "light is J f cos cos / d^2",
-                  "it differs by up to " + std::to_string(worst) + " of it");
+                  "it differs by up to " + number_text(worst) + " of it");
     return report;
 }
 
@@ -198,7 +199,7 @@ Report check_shading_reciprocity(const F& shade, const MakeSurface& surface, flo
     Report report;
     report.expect(lit > 1000, "VPLs light the luxels", std::to_string(lit) + " of 5000 do");
     report.expect(worst <= tolerance, "viewer and VPL may change places",
-                  "light differs by up to " + std::to_string(worst) + " of it");
+                  "light differs by up to " + number_text(worst) + " of it");
     return report;
 }
 

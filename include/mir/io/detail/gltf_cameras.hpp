@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/number_text.hpp"
 #include "mir/io/detail/gltf_lights.hpp"
 #include "mir/scene/camera.hpp"
 
@@ -53,8 +54,8 @@ inline Camera perspective_camera(const tinygltf::Camera& from, const std::string
     Camera camera;
     const double fov = from.perspective.yfov;
     if (!(fov > 0.0 && fov < 3.14159))
-        gltf_fail(place, "its yfov is not between 0 and pi (" + std::to_string(fov) +
-                             "); repair the value");
+        gltf_fail(place,
+                  "its yfov is not between 0 and pi (" + number_text(fov) + "); repair the value");
     camera.vertical_fov = static_cast<float>(fov);
     camera.aspect_ratio = checked_amount(from.perspective.aspectRatio, "aspectRatio", place);
     camera.lens_radius = checked_amount(number_or(from.extras, "lens_radius", 0.0, place),

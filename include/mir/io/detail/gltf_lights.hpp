@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/number_text.hpp"
 #include "mir/io/detail/gltf_meshes.hpp"
 #include "mir/io/detail/gltf_nodes.hpp"
 #include "mir/scene/placements.hpp"
@@ -59,8 +60,8 @@ inline SpotLight spot_light(const tinygltf::Light& light, const GltfPose& pose,
     const double outer = light.spot.outerConeAngle;
     // A half angle of 90 degrees is written rounded up by some exporters.
     if (!(inner >= 0.0 && inner < outer && outer <= 1.5708))
-        gltf_fail(place, "its cone angles are not in order (0 <= inner " + std::to_string(inner) +
-                             " < outer " + std::to_string(outer) + " <= pi/2); repair them");
+        gltf_fail(place, "its cone angles are not in order (0 <= inner " + number_text(inner) +
+                             " < outer " + number_text(outer) + " <= pi/2); repair them");
     SpotLight spot;
     spot.direction = shining_direction(pose, place);
     spot.intensity = light_strength(light, place);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/number_text.hpp"
 #include "mir/io/detail/gltf_textures.hpp"
 #include "mir/scene/material.hpp"
 
@@ -96,7 +97,7 @@ class GltfMaterials {
         to.ior = checked_amount(number_or(from, "ior", 1.5, place_), "ior", place_);
         if (to.ior >= 1.0f) return;
         if (to.ior != 0.0f)
-            gltf_fail(place_, "its index of refraction is below 1 (" + std::to_string(to.ior) +
+            gltf_fail(place_, "its index of refraction is below 1 (" + number_text(to.ior) +
                                   "; no material is like that); repair the value");
         to.ior = 1.5f;
         ignore("KHR_materials_ior of 0 (taken as 1.5)");

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/number_text.hpp"
 #include "mir/io/detail/ply_header.hpp"
 #include "mir/io/detail/text_number.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -20,13 +19,6 @@ namespace mir::detail {
 /// A complaint about the element that is being read: its place is put in front where it is known,
 /// for naming every element takes longer than reading it.
 [[noreturn]] inline void fail_here(const std::string& problem) { fail_at("", problem); }
-
-/// A number for a message, which may be too large for any whole number.
-inline std::string number_text(double number) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), number);
-    return {text.data(), end.ptr};
-}
 
 /// The numbers behind a PLY header, one after the other.
 class PlyValues {
@@ -48,7 +40,7 @@ class PlyValues {
         const std::size_t most =
             format_ == PlyFormat::ascii ? (left + 1) / 2 : left / ply_size(property.type);
         if (count < 0.0 || count > static_cast<double>(most))
-            fail_here("its list is of " + number_text(count) + " numbers, but the file has " +
+            fail_here("its list is of " + number_text(count, 15) + " numbers, but the file has " +
                       std::to_string(left) + " bytes left; export the file again");
         values.clear();
         for (auto i = static_cast<std::size_t>(count); i > 0; --i)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/number_text.hpp"
 #include "mir/scene/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -48,11 +48,7 @@ inline double median_edge(const Mesh& mesh) {
 }
 
 /// "0.00781 m".
-inline std::string metres(double length) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g m", length);
-    return text;
-}
+inline std::string metres(double length) { return number_text(length, 3) + " m"; }
 
 /// Collects meshes whose edges are short beside the steps of the floats that hold their corners,
 /// and words one sentence about all of them.
@@ -75,12 +71,10 @@ class CoarseMeshes {
     void append_to(std::vector<std::string>& remarks, const std::string& problem,
                    const std::string& remedy) const {
         if (count_ == 0) return;
-        char share[32];
-        std::snprintf(share, sizeof share, "1/%.3g", steps_);
         remarks.push_back(problem + " (" + std::to_string(count_) + "): " + in_quotes(name_) +
                           " reaches " + metres(reach_) + ", where 32-bit numbers lie " +
-                          metres(edge_ / steps_) + " apart, " + share + " of its median edge of " +
-                          metres(edge_) + " (" + remedy + ")");
+                          metres(edge_ / steps_) + " apart, 1/" + number_text(steps_, 3) +
+                          " of its median edge of " + metres(edge_) + " (" + remedy + ")");
     }
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/archetypes.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/place_vpls.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sched/cpu.hpp"
@@ -58,10 +59,10 @@ class QuarterMeans {
                 const double off = deviation(m, wanted[c], 1e-3 * wanted[c]);
                 if (off <= worst || worst != worst) continue;
                 worst = off;
-                found = std::to_string(m.mean()) + " instead of " + std::to_string(wanted[c]) +
+                found = number_text(m.mean()) + " instead of " + number_text(wanted[c]) +
                         " W m^-2 sr^-1 in channel " + std::to_string(c) + " of " +
                         (part < 4 ? "quarter " + std::to_string(part) : "the image") +
-                        ", standard error " + std::to_string(m.standard_error());
+                        ", standard error " + number_text(m.standard_error());
             }
         report.expect(worst < 4.89, axiom, found);
     }
@@ -114,7 +115,7 @@ class ImageLight {
         const Rgb all = room_.radiance(bounces_);
         const double error = all_.relative_error(all);
         report.expect(error < 0.03, "32 seeds tell the light to 3 %",
-                      "the standard error is " + std::to_string(error) + " of it; take more VPLs");
+                      "the standard error is " + number_text(error) + " of it; take more VPLs");
         for (std::size_t i = 0; i < judged(); ++i)
             single_[i].judge("bounce " + std::to_string(bounce(i)) + " brings its light",
                              room_.radiance(bounce(i)), report);
@@ -123,9 +124,9 @@ class ImageLight {
         const double wanted = static_cast<double>(luminance(all));
         report.expect(deviation(path_luminance_, wanted, 1e-3 * wanted) < 4.89,
                       "P_c is the light of all bounces",
-                      std::to_string(path_luminance_.mean()) + " instead of " +
-                          std::to_string(wanted) + " W m^-2 sr^-1, standard error " +
-                          std::to_string(path_luminance_.standard_error()));
+                      number_text(path_luminance_.mean()) + " instead of " + number_text(wanted) +
+                          " W m^-2 sr^-1, standard error " +
+                          number_text(path_luminance_.standard_error()));
     }
 
  private:

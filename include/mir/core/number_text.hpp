@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <string>
+
+namespace mir {
+namespace detail {
+
+inline std::string print_number(double value, std::chars_format format, int precision) {
+    std::array<char, 512> text{};  // the largest double has 309 digits before its point
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value, format, precision);
+    return {text.data(), end.ptr};
+}
+
+}  // namespace detail
+
+/// A number in up to `digits` digits, at most 100, as printf's "%.6g" writes it in the locale "C",
+/// whatever locale the program has chosen: with a point and without groups. 17 tell every double,
+/// 9 every float.
+inline std::string number_text(double value, int digits = 6) {
+    return detail::print_number(value, std::chars_format::general, digits);
+}
+
+/// A number with so many digits behind the point, at most 100, as "%.2f" writes it; likewise.
+inline std::string fixed_text(double value, int digits = 0) {
+    return detail::print_number(value, std::chars_format::fixed, digits);
+}
+
+}  // namespace mir
