@@ -24,7 +24,7 @@ inline Extension extension(const std::string& name, const std::string& about, co
 
 /// One that cannot be read without.
 inline Extension optional_alone(const std::string& name, const std::string& about,
-                                const Build& build, Outcome outcome,
+                                const Build& build, const Outcome& outcome,
                                 const std::string& words = "") {
     Extension to = extension(name, about, build, outcome, words);
     to.when_required =
