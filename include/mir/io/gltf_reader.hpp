@@ -23,7 +23,8 @@ namespace detail {
 /// Counts what a node asks for beyond meshes, lights and cameras.
 inline void note_unused_of_node(const tinygltf::Node& node, SceneReport& report) {
     for (const auto& [name, value] : node.extensions)
-        if (name != "KHR_lights_punctual" && name != "EXT_mesh_gpu_instancing")
+        if (name != "KHR_lights_punctual" && name != "EXT_mesh_gpu_instancing" &&
+            name != "KHR_node_visibility")
             count_extension(name, report);
 }
 
@@ -46,14 +47,14 @@ inline void place_everything(const tinygltf::Model& model, const std::vector<int
     GltfNodeMeshes meshes(model, nodes, coordinates, limits, loaded);
     for (const PlacedNode& placed : nodes) {
         const tinygltf::Node& node = model.nodes[placed.node];
-        if (node.mesh >= 0) {
+        if (node.mesh >= 0 && placed.is_visible) {
             const auto [parts, to_world] = meshes.at(placed);
             instances.add(placed, parts, to_world);
         }
         if (node.camera >= 0)
             add_camera(model, node.camera, placed, loaded.scene, places, loaded.report);
         const auto light = node.extensions.find("KHR_lights_punctual");
-        if (light != node.extensions.end())
+        if (light != node.extensions.end() && placed.is_visible)
             add_light(model, index_under(light->second, "light"), placed, loaded.scene, places,
                       loaded.report);
         note_unused_of_node(node, loaded.report);
@@ -123,8 +124,9 @@ inline LoadedScene load_gltf(const std::filesystem::path& path, const Limits& li
 /// light or camera is no error: the report says so. Transforms of nodes are multiplied in double
 /// precision and counted from the origin that recentre() chooses. Alpha mode MASK is read; BLEND
 /// and environments are not, the report counts them. Morph targets and skins are as the scene
-/// stands. What the picture does not need refuses no file. Buffers outside of the file's folder are
-/// refused unless `limits.allow_outside`. Thread-safe for different or equal files.
+/// stands; nodes may be hidden. What the picture does not need refuses no file. Buffers outside of
+/// the file's folder are refused unless `limits.allow_outside`. Thread-safe for different or equal
+/// files.
 /// @throws Error(invalid_input) when the file is missing, broken or breaks glTF's rules, by the
 ///         path of a property that is of a wrong type;
 ///         Error(unsupported) when it requires an extension that is not known;

@@ -140,7 +140,7 @@ inline Check first_vertex(mir::Vec3 place) {
 }
 
 /// Looks at the only mesh.
-inline Check mesh(std::function<void(const mir::Mesh&)> look) {
+inline Check mesh(const std::function<void(const mir::Mesh&)>& look) {
     return [look](const mir::LoadedScene& loaded) {
         REQUIRE(loaded.scene.meshes.size() == 1);
         look(loaded.scene.meshes[0]);
@@ -148,7 +148,7 @@ inline Check mesh(std::function<void(const mir::Mesh&)> look) {
 }
 
 /// Looks at the material of the first mesh.
-inline Check material(std::function<void(const mir::Material&)> look) {
+inline Check material(const std::function<void(const mir::Material&)>& look) {
     return [look](const mir::LoadedScene& loaded) {
         REQUIRE_FALSE(loaded.scene.meshes.empty());
         look(loaded.scene.materials.at(loaded.scene.meshes[0].material));

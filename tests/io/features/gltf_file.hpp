@@ -126,6 +126,14 @@ inline Files gltf(const Build& build) {
     return made.files();
 }
 
+/// A camera in the triangle's node.
+inline Build with_camera(const json& camera) {
+    return [=](Gltf& g) {
+        g.file["cameras"] = json::array({camera});
+        g.node()["camera"] = 0;
+    };
+}
+
 /// A file of the material's base colour texture whose image is `image`.
 inline Files image_file(const json& image) {
     return gltf([&](Gltf& g) { g.surface()["baseColorTexture"] = g.texture(image); });

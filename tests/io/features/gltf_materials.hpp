@@ -175,7 +175,7 @@ inline Feature image(const std::string& name, const std::string& says, const jso
 inline Features gltf_images() {
     const std::string lost = "texture baseColorTexture without a PNG or JPEG image";
     const std::string other = "image that is neither PNG nor JPEG";
-    const auto texels = [](std::vector<std::uint32_t> expected) {
+    const auto texels = [](const std::vector<std::uint32_t>& expected) {
         return read([expected](const mir::LoadedScene& loaded) {
             CHECK(loaded.scene.images.at(0).texels == expected);
         });

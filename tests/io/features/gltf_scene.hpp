@@ -8,14 +8,6 @@
 
 namespace mirtest::features {
 
-/// A camera in the triangle's node.
-inline Build with_camera(const json& camera) {
-    return [=](Gltf& g) {
-        g.file["cameras"] = json::array({camera});
-        g.node()["camera"] = 0;
-    };
-}
-
 inline Features gltf_nodes() {
     const Build parts = [](Gltf& g) {
         g.node() = {{"translation", {0, 0, 1}}, {"scale", {-1, 2, 3}}, {"children", {1}}};

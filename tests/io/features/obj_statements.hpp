@@ -108,7 +108,7 @@ inline Features obj_elements() {
 }
 
 inline Features obj_grouping() {
-    const auto names = [](std::vector<std::string> expected) {
+    const auto names = [](const std::vector<std::string>& expected) {
         return read([expected](const mir::LoadedScene& loaded) {
             std::vector<std::string> found;
             for (const mir::Mesh& m : loaded.scene.meshes) found.push_back(m.name);

@@ -50,7 +50,8 @@ inline std::string first_difference(const std::string& a, const std::string& b) 
         const bool has_a = bool(std::getline(in_a, line_a));
         const bool has_b = bool(std::getline(in_b, line_b));
         if (!has_a && !has_b) return "";
-        if (line_a != line_b || has_a != has_b) return "- " + line_a + "\n+ " + line_b;
+        if (line_a != line_b || has_a != has_b)
+            return std::string("- ").append(line_a).append("\n+ ").append(line_b);
     }
 }
 

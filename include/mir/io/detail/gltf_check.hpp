@@ -81,7 +81,8 @@ inline bool can_read_extension(std::string_view name) {
     if (name == "KHR_texture_basisu") return false;
     return is_never_seen(name) || name == "KHR_lights_punctual" ||
            name == "KHR_mesh_quantization" || name == "EXT_mesh_gpu_instancing" ||
-           name.rfind("KHR_materials_", 0) == 0 || name.find("_texture_") != std::string_view::npos;
+           name == "KHR_node_visibility" || name.rfind("KHR_materials_", 0) == 0 ||
+           name.find("_texture_") != std::string_view::npos;
 }
 
 /// Why a required extension is refused and what to do about it.

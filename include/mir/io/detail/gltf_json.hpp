@@ -21,12 +21,13 @@ using Json = nlohmann::json;
 
 /// Extensions of which more than the name is read.
 inline bool is_read_extension(std::string_view name) {
-    constexpr std::array<std::string_view, 7> known = {"EXT_mesh_gpu_instancing",
+    constexpr std::array<std::string_view, 8> known = {"EXT_mesh_gpu_instancing",
                                                        "KHR_lights_punctual",
                                                        "KHR_materials_emissive_strength",
                                                        "KHR_materials_ior",
                                                        "KHR_materials_pbrSpecularGlossiness",
                                                        "KHR_materials_specular",
+                                                       "KHR_node_visibility",
                                                        "KHR_texture_transform"};
     return std::find(known.begin(), known.end(), name) != known.end();
 }

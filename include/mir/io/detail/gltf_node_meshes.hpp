@@ -74,7 +74,7 @@ class GltfNodeMeshes {
         std::vector<char> is_plain(model_.meshes.size(), 0);
         for (const PlacedNode& placed : nodes) {
             const tinygltf::Node& node = model_.nodes[placed.node];
-            if (node.mesh < 0) continue;
+            if (node.mesh < 0 || !placed.is_visible) continue;
             const auto mesh = static_cast<std::size_t>(node.mesh);
             is_used[mesh] = 1;
             if (!skinned(node) && !is_morphed(node)) is_plain[mesh] = 1;

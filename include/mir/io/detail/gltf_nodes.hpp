@@ -22,7 +22,16 @@ struct PlacedNode {
     /// Turns what has an orientation but no size, a light or a camera: rotations of this node and
     /// of those above, whose scale tilts and mirrors it. The node's own scale does not count.
     DMat4 turn{1.0};
+    bool is_visible = true;  ///< false: it has no meshes and lights, but its camera
 };
+
+/// False when a node hides itself and those below.
+/// Source: Khronos, KHR_node_visibility.
+inline bool shows_itself(const tinygltf::Node& node) {
+    const auto found = node.extensions.find("KHR_node_visibility");
+    return found == node.extensions.end() || !found->second.Has("visible") ||
+           found->second.Get("visible").Get<bool>();
+}
 
 inline std::string node_place(const tinygltf::Model& model, std::size_t index) {
     return gltf_place("node", index, model.nodes[index].name);
@@ -178,8 +187,10 @@ inline std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model, SceneR
         next.to_world = next.to_world * node_transform(node, scale, place);
         const DMat4 handed_down = next.turn * node_transform(node, scale_of_turns(scale), place);
         next.turn = next.turn * node_transform(node, {1, 1, 1}, place);
+        next.is_visible = next.is_visible && shows_itself(node);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            open.push_back({static_cast<std::size_t>(*child), next.to_world, handed_down});
+            open.push_back(
+                {static_cast<std::size_t>(*child), next.to_world, handed_down, next.is_visible});
         placed.push_back(next);
     }
     return placed;

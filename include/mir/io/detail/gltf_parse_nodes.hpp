@@ -57,6 +57,11 @@ inline tinygltf::Value parse_node_extension(const GltfDocument& document, const 
                                             const GltfValue& from) {
     if (name == "EXT_mesh_gpu_instancing") return parse_copies(document, from);
     tinygltf::Value::Object to;
+    if (name == "KHR_node_visibility") {
+        bool visible = true;
+        take(from, "visible", visible);
+        to["visible"] = tinygltf::Value(visible);
+    }
     if (name == "KHR_lights_punctual")
         to["light"] =
             tinygltf::Value(document.index(from.need("light", "a whole number"), "light"));
