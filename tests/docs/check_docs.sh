@@ -190,10 +190,31 @@ check_words() {
     done
 }
 
+# The library prints nothing and ends no process. Comments may talk of it.
+check_silence() {
+    grep -rnE '\b(v?f?printf|puts|putchar|perror|abort|exit|_Exit|_exit|quick_exit|terminate) ?\(|std::(cout|cerr|clog)|\bassert\(' \
+        include backends | grep -vE '^[^:]*:[0-9]*: *//' | while read -r line; do
+        complain "the library prints or ends the process: $line"
+    done
+}
+
+# The first two lines of a file of code name the licence.
+check_licence() {
+    find include backends tools tests bench examples cmake docs CMakeLists.txt .ci ./*.sh -type f \
+        \( -name '*.[ch]pp' -o -name '*.cu' -o -name '*.cuh' -o -name '*.py' -o -name '*.sh' \
+        -o -name '*.cmake' -o -name CMakeLists.txt -o -path '.ci/run' \) >"$work/code"
+    [ "$(wc -l <"$work/code")" -gt 100 ] || complain "no code is found"
+    while read -r file; do
+        head -n 2 "$file" | grep -q 'SPDX-License-Identifier: MIT' ||
+            complain "$file does not name its licence"
+    done <"$work/code"
+    grep -q '^MIT License' LICENSE || complain "LICENSE is not that of MIT"
+}
+
 case $check in
-code | links | paths | options | names | words) "check_$check" ;;
+code | links | paths | options | names | words | silence | licence) "check_$check" ;;
 *)
-    echo "usage: check_docs.sh code|links|paths|options|names|words ROOT [MIR]" >&2
+    echo "usage: check_docs.sh code|links|paths|options|names|words|silence|licence ROOT [MIR]" >&2
     exit 2
     ;;
 esac
