@@ -3,7 +3,7 @@
 // The tuned CPU path, shading included, against single rays without shading over the same facing
 // pairs, one after the other in every iteration: the ratio of two times taken side by side survives
 // a noisy machine. Counter time_over_occluded1 is what docs/performance.md reports.
-#include "mir/runtime/stopwatch.hpp"
+#include "mir/core/stopwatch.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/contribution.hpp"
 #include "support/bench_runs.hpp"

@@ -5,11 +5,11 @@
 // and by single segments, over those of blocks by shafts. Blocks are squares of the image; or the
 // clusters that renders make, page by page, which is in the time and shared by all VPLs; or
 // clusters of the whole image.
+#include "mir/blocks/luxel_block.hpp"
+#include "mir/core/stopwatch.hpp"
 #include "mir/cpu/embree_visibility.hpp"
 #include "mir/fill_visibility.hpp"
 #include "mir/host/shaft_scene.hpp"
-#include "mir/runtime/stopwatch.hpp"
-#include "mir/sched/detail/luxel_block.hpp"
 #include "support/bench_scene.hpp"
 #include "support/clustered_hits.hpp"
 
@@ -44,7 +44,7 @@ class Bench {
           matrix_(gbuffer_.tiles(), vpls_.size()) {
         if (blocks == Blocks::clusters)
             clustered_ = clustered_hits(gbuffer_.view(0).hits, gbuffer_.view(0).size(), executor);
-        mir::sched::detail::append_blocks(blocks_, 0, gbuffer_.tiles()[0]);
+        mir::blocks::append_blocks(blocks_, 0, gbuffer_.tiles()[0]);
         words_.resize(blocks_.size() * vpls_.size());
     }
 
@@ -113,10 +113,10 @@ class Bench {
     [[nodiscard]] double pairs() const { return static_cast<double>(image.area()) * vpls_.size(); }
 
  private:
-    using BoundedHitBlock = mir::sched::detail::BoundedHitBlock;
+    using BoundedHitBlock = mir::blocks::BoundedHitBlock;
 
     static BlockMask facing(const BoundedHitBlock& block, const mir::Vpl& vpl) {
-        return block.cannot_face(vpl) ? BlockMask{} : mir::sched::detail::facing_mask(block, vpl);
+        return block.cannot_face(vpl) ? BlockMask{} : mir::blocks::facing_mask(block, vpl);
     }
 
     [[nodiscard]] mir::SoaView<const mir::Hit> hits() const {
@@ -141,9 +141,8 @@ class Bench {
         for_blocks([&](const BoundedHitBlock& block, BlockMask* masks) {
             std::array<mir::PointPacket, BlockMask::packets> points;
             for (std::uint32_t g = 0; g < BlockMask::packets; ++g)
-                mir::sched::detail::load_points(
-                    mir::sched::detail::starting_at(block.hits, g * mir::PointPacket::width),
-                    points[g]);
+                mir::blocks::load_points(
+                    mir::blocks::starting_at(block.hits, g * mir::PointPacket::width), points[g]);
             for (std::uint32_t j = 0; j < vpls_.size(); ++j) {
                 const mir::Vpl vpl = vpls_.span()[j];
                 masks[j] = facing(block, vpl);
@@ -162,7 +161,7 @@ class Bench {
     GBuffer gbuffer_;
     std::vector<std::uint32_t> clustered_;  ///< planes of hits; none for squares
     mir::VplList vpls_;
-    std::vector<mir::sched::detail::Block> blocks_;
+    std::vector<mir::blocks::Block> blocks_;
     std::vector<BlockMask> words_;
     mir::VisibilityMatrix matrix_;
 };

@@ -2,7 +2,7 @@
 //
 // How long the kd-tree takes to build, what comes out, and what either costs in memory. The tree is
 // the same for any number of threads.
-#include "mir/accel/kd_build.hpp"
+#include "mir/accel/kd/kd_build.hpp"
 
 #include "support/bench_scene.hpp"
 

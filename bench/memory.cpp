@@ -3,8 +3,8 @@
 // What a frame holds, by structure: bytes of the scene and its hierarchies, of the luxels of one
 // band and of what finds and keeps their visibility. Counted where structures take their memory, so
 // they are those of any backend; milliseconds are those of making them all on the processor.
-#include "mir/accel/kd_build.hpp"
-#include "mir/accel/triangle_lanes.hpp"
+#include "mir/accel/exact/triangle_lanes.hpp"
+#include "mir/accel/kd/kd_build.hpp"
 #include "mir/host/wide_build.hpp"
 #include "mir/resident/backend_visibility.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"

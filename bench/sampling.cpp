@@ -4,11 +4,11 @@
 // reconstructing the image with them on the tuned CPU path, one after the other in every iteration:
 // the ratio of two times taken side by side survives a noisy machine. Reconstruction is all shadow
 // rays into stored bits, the response of the image to each VPL, and shading from the bits.
+#include "mir/core/stopwatch.hpp"
 #include "mir/fill_visibility.hpp"
-#include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/normalise/normalise.hpp"
 #include "mir/reshade.hpp"
-#include "mir/runtime/stopwatch.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "support/bench_runs.hpp"
 

@@ -2,8 +2,8 @@
 //
 // What shading alone costs: the light of VPLs that are known to be seen, added by blocks in vector
 // registers and, as the baseline beside it, luxel by luxel. Both images are compared in every bit.
+#include "mir/core/stopwatch.hpp"
 #include "mir/fill_visibility.hpp"
-#include "mir/runtime/stopwatch.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "support/bench_runs.hpp"

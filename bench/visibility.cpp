@@ -2,13 +2,13 @@
 //
 // What shafts are worth: seconds for the visibility of all pairs by shafts over those of the same
 // segments one by one through the same hierarchy, and what becomes of pairs.
+#include "mir/core/stopwatch.hpp"
 #include "mir/data/visibility_words.hpp"
 #include "mir/host/wide_bvh_scene.hpp"
-#include "mir/runtime/stopwatch.hpp"
-#include "mir/shaft/pair_tally.hpp"
-#include "mir/shaft/shaft_pass.hpp"
 #include "support/bench_runs.hpp"
 #include "support/clustered_hits.hpp"
+#include "support/shafts/pair_tally.hpp"
+#include "support/shafts/shaft_pass.hpp"
 
 #include <benchmark/benchmark.h>
 

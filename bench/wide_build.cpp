@@ -5,12 +5,12 @@
 // surfaces are walked through it by one.
 #include "mir/host/wide_build.hpp"
 
-#include "mir/accel/wide_statistics.hpp"
-#include "mir/accel/wide_traverse.hpp"
+#include "mir/accel/wide/wide_traverse.hpp"
+#include "mir/core/stopwatch.hpp"
 #include "mir/core/warp.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/runtime/stopwatch.hpp"
 #include "support/bench_scene.hpp"
+#include "support/wide_statistics.hpp"
 
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>

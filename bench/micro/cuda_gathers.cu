@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_gathers.hpp"
 #include "mir/cuda/backend.cuh"
-#include "mir/kernels/gather_pass.hpp"
+#include "mir/micro/gather_pass.hpp"
 #include "mir/resident/backend_gbuffer.hpp"
 #include "mir/resident/backend_layer.hpp"
 #include "mir/resident/uploaded_surfel_tree.hpp"

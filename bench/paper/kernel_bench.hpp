@@ -8,7 +8,7 @@
 #include "mir/kernels/shading_pass.hpp"
 #include "mir/kernels/visibility_pass.hpp"
 #include "mir/kernels/word_shading.hpp"
-#include "mir/resident/backend_shafts.hpp"
+#include "mir/shaft/device/backend_shafts.hpp"
 #include "tracing_backend.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "luxel_order.hpp"
 
-#include "mir/shaft/cluster_order.hpp"
+#include "support/shafts/cluster_order.hpp"
 
 #include <numeric>
 

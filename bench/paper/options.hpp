@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_options.hpp"
-#include "mir/accel/wide_options.hpp"
+#include "mir/accel/kd/kd_options.hpp"
+#include "mir/accel/wide/wide_options.hpp"
 #include "mir/data/tile.hpp"
 
 #include <string>

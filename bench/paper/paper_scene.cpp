@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "paper_scene.hpp"
 
-#include "mir/accel/accept_box.hpp"
-#include "mir/accel/kd_build.hpp"
+#include "mir/accel/exact/accept_box.hpp"
+#include "mir/accel/kd/kd_build.hpp"
 #include "mir/core/morton.hpp"
-#include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/paths/path_world.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/scene/builtin.hpp"
 #include "mir/scene/scene_hash.hpp"

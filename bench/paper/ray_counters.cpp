@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ray_counters.hpp"
 
-#include "mir/accel/kd_traverse.hpp"
+#include "mir/accel/kd/kd_traverse.hpp"
 #include "mir/shading/contribution.hpp"
 
 #include <algorithm>

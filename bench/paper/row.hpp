@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_options.hpp"
+#include "mir/accel/kd/kd_options.hpp"
 #include "mir/data/tile.hpp"
 #include "ray_counters.hpp"
 #include "spread.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "machine.hpp"
+#include "mir/core/stopwatch.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/runtime/stopwatch.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 
 namespace mirpaper {

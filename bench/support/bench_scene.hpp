@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_options.hpp"
+#include "mir/accel/wide/wide_options.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/cpu/tbb_executor.hpp"
-#include "mir/shaft/cluster_order.hpp"
+#include "support/shafts/cluster_order.hpp"
 
 #include <vector>
 

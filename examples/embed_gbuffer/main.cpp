@@ -6,7 +6,7 @@
 // for each frame its G-buffer where it lies. It keeps its direct light. Writes the second frame.
 #include "gbuffer_view.hpp"
 
-#include <mir/accel/kd_tree_scene.hpp>
+#include <mir/accel/kd/kd_tree_scene.hpp>
 #include <mir/fill_gbuffer.hpp>
 #include <mir/io/png.hpp>
 #include <mir/reconstruct.hpp>

@@ -6,12 +6,12 @@
 // has the same bits on any number of threads; a cancelled render leaves the pool as it was.
 #include "pool_executor.hpp"
 
-#include <mir/accel/kd_tree_scene.hpp>
+#include <mir/accel/kd/kd_tree_scene.hpp>
 #include <mir/fill_gbuffer.hpp>
 #include <mir/io/png.hpp>
-#include <mir/metropolis/metropolis_sampler.hpp>
 #include <mir/place_vpls.hpp>
 #include <mir/reconstruct.hpp>
+#include <mir/sampling/metropolis_sampler.hpp>
 #include <mir/scene/builtin.hpp>
 #include <mir/sched/cpu_blocks.hpp>
 #include <mir/shading/vpl_shading.hpp>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/blocks/block_list.hpp"
+#include "mir/blocks/luxel_block.hpp"
+#include "mir/blocks/page_sight.hpp"
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/core/error.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/data/visibility_matrix.hpp"
-#include "mir/sched/detail/block_list.hpp"
-#include "mir/sched/detail/luxel_block.hpp"
-#include "mir/sched/detail/page_sight.hpp"
 #include "mir/shading/contribution.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace detail {
 /// Bits of one block by single segments.
 template <TiledGBuffer G, VplSet P, Visibility V>
 void fill_block_by_segments(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls,
-                            const V& visibility, sched::detail::Block b) {
+                            const V& visibility, blocks::Block b) {
     constexpr std::uint32_t size = VisibilityMatrix::View::group_size;
     constexpr std::uint32_t count = VisibilityMatrix::View::groups_per_block;
     const auto luxels = gbuffer.view(b.tile);
@@ -43,8 +43,8 @@ void fill_block_by_segments(VisibilityMatrix& matrix, const G& gbuffer, const P&
 /// The same by packets, after VPLs that the block cannot face were thrown away.
 template <TiledGBuffer G, VplSet P, PacketVisibility V>
 void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const V& visibility,
-                sched::detail::Block b) {
-    using namespace sched::detail;
+                blocks::Block b) {
+    using namespace blocks;
     const BoundedHitBlock block(gbuffer.view(b.tile).hits, b, [](std::uint32_t) { return true; });
     const BlockSight<V> sight(block, visibility);
     for (VplIndex j = 0; j < vpls.size(); ++j) {
@@ -59,8 +59,8 @@ void fill_block(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const
 /// The same of the blocks of a page, 256 of its luxels at a time.
 template <TiledGBuffer G, VplSet P, BlockVisibility V>
 void fill_page(VisibilityMatrix& matrix, const G& gbuffer, const P& vpls, const V& visibility,
-               InstructionSet instructions, const sched::detail::PlacedPage& place) {
-    using namespace sched::detail;
+               InstructionSet instructions, const blocks::PlacedPage& place) {
+    using namespace blocks;
     const LuxelPage& page = place.page;
     PageSight<V> sight(gbuffer.view(place.tile).hits, page, visibility, instructions,
                        [](std::uint32_t) { return true; });
@@ -102,22 +102,20 @@ void fill_visibility(VisibilityMatrix& matrix, const G& gbuffer, P vpls, V visib
         executor.for_each(places.size(), [&](std::size_t i) { fill(places[i]); });
     };
     if constexpr (BlockVisibility<V> && has_planes)
-        for_each(std::vector<sched::detail::PlacedPage>{}, sched::detail::append_pages,
-                 [&](const sched::detail::PlacedPage& page) {
+        for_each(std::vector<blocks::PlacedPage>{}, blocks::append_pages,
+                 [&](const blocks::PlacedPage& page) {
                      run_with(instructions, [&] {
                          detail::fill_page(matrix, gbuffer, vpls, visibility, instructions, page);
                      });
                  });
     else
-        for_each(std::vector<sched::detail::Block>{}, sched::detail::append_blocks,
-                 [&](sched::detail::Block block) {
-                     if constexpr (PacketVisibility<V> && has_planes)
-                         run_with(instructions, [&] {
-                             detail::fill_block(matrix, gbuffer, vpls, visibility, block);
-                         });
-                     else
-                         detail::fill_block_by_segments(matrix, gbuffer, vpls, visibility, block);
-                 });
+        for_each(std::vector<blocks::Block>{}, blocks::append_blocks, [&](blocks::Block block) {
+            if constexpr (PacketVisibility<V> && has_planes)
+                run_with(instructions,
+                         [&] { detail::fill_block(matrix, gbuffer, vpls, visibility, block); });
+            else
+                detail::fill_block_by_segments(matrix, gbuffer, vpls, visibility, block);
+        });
 }
 
 }  // namespace mir

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/sampling/vpl_record.hpp"
+#include "mir/data/vpl_record.hpp"
 #include "mir/shading/glossy_shading.hpp"
 #include "mir/shading/surface_table.hpp"
 #include "mir/shading/widened.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/accept_box.hpp"
+#include "mir/accel/exact/accept_box.hpp"
 
 #include "accel/hard_segments.hpp"
 #include "conformance/worlds.hpp"

@@ -4,7 +4,7 @@
 #include "accel/against_brute_force.hpp"
 #include "conformance/block_suite.hpp"
 #include "conformance/masked_suite.hpp"
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/host/shaft_scene.hpp"
 #include "support/catch.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_tree.hpp"
-#include "mir/accel/reach.hpp"
+#include "mir/accel/exact/reach.hpp"
+#include "mir/accel/kd/kd_tree.hpp"
 
 #include <vector>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/find_surface.hpp"
+#include "mir/accel/exact/find_surface.hpp"
 
 #include "accel/against_brute_force.hpp"
 #include "accel/build_worlds.hpp"
 #include "accel/wide_nodes.hpp"
-#include "mir/accel/kd_build.hpp"
-#include "mir/accel/kd_ray_finder.hpp"
-#include "mir/accel/wide_bvh.hpp"
-#include "mir/accel/wide_ray_finder.hpp"
+#include "mir/accel/kd/kd_build.hpp"
+#include "mir/accel/kd/kd_ray_finder.hpp"
+#include "mir/accel/wide/wide_bvh.hpp"
+#include "mir/accel/wide/wide_ray_finder.hpp"
 #include "support/closed_rooms.hpp"
 
 namespace {

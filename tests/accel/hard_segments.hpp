@@ -2,8 +2,8 @@
 #pragma once
 
 #include "conformance/worlds.hpp"
-#include "mir/accel/accept_box.hpp"
-#include "mir/accel/kd_tree.hpp"
+#include "mir/accel/exact/accept_box.hpp"
+#include "mir/accel/kd/kd_tree.hpp"
 #include "support/scene_places.hpp"
 #include "support/segment_ends.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/worlds.hpp"
-#include "mir/accel/detail/kd_partition.hpp"
+#include "mir/accel/kd/detail/kd_partition.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/worlds.hpp"
-#include "mir/accel/detail/kd_bins.hpp"
-#include "mir/accel/detail/kd_prepare.hpp"
-#include "mir/accel/detail/kd_sweep.hpp"
+#include "mir/accel/kd/detail/kd_bins.hpp"
+#include "mir/accel/kd/detail/kd_prepare.hpp"
+#include "mir/accel/kd/detail/kd_sweep.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/kd_build.hpp"
+#include "mir/accel/kd/kd_build.hpp"
 
 #include "accel/build_worlds.hpp"
 #include "accel/kd_cells.hpp"
-#include "mir/accel/kd_traverse.hpp"
+#include "mir/accel/kd/kd_traverse.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;

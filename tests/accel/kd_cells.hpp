@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_build.hpp"
+#include "mir/accel/kd/kd_build.hpp"
 
 #include <algorithm>
 #include <vector>

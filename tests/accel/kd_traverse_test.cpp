@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/kd_traverse.hpp"
+#include "mir/accel/kd/kd_traverse.hpp"
 
 #include "accel/against_brute_force.hpp"
 #include "accel/simple_kd_tree.hpp"
 #include "conformance/worlds.hpp"
-#include "mir/accel/kd_packet.hpp"
+#include "mir/accel/kd/kd_packet.hpp"
 #include "support/catch.hpp"
 #include "support/packet_points.hpp"
 

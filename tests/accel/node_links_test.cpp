@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/node_links.hpp"
+#include "mir/accel/wide/node_links.hpp"
 
 #include "conformance/worlds.hpp"
-#include "mir/accel/quantised_bvh.hpp"
+#include "mir/accel/wide/quantised_bvh.hpp"
 #include "support/catch.hpp"
 #include "wide_nodes.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/packet_hits.hpp"
+#include "mir/accel/exact/packet_hits.hpp"
 
 #include "conformance/worlds.hpp"
 #include "support/catch.hpp"

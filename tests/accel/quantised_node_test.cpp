@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/quantised_node.hpp"
+#include "mir/accel/wide/quantised_node.hpp"
 
 #include "conformance/worlds.hpp"
-#include "mir/accel/quantised_bvh.hpp"
+#include "mir/accel/wide/quantised_bvh.hpp"
 #include "mir/host/wide_build.hpp"
 #include "support/catch.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/accept_box.hpp"
-#include "mir/accel/kd_tree.hpp"
+#include "mir/accel/exact/accept_box.hpp"
+#include "mir/accel/kd/kd_tree.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "accel/hard_segments.hpp"
-#include "mir/accel/detail/split_triangles.hpp"
+#include "mir/accel/wide/split_triangles.hpp"
 #include "support/catch.hpp"
 #include "support/segment_box.hpp"
 

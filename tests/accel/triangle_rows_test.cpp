@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/triangle_rows.hpp"
+#include "mir/accel/exact/triangle_rows.hpp"
 
 #include "accel/hard_segments.hpp"
 #include "conformance/referee.hpp"

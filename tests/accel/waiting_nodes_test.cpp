@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/waiting_nodes.hpp"
+#include "mir/accel/wide/waiting_nodes.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/wide_bvh_visibility.hpp"
+#include "mir/accel/wide/wide_bvh_visibility.hpp"
 
 #include "conformance/packet_suite.hpp"
 #include "conformance/ray_caster_suite.hpp"
 #include "conformance/visibility_suite.hpp"
-#include "mir/accel/wide_statistics.hpp"
 #include "mir/host/wide_bvh_scene.hpp"
 #include "support/catch.hpp"
+#include "support/wide_statistics.hpp"
 
 TEST_CASE("A wide tree's visibility keeps the axioms") {
     mirtest::visibility_suite<mir::WideBvhScene>();

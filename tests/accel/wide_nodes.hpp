@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_node.hpp"
-#include "mir/accel/wide_statistics.hpp"
+#include "mir/accel/kd/kd_node.hpp"
 #include "mir/host/wide_build.hpp"
+#include "support/wide_statistics.hpp"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "accel/wide_nodes.hpp"
 #include "conformance/worlds.hpp"
-#include "mir/accel/detail/packet_hull.hpp"
-#include "mir/accel/wide_packet.hpp"
-#include "mir/accel/wide_traverse.hpp"
+#include "mir/accel/wide/detail/packet_hull.hpp"
+#include "mir/accel/wide/wide_packet.hpp"
+#include "mir/accel/wide/wide_traverse.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/packet_points.hpp"

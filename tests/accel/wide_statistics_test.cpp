@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/wide_statistics.hpp"
+#include "support/wide_statistics.hpp"
 
 #include "accel/wide_checks.hpp"
 #include "support/catch.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/wide_traverse.hpp"
+#include "mir/accel/wide/wide_traverse.hpp"
 
 #include "accel/against_brute_force.hpp"
 #include "accel/build_worlds.hpp"
 #include "accel/wide_nodes.hpp"
-#include "mir/accel/kd_build.hpp"
-#include "mir/accel/kd_traverse.hpp"
+#include "mir/accel/kd/kd_build.hpp"
+#include "mir/accel/kd/kd_traverse.hpp"
 #include "mir/scene/builtin.hpp"
 #include "support/catch.hpp"
 

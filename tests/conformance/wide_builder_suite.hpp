@@ -3,7 +3,7 @@
 
 #include "accel/against_brute_force.hpp"
 #include "accel/wide_checks.hpp"
-#include "mir/accel/wide_traverse.hpp"
+#include "mir/accel/wide/wide_traverse.hpp"
 #include "mir/scene/builtin.hpp"
 #include "support/copied_wide_bvh.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cuda/segments/gpu_segment_bits.hpp"
 #include "cuda/shafts.hpp"
-#include "mir/accel/kd_build.hpp"
+#include "mir/accel/kd/kd_build.hpp"
 #include "mir/cuda/device.hpp"
 #include "support/catch.hpp"
 #include "support/leak_luxels.hpp"

@@ -18,7 +18,7 @@ using Stage = mirtest::Stage<mir::Lambert, mirtest::BruteForceScene>;
 static_assert(mir::KnownVisibility<Matrix::View>);
 static_assert(!mir::KnownVisibility<mirtest::BruteForceVisibility>);
 static_assert(!mir::Visibility<Matrix::View>);
-static_assert(Matrix::View::group_size == mir::sched::detail::group_size);
+static_assert(Matrix::View::group_size == mir::blocks::group_size);
 
 /// Brute force without its packet face.
 struct Segments {

@@ -4,7 +4,7 @@
 // every stage and from any thread; the next run is right. With the address sanitizer these are
 // tests for leaks as well.
 #include "faults/failing_host.hpp"
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/compare/flip.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"
@@ -12,11 +12,11 @@
 #include "mir/film/guides.hpp"
 #include "mir/host/backend.hpp"
 #include "mir/host/shaft_scene.hpp"
-#include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/place_vpls.hpp"
 #include "mir/reference/path_tracer.hpp"
 #include "mir/reference/trace_reference.hpp"
 #include "mir/resident/backend_film.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/scene/builtin.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/sched/cpu_blocks.hpp"

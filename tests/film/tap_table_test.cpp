@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/film/detail/tap_table.hpp"
+#include "mir/film/tap_table.hpp"
 
 #include "support/catch.hpp"
 

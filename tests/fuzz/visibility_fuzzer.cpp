@@ -2,9 +2,9 @@
 #include "accel/against_brute_force.hpp"
 #include "fuzz/input_file.hpp"
 #include "fuzz/small_world.hpp"
-#include "mir/accel/kd_build.hpp"
-#include "mir/accel/kd_traverse.hpp"
-#include "mir/accel/wide_traverse.hpp"
+#include "mir/accel/kd/kd_build.hpp"
+#include "mir/accel/kd/kd_traverse.hpp"
+#include "mir/accel/wide/wide_traverse.hpp"
 #include "mir/host/wide_build.hpp"
 
 namespace {

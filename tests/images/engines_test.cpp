@@ -2,7 +2,7 @@
 //
 // One picture through two ray engines: Embree, and the kd-tree whose bits are those of the GPU
 // (tests/cuda/pictures). docs/validation.md, "Pictures by different engines", has the bound.
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"

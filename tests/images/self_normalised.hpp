@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/normalise/normalise.hpp"
 #include "mir/runtime/tiled_render.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/lambert.hpp"
 #include "reference/studio.hpp"

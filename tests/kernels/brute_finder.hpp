@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/find_surface.hpp"
-#include "mir/accel/reach.hpp"
+#include "mir/accel/exact/find_surface.hpp"
+#include "mir/accel/exact/reach.hpp"
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/concepts/ray_finder.hpp"
 #include "mir/scene/world_geometry.hpp"

@@ -2,8 +2,8 @@
 //
 // Samplers that look at the image, in a furnace whose light is known bounce by bounce.
 #include "conformance/passes.hpp"
-#include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/sampling/bidirectional_sampler.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/validation/sampler.hpp"
 #include "support/catch.hpp"
 #include "support/path_lab.hpp"

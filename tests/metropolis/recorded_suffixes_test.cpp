@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/metropolis/metropolis_sampler.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/scene/builtin.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"

@@ -5,9 +5,9 @@
 // weight, every VPL lights every luxel alike.
 #include "mir/data/gbuffer.hpp"
 #include "mir/fill_gbuffer.hpp"
-#include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/place_vpls.hpp"
 #include "mir/reconstruct.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/scene/builtin/shapes.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/shading/lambert.hpp"

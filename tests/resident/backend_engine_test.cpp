@@ -3,7 +3,7 @@
 // Whole pictures by an engine that keeps everything in a backend's memory, the host's here, against
 // those of the host's own stages: the same bits.
 #include "conformance/stage.hpp"
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/host/backend.hpp"
 #include "mir/runtime/backend_engine_kernels.hpp"
 #include "mir/runtime/tiled_render.hpp"

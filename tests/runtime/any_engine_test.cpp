@@ -3,7 +3,7 @@
 
 #include "conformance/brute_force.hpp"
 #include "conformance/packet_suite.hpp"
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/concepts/archetypes.hpp"
 #include "support/brute_force_view.hpp"
 

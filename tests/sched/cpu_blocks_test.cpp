@@ -112,7 +112,7 @@ TEMPLATE_TEST_CASE("sched::CpuBlocks adds more VPLs than it shades together", ""
     mir::InlineExecutor executor;
     mir::VisibilityMatrix matrix(stage.gbuffer().tiles(), stage.vpls().size());
     fill_visibility(matrix, stage.gbuffer(), stage.vpls(), stage.visibility(), executor);
-    REQUIRE(most_lighting_a_block(matrix) > 2 * mir::sched::detail::LitVpls::capacity);
+    REQUIRE(most_lighting_a_block(matrix) > 2 * mir::blocks::LitVpls::capacity);
     for (const mir::InstructionSet set : mirtest::instruction_sets()) {
         INFO("instruction set " << static_cast<int>(set));
         const mir::sched::CpuBlocks scheduler{executor, nullptr, set};
@@ -190,9 +190,9 @@ TEST_CASE("A block's bounds never reject a VPL that faces one of its luxels") {
             luxels[(37 * k + static_cast<std::size_t>(i)) % luxels.size()] = hits.back();
         }
         const mirtest::HitRun run(luxels);
-        const mir::sched::detail::BoundedHitBlock block(run.view(), {},
-                                                        [](std::uint32_t) { return true; });
-        const mir::sched::detail::BlockBounds& bounds = block.bounds;
+        const mir::blocks::BoundedHitBlock block(run.view(), {},
+                                                 [](std::uint32_t) { return true; });
+        const mir::blocks::BlockBounds& bounds = block.bounds;
         // Half of the VPLs lie on a luxel, so that rounding decides.
         const mir::Vec3 anywhere = mirtest::point_in_cube(random);
         const mir::Vpl vpl{
@@ -227,8 +227,8 @@ TEST_CASE("A block's bounds reject VPLs that lie in the plane of its luxels") {
             std::vector<mir::Hit> luxels(mir::BlockMask::luxels);
             for (mir::Hit& hit : luxels) hit = {in_plane(), normal};
             const mirtest::HitRun run(luxels);
-            const mir::sched::detail::BoundedHitBlock block(run.view(), {},
-                                                            [](std::uint32_t) { return true; });
+            const mir::blocks::BoundedHitBlock block(run.view(), {},
+                                                     [](std::uint32_t) { return true; });
             // In the plane of the luxels, whatever it faces; and with them in its own.
             CHECK(block.bounds.turned_away_from(in_plane()));
             CHECK(block.bounds.behind({in_plane(), normal, {}}));
@@ -254,8 +254,8 @@ struct BlockAndVpl {
         const mirtest::HitRun run(luxels);
         bool is = false;
         mir::run_with(set, [&] {
-            const mir::sched::detail::BoundedHitBlock block(run.view(), {},
-                                                            [](std::uint32_t) { return true; });
+            const mir::blocks::BoundedHitBlock block(run.view(), {},
+                                                     [](std::uint32_t) { return true; });
             is = block.cannot_face(vpl);
         });
         return is;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/host/backend.hpp"
 #include "mir/host/wide_bvh_scene.hpp"
-#include "mir/shaft/shaft_visibility.hpp"
+#include "mir/shaft/host/shaft_visibility.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/leak_luxels.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/block_cascade.hpp"
+#include "mir/shaft/host/block_cascade.hpp"
 
 #include "accel/build_worlds.hpp"
 #include "shaft/block_words.hpp"

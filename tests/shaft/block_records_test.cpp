@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/block_records.hpp"
+#include "mir/shaft/host/block_records.hpp"
 
 #include "mir/core/random.hpp"
 #include "support/catch.hpp"

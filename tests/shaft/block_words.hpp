@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/shaft/shaft_visibility.hpp"
+#include "mir/shaft/host/shaft_visibility.hpp"
 #include "shaft/shaft_stage.hpp"
 #include "support/instruction_sets.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/candidate_lanes.hpp"
+#include "mir/shaft/host/candidate_lanes.hpp"
 
 #include "accel/hard_segments.hpp"
 #include "accel/wide_nodes.hpp"
-#include "mir/shaft/shaft_slots.hpp"
-#include "mir/shaft/shaft_walk.hpp"
+#include "mir/shaft/exact/shaft_slots.hpp"
+#include "mir/shaft/exact/shaft_walk.hpp"
 #include "shaft/shaft_stage.hpp"
 #include "support/catch.hpp"
 #include "support/instruction_sets.hpp"

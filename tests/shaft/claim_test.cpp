@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "accel/hard_segments.hpp"
-#include "mir/accel/accept_box.hpp"
-#include "mir/shaft/occlusion.hpp"
-#include "mir/shaft/shaft.hpp"
+#include "mir/accel/exact/accept_box.hpp"
+#include "mir/shaft/exact/occlusion.hpp"
+#include "mir/shaft/exact/shaft.hpp"
 #include "shaft/cluster_draws.hpp"
 #include "support/catch.hpp"
 #include "support/soa_run.hpp"

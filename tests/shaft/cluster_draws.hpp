@@ -2,9 +2,9 @@
 #pragma once
 
 #include "conformance/worlds.hpp"
-#include "mir/accel/accept_box.hpp"
+#include "mir/accel/exact/accept_box.hpp"
 #include "mir/core/ray.hpp"
-#include "mir/shaft/cluster_record.hpp"
+#include "mir/shaft/exact/cluster_record.hpp"
 
 namespace mirtest {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/cluster_lists.hpp"
+#include "mir/shaft/device/cluster_lists.hpp"
 
 #include "mir/data/vpl_list.hpp"
 #include "shaft/cluster_draws.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/cluster_order.hpp"
+#include "support/shafts/cluster_order.hpp"
 
 #include "conformance/worlds.hpp"
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/core/morton.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/scene/builtin.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/cluster_record.hpp"
+#include "mir/shaft/exact/cluster_record.hpp"
 
 #include "conformance/worlds.hpp"
-#include "mir/accel/accept_box.hpp"
+#include "mir/accel/exact/accept_box.hpp"
 #include "support/catch.hpp"
 #include "support/soa_run.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/cluster_shafts.hpp"
+#include "mir/shaft/device/cluster_shafts.hpp"
 
 #include "shaft/searched_stage.hpp"
 #include "support/catch.hpp"

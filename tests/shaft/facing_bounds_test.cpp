@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/facing_bounds.hpp"
+#include "mir/shaft/device/facing_bounds.hpp"
 
 #include "conformance/worlds.hpp"
 #include "mir/core/random.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/facing_pass.hpp"
+#include "mir/shaft/device/facing_pass.hpp"
 
 #include "shaft/shaft_stage.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/group_records.hpp"
+#include "mir/shaft/device/group_records.hpp"
 
 #include "shaft/cluster_draws.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/shaft.hpp"
+#include "mir/shaft/exact/shaft.hpp"
 #include "shaft/cluster_draws.hpp"
 #include "support/catch.hpp"
 #include "support/soa_run.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/leaf_search.hpp"
+#include "mir/shaft/device/leaf_search.hpp"
 
 #include "shaft/searched_stage.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/list_batch.hpp"
+#include "mir/shaft/device/list_batch.hpp"
 
 #include "support/catch.hpp"
 

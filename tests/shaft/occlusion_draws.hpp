@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/shaft/occlusion.hpp"
+#include "mir/shaft/exact/occlusion.hpp"
 #include "shaft/cluster_draws.hpp"
 
 #include <array>

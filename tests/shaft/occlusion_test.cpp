@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/occlusion.hpp"
+#include "mir/shaft/exact/occlusion.hpp"
 
 #include "shaft/occlusion_draws.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/open_segments.hpp"
+#include "mir/shaft/device/open_segments.hpp"
 
 #include "shaft/searched_stage.hpp"
 #include "support/catch.hpp"

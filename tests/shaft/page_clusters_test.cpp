@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/page_clusters.hpp"
+#include "mir/shaft/host/page_clusters.hpp"
 
 #include "mir/core/random.hpp"
 #include "shaft/stepped_plane.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/page_compactness.hpp"
+#include "mir/shaft/exact/page_compactness.hpp"
 
 #include "support/catch.hpp"
 

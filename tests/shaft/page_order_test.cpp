@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/page_order.hpp"
+#include "mir/shaft/device/page_order.hpp"
 
 #include "conformance/worlds.hpp"
 #include "mir/data/visibility_words.hpp"
-#include "mir/shaft/cluster_order.hpp"
-#include "mir/shaft/page_words.hpp"
+#include "mir/shaft/device/page_words.hpp"
 #include "shaft/stepped_plane.hpp"
 #include "support/catch.hpp"
+#include "support/shafts/cluster_order.hpp"
 
 #include <algorithm>
 #include <memory>

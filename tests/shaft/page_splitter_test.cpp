@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/detail/page_splitter.hpp"
+#include "mir/shaft/host/detail/page_splitter.hpp"
 
 #include "mir/core/random.hpp"
 #include "mir/scene/bounds.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/pair_search.hpp"
+#include "mir/shaft/exact/pair_search.hpp"
 
 #include "shaft/shaft_stage.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/pair_segments.hpp"
+#include "mir/shaft/device/pair_segments.hpp"
 
 #include "shaft/cluster_draws.hpp"
 #include "support/catch.hpp"

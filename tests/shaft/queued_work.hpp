@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/shaft/leaf_pool.hpp"
-#include "mir/shaft/work_queue.hpp"
+#include "mir/shaft/device/leaf_pool.hpp"
+#include "mir/shaft/device/work_queue.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/quantised_bvh.hpp"
-#include "mir/shaft/leaf_search.hpp"
+#include "mir/accel/wide/quantised_bvh.hpp"
+#include "mir/shaft/device/leaf_search.hpp"
 #include "shaft/queued_work.hpp"
 #include "shaft/shaft_stage.hpp"
 

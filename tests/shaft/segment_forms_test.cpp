@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/segment_forms.hpp"
+#include "mir/shaft/exact/segment_forms.hpp"
 
 #include "shaft/occlusion_draws.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/shaft_pass.hpp"
+#include "support/shafts/shaft_pass.hpp"
 
 #include "shaft/shaft_stage.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/shaft_slabs.hpp"
+#include "mir/shaft/exact/shaft_slabs.hpp"
 
 #include "shaft/shaft_draws.hpp"
 #include "support/catch.hpp"

@@ -6,10 +6,10 @@
 #include "mir/data/visibility_words.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/host/wide_build.hpp"
-#include "mir/shaft/cluster_order.hpp"
-#include "mir/shaft/pair_tally.hpp"
-#include "mir/shaft/shaft_pass.hpp"
 #include "shaft/cluster_draws.hpp"
+#include "support/shafts/cluster_order.hpp"
+#include "support/shafts/pair_tally.hpp"
+#include "support/shafts/shaft_pass.hpp"
 #include "support/soa_run.hpp"
 
 #include <algorithm>

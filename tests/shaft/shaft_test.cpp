@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/shaft.hpp"
+#include "mir/shaft/exact/shaft.hpp"
 
 #include "shaft/shaft_draws.hpp"
 #include "support/catch.hpp"

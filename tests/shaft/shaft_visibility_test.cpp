@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/shaft_visibility.hpp"
+#include "mir/shaft/host/shaft_visibility.hpp"
 
 #include "conformance/block_suite.hpp"
 #include "conformance/packet_suite.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/work_queue.hpp"
+#include "mir/shaft/device/work_queue.hpp"
 
 #include "conformance/worlds.hpp"
 #include "shaft/queued_work.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_ray_caster.hpp"
-#include "mir/accel/kd_tree_visibility.hpp"
+#include "mir/accel/kd/kd_ray_caster.hpp"
+#include "mir/accel/kd/kd_tree_visibility.hpp"
 #include "mir/resident/backend_metropolis.hpp"
 #include "mir/resident/uploaded_geometry.hpp"
 #include "mir/resident/uploaded_kd_tree.hpp"

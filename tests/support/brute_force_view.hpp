@@ -2,7 +2,7 @@
 #pragma once
 
 #include "conformance/brute_force.hpp"
-#include "mir/accel/triangle_rows.hpp"
+#include "mir/accel/exact/triangle_rows.hpp"
 #include "mir/concepts/visibility.hpp"
 
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/triangle_rows.hpp"
+#include "mir/accel/exact/triangle_rows.hpp"
 #include "mir/core/frame.hpp"
 #include "support/scene_places.hpp"
 #include "support/segment_ends.hpp"

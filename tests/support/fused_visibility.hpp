@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_traverse.hpp"
+#include "mir/accel/kd/kd_traverse.hpp"
 #include "mir/concepts/visibility.hpp"
 
 namespace mirtest {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/micro/surfel_albedo.hpp"
 #include "mir/micro/surfel_direct_light.hpp"

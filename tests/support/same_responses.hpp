@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/normalise/image_response.hpp"
+#include "mir/data/image_response.hpp"
 
 #include <bit>
 #include <cstdint>

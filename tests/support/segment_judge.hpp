@@ -21,9 +21,10 @@ struct Judgement {
 };
 
 /// Settles disagreements about visibility by asking every triangle in double precision, with the
-/// rounding bounds of the lemma in mir/accel/accept_box.hpp: 17 e M for distances from planes, 13 e
-/// M and 18 e M for barycentrics, where M is the largest |coordinate| and e = 2^-24. Written apart
-/// from the code that it judges. The geometry must outlive it. Const use from any thread.
+/// rounding bounds of the lemma in mir/accel/exact/accept_box.hpp: 17 e M for distances from
+/// planes, 13 e M and 18 e M for barycentrics, where M is the largest |coordinate| and e = 2^-24.
+/// Written apart from the code that it judges. The geometry must outlive it. Const use from any
+/// thread.
 class SegmentJudge {
  public:
     explicit SegmentJudge(const mir::WorldGeometry& geometry);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh_visibility.hpp"
+#include "mir/accel/wide/wide_bvh_visibility.hpp"
 #include "mir/data/visibility_words.hpp"
 #include "mir/data/vpl_list.hpp"
-#include "mir/resident/backend_shafts.hpp"
 #include "mir/resident/uploaded_wide_bvh.hpp"
+#include "mir/shaft/device/backend_shafts.hpp"
 
 #include <vector>
 

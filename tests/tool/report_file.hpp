@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/io/detail/html_text.hpp"
+#include "mir/io/html_text.hpp"
 #include "support/inflate_radiance.hpp"
 #include "tool/mir_program.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "conformance/brute_force.hpp"
 #include "mir/fill_gbuffer.hpp"
-#include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/place_vpls.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/scene/builtin/cornell_box.hpp"
 #include "mir/shading/vpl_shading.hpp"
 #include "mir/validation/worlds.hpp"

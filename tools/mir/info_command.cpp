@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "load_scene.hpp"
-#include "mir/accel/kd_build.hpp"
+#include "mir/accel/kd/kd_build.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/scene/environment_table.hpp"
 #include "mir/scene/scene_hash.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_render.hpp"
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/cpu/register.hpp"
 #include "mir/host/shaft_scene.hpp"

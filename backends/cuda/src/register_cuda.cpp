@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_engine.hpp"
 #include "gpu_gather.hpp"
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cpu/any_scheduler.hpp"
 #include "mir/cuda/register.hpp"
 #include "mir/resident/backend_metropolis.hpp"

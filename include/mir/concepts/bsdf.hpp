@@ -3,8 +3,8 @@
 
 #include "mir/core/rgb.hpp"
 #include "mir/core/rounding.hpp"
+#include "mir/data/bsdf_sample.hpp"
 #include "mir/data/soa.hpp"
-#include "mir/shading/bsdf_sample.hpp"
 
 #include <concepts>
 

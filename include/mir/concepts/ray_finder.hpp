@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/triangle_rows.hpp"
 #include "mir/core/ray.hpp"
 #include "mir/core/space.hpp"
+#include "mir/data/triangle_hit.hpp"
 
 #include <concepts>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
-#include "mir/sampling/vpl_record.hpp"
+#include "mir/data/vpl_record.hpp"
 
 #include <concepts>
 

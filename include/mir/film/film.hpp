@@ -6,9 +6,9 @@
 #include "mir/core/rgb.hpp"
 #include "mir/data/image.hpp"
 #include "mir/film/detail/luxel_columns.hpp"
-#include "mir/film/detail/tap_table.hpp"
 #include "mir/film/filter.hpp"
 #include "mir/film/luxel_grid.hpp"
+#include "mir/film/tap_table.hpp"
 
 #include <algorithm>
 #include <cmath>

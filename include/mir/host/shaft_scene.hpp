@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/host/wide_bvh_scene.hpp"
-#include "mir/shaft/shaft_visibility.hpp"
+#include "mir/shaft/host/shaft_visibility.hpp"
 
 namespace mir {
 

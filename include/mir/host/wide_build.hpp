@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh.hpp"
+#include "mir/accel/wide/wide_bvh.hpp"
 #include "mir/host/backend.hpp"
-#include "mir/resident/detail/wide_build.hpp"
+#include "mir/resident/wide_builder.hpp"
 
 namespace mir {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh_visibility.hpp"
-#include "mir/accel/wide_ray_caster.hpp"
+#include "mir/accel/wide/wide_bvh_visibility.hpp"
+#include "mir/accel/wide/wide_ray_caster.hpp"
 #include "mir/host/wide_build.hpp"
 
 namespace mir {

@@ -3,9 +3,9 @@
 
 #include "mir/core/error.hpp"
 #include "mir/data/image.hpp"
-#include "mir/io/detail/html_page.hpp"
-#include "mir/io/detail/write_file.hpp"
+#include "mir/io/html_page.hpp"
 #include "mir/io/png.hpp"
+#include "mir/io/write_file.hpp"
 
 #include <filesystem>
 #include <string>

@@ -5,8 +5,8 @@
 #include "mir/core/rgb.hpp"
 #include "mir/data/image.hpp"
 #include "mir/io/detail/shown_path.hpp"
-#include "mir/io/detail/write_file.hpp"
 #include "mir/io/tone_curve.hpp"
+#include "mir/io/write_file.hpp"
 
 #include <png.h>
 

@@ -5,7 +5,7 @@
 #include "mir/core/number_text.hpp"
 #include "mir/data/main_bounces.hpp"
 #include "mir/data/vpl_list.hpp"
-#include "mir/io/detail/write_file.hpp"
+#include "mir/io/write_file.hpp"
 
 #include <bit>
 #include <cstddef>

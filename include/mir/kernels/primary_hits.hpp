@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/find_surface.hpp"
+#include "mir/accel/exact/find_surface.hpp"
 #include "mir/data/gbuffer_words.hpp"
 #include "mir/scene/geometry_view.hpp"
 #include "mir/shading/surface_table_view.hpp"

@@ -6,10 +6,10 @@
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/core/lane_group.hpp"
 #include "mir/data/blocked_layout.hpp"
+#include "mir/data/image_response.hpp"
 #include "mir/data/visibility_words.hpp"
 #include "mir/kernels/lane_sums.hpp"
 #include "mir/kernels/vpl_rows.hpp"
-#include "mir/normalise/image_response.hpp"
 #include "mir/shading/prepared_luxel.hpp"
 
 namespace mir {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
+#include "mir/data/path_luminance.hpp"
 #include "mir/metropolis/bootstrap_options.hpp"
 #include "mir/metropolis/bootstrap_paths.hpp"
-#include "mir/metropolis/path_luminance.hpp"
 #include "mir/metropolis/systematic_resampling.hpp"
 
 namespace mir {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/metropolis/chain_health.hpp"
+#include "mir/data/chain_health.hpp"
 #include "mir/metropolis/chain_options.hpp"
 #include "mir/metropolis/multiple_try.hpp"
 #include "mir/metropolis/path_mutation.hpp"

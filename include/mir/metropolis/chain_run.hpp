@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/stopwatch.hpp"
 #include "mir/metropolis/bootstrap.hpp"
 #include "mir/metropolis/chain_walk.hpp"
-#include "mir/runtime/stopwatch.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "mir/metropolis/metropolis_options.hpp"
 #include "mir/metropolis/mixing_trace.hpp"
 #include "mir/metropolis/suffix_refresh.hpp"
-#include "mir/sampling/path_record.hpp"
+#include "mir/paths/path_record.hpp"
 
 #include <type_traits>
 #include <utility>

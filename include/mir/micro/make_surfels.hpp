@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/detail/construction.hpp"
+#include "mir/accel/exact/construction.hpp"
 #include "mir/core/limits.hpp"
 #include "mir/micro/detail/triangle_pieces.hpp"
 

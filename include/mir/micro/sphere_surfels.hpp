@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/detail/double3.hpp"
+#include "mir/core/double3.hpp"
 #include "mir/core/limits.hpp"
 #include "mir/micro/surfel.hpp"
 #include "mir/micro/surfel_options.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/blocks/lit_vpls.hpp"
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/vpl_set.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/data/visibility_matrix.hpp"
-#include "mir/normalise/detail/response_bands.hpp"
-#include "mir/sched/detail/lit_vpls.hpp"
+#include "mir/normalise/response_bands.hpp"
 #include "mir/shading/check_bound.hpp"
 
 #include <bit>
@@ -43,13 +43,13 @@ namespace detail {
 
 /// VPLs that one task sums: enough to pay for reading a block, few enough to share out.
 inline constexpr std::uint32_t vpls_per_task = 32;
-static_assert(vpls_per_task <= sched::detail::LitVpls::capacity);
+static_assert(vpls_per_task <= blocks::LitVpls::capacity);
 
 /// Adds what VPLs first .. last - 1, those of a task, do to the luxels of one block to their sums.
 template <InstructionSet Set, VplSet P, KnownVisibility V, Shading F>
-void add_block(const sched::detail::LuxelBlock<F>& block, const P& vpls, const V& bits,
-               const F& shading, VplIndex first, VplIndex last, ImageResponse* sums) {
-    using namespace sched::detail;
+void add_block(const blocks::LuxelBlock<F>& block, const P& vpls, const V& bits, const F& shading,
+               VplIndex first, VplIndex last, ImageResponse* sums) {
+    using namespace blocks;
     GroupRadiance lanes[vpls_per_task];
     LitVpls lit_vpls;
     for (VplIndex j = first; j < last; ++j) {
@@ -86,8 +86,8 @@ void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shad
         if (row < tile.y / side || row_of_tile >= layout.blocks_y) continue;
         const auto view = gbuffer.view(t);
         for (std::uint32_t x = 0; x < layout.blocks_x; ++x) {
-            const sched::detail::Block place{t, row_of_tile * layout.blocks_x + x};
-            const sched::detail::LuxelBlock<F> block(view.hits, view.surfaces, place, shading);
+            const blocks::Block place{t, row_of_tile * layout.blocks_x + x};
+            const blocks::LuxelBlock<F> block(view.hits, view.surfaces, place, shading);
             if (block.none_counts) continue;
             add_block<Set>(block, vpls, bits, shading, first, last, sums);
         }

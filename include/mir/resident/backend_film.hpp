@@ -3,8 +3,8 @@
 
 #include "mir/concepts/executor.hpp"
 #include "mir/data/image.hpp"
-#include "mir/film/detail/tap_table.hpp"
 #include "mir/film/film_pass.hpp"
+#include "mir/film/tap_table.hpp"
 #include "mir/resident/backend_layer.hpp"
 #include "mir/resident/uploaded_array.hpp"
 #include "mir/resident/wait_at_end.hpp"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mir/data/image.hpp"
-#include "mir/kernels/gather_pass.hpp"
 #include "mir/micro/gather_light.hpp"
+#include "mir/micro/gather_pass.hpp"
 #include "mir/resident/backend_gbuffer.hpp"
 #include "mir/resident/backend_layer.hpp"
 #include "mir/resident/uploaded_surfel_tree.hpp"

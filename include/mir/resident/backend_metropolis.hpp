@@ -2,10 +2,10 @@
 #pragma once
 
 #include "mir/core/monitor.hpp"
-#include "mir/metropolis/metropolis_sampler.hpp"
 #include "mir/resident/chain_batch.hpp"
 #include "mir/resident/uploaded_array.hpp"
 #include "mir/resident/wait_at_end.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 
 #include <algorithm>
 #include <span>

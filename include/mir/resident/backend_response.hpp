@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/kernels/response.hpp"
-#include "mir/normalise/detail/response_bands.hpp"
+#include "mir/normalise/response_bands.hpp"
 #include "mir/resident/backend_visibility.hpp"
 
 #include <algorithm>

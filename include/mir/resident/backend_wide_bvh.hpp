@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh_view.hpp"
-#include "mir/resident/detail/wide_build.hpp"
+#include "mir/accel/wide/wide_bvh_view.hpp"
+#include "mir/resident/wide_builder.hpp"
 
 #include <span>
 

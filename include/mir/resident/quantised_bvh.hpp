@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/quantised_bvh.hpp"
+#include "mir/accel/wide/quantised_bvh.hpp"
 #include "mir/concepts/backend.hpp"
 
 namespace mir {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_ray_caster.hpp"
-#include "mir/accel/kd_tree_visibility.hpp"
-#include "mir/accel/wide_bvh_visibility.hpp"
-#include "mir/accel/wide_ray_caster.hpp"
+#include "mir/accel/kd/kd_ray_caster.hpp"
+#include "mir/accel/kd/kd_tree_visibility.hpp"
+#include "mir/accel/wide/wide_bvh_visibility.hpp"
+#include "mir/accel/wide/wide_ray_caster.hpp"
 
 namespace mir {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_tree.hpp"
+#include "mir/accel/kd/kd_tree.hpp"
 #include "mir/resident/uploaded_array.hpp"
 
 namespace mir {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide_bvh.hpp"
+#include "mir/accel/wide/wide_bvh.hpp"
 #include "mir/resident/quantised_bvh.hpp"
 #include "mir/resident/uploaded_array.hpp"
 

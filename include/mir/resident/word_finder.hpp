@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/kernels/visibility_pass.hpp"
-#include "mir/resident/backend_shafts.hpp"
+#include "mir/shaft/device/backend_shafts.hpp"
 
 #include <optional>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_ray_caster.hpp"
-#include "mir/accel/kd_tree.hpp"
-#include "mir/accel/kd_tree_visibility.hpp"
+#include "mir/accel/kd/kd_ray_caster.hpp"
+#include "mir/accel/kd/kd_tree.hpp"
+#include "mir/accel/kd/kd_tree_visibility.hpp"
 #include "mir/core/monitor.hpp"
 #include "mir/data/image.hpp"
 #include "mir/data/vpl_list.hpp"

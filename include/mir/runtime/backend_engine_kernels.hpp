@@ -127,7 +127,7 @@ auto BackendEngine<B, F, E>::upload(const BlockedGBuffer<Params>& gbuffer) const
 template <Backend B, Bsdf F, Executor E>
 void BackendEngine<B, F, E>::find_visible(Luxels& luxels, VplSpan<Space::host> vpls,
                                           const Limits& limits) const {
-    sched::detail::UploadedVpls<B> there(backend_, vpls);
+    UploadedVpls<B> there(backend_, vpls);
     const WaitAtEnd wait(queue_);
     there.send(queue_);
     luxels.visibility.emplace(backend_, luxels.gbuffer.grid(), vpls.size(), limits);
@@ -140,7 +140,7 @@ void BackendEngine<B, F, E>::find_visible(Luxels& luxels, VplSpan<Space::host> v
 template <Backend B, Bsdf F, Executor E>
 void BackendEngine<B, F, E>::Response::add(const Luxels& luxels, VplSpan<Space::host> vpls,
                                            const VplShading<F>& shading) {
-    sched::detail::UploadedVpls<B> there(engine_.backend_, vpls);
+    UploadedVpls<B> there(engine_.backend_, vpls);
     const WaitAtEnd wait(engine_.queue_);
     there.send(engine_.queue_);
     sum_.add_band(engine_.queue_, luxels.gbuffer, there.view(), *luxels.visibility, shading);
@@ -245,7 +245,7 @@ auto BackendEngine<B, F, E>::light_known(const Luxels& luxels, VplSpan<Space::ho
                                          const S& shading, Monitor* monitor) const -> Layer {
     const auto& gbuffer = luxels.gbuffer;
     Layer layer(backend_, gbuffer.grid());
-    sched::detail::UploadedVpls<B> there(backend_, vpls);
+    UploadedVpls<B> there(backend_, vpls);
     const WaitAtEnd wait(queue_);
     there.send(queue_);
     for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {

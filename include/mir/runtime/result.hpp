@@ -2,9 +2,9 @@
 #pragma once
 
 #include "mir/core/rgb.hpp"
+#include "mir/data/chain_health.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/film/guides.hpp"
-#include "mir/metropolis/chain_health.hpp"
 #include "mir/runtime/light_difference.hpp"
 #include "mir/runtime/share_estimate.hpp"
 #include "mir/runtime/stage_seconds.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/metropolis/metropolis_sampler.hpp"
-#include "mir/metropolis/proposal_sampler.hpp"
 #include "mir/runtime/render_context.hpp"
 #include "mir/runtime/sampling_engine.hpp"
 #include "mir/sampling/bidirectional_sampler.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
+#include "mir/sampling/proposal_sampler.hpp"
 #include "mir/sampling/vpl_roulette.hpp"
 
 namespace mir {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/core/monitor.hpp"
-#include "mir/metropolis/metropolis_sampler.hpp"
+#include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/scene/camera.hpp"
 
 #include <concepts>

@@ -5,7 +5,7 @@
 #include "mir/core/limits.hpp"
 #include "mir/metropolis/systematic_resampling.hpp"
 #include "mir/paths/path_place.hpp"
-#include "mir/sampling/path_record.hpp"
+#include "mir/paths/path_record.hpp"
 #include "mir/sampling/target_floor.hpp"
 
 #include <algorithm>

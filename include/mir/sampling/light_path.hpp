@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mir/concepts/ray_caster.hpp"
+#include "mir/data/vpl_record.hpp"
 #include "mir/sampling/emission.hpp"
-#include "mir/sampling/vpl_record.hpp"
 #include "mir/shading/surface_table.hpp"
 
 namespace mir {

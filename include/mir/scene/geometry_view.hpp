@@ -4,22 +4,12 @@
 #include "mir/core/ray.hpp"
 #include "mir/core/space.hpp"
 #include "mir/core/strict_float.hpp"
+#include "mir/data/vertex_attributes.hpp"
 #include "mir/scene/mesh.hpp"
 
 #include <cmath>
 
 namespace mir {
-
-/// What vertices say about a point of their triangle besides its place.
-struct VertexAttributes {
-    Vec2 texture_coordinates{0};  ///< (0, 0) where the mesh has none
-    Rgb color{1.0f, 1.0f, 1.0f};  ///< linear, 0..1; white where the mesh has none
-};
-
-/// Those that a surface point was given.
-[[nodiscard]] MIR_HD inline VertexAttributes attributes_of(const SurfacePoint& p) {
-    return {p.texture_coordinates, p.color};
-}
 
 /// What kernels read of a WorldGeometry: turns the answers of ray engines (triangle, barycentrics)
 /// into surface points, with the same bits on host and device. A view; thread-safe.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/blocks/block_list.hpp"
 #include "mir/concepts/executor.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/core/monitor.hpp"
 #include "mir/reconstruct.hpp"
-#include "mir/sched/detail/block_list.hpp"
 #include "mir/shading/contribution.hpp"
 
 namespace mir::sched {
@@ -28,7 +28,7 @@ struct Cpu {
             : in_(in), image_(image), executor_(executor), monitor_(monitor) {}
 
         /// Only notes the tile.
-        void submit(TileIndex t) { detail::append_blocks(blocks_, t, in_.gbuffer.tiles()[t]); }
+        void submit(TileIndex t) { blocks::append_blocks(blocks_, t, in_.gbuffer.tiles()[t]); }
 
         /// Computes all tiles that were submitted, block by block on the executor.
         /// @throws Error(cancelled) when the monitor asks to stop.
@@ -37,7 +37,7 @@ struct Cpu {
         }
 
      private:
-        void run(detail::Block b) const {
+        void run(blocks::Block b) const {
             const Tile tile = in_.gbuffer.tiles()[b.tile];
             const auto layout = BlockedLayout::of(tile);
             const Tile area = layout.block_area(tile, b.block);
@@ -72,7 +72,7 @@ struct Cpu {
         Image<Rgb>& image_;
         E& executor_;
         Monitor* monitor_;
-        std::vector<detail::Block> blocks_;
+        std::vector<blocks::Block> blocks_;
     };
 
     /// A pipeline for one image, whose size is that of the G-buffer.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/blocks/block_list.hpp"
+#include "mir/blocks/lit_vpls.hpp"
+#include "mir/blocks/luxel_block.hpp"
+#include "mir/blocks/page_sight.hpp"
 #include "mir/concepts/executor.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/core/monitor.hpp"
 #include "mir/reconstruct.hpp"
-#include "mir/sched/detail/block_list.hpp"
-#include "mir/sched/detail/lit_vpls.hpp"
-#include "mir/sched/detail/luxel_block.hpp"
-#include "mir/sched/detail/page_sight.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -40,9 +40,9 @@ struct CpuBlocks {
         /// Only notes the tile.
         void submit(TileIndex t) {
             if constexpr (by_pages)
-                detail::append_pages(parts_, t, in_.gbuffer.tiles()[t]);
+                blocks::append_pages(parts_, t, in_.gbuffer.tiles()[t]);
             else
-                detail::append_blocks(parts_, t, in_.gbuffer.tiles()[t]);
+                blocks::append_blocks(parts_, t, in_.gbuffer.tiles()[t]);
         }
 
         /// Computes all tiles that were submitted, part by part on the executor.
@@ -59,33 +59,33 @@ struct CpuBlocks {
         using V = std::remove_const_t<decltype(In::visibility)>;
         // Those that is_out_of_reach() reads.
         static constexpr bool wants_bounds = !KnownVisibility<V> || ReachLimitedShading<F>;
-        using Hits = std::conditional_t<wants_bounds, detail::BoundedHitBlock, detail::HitBlock>;
-        using LuxelBlock = detail::LuxelBlock<F, Hits>;
+        using Hits = std::conditional_t<wants_bounds, blocks::BoundedHitBlock, blocks::HitBlock>;
+        using LuxelBlock = blocks::LuxelBlock<F, Hits>;
 
         static constexpr bool by_pages = BlockVisibility<V> && !KnownVisibility<V>;
-        using Part = std::conditional_t<by_pages, detail::PlacedPage, detail::Block>;
+        using Part = std::conditional_t<by_pages, blocks::PlacedPage, blocks::Block>;
 
         /// A block of a page while VPLs are added to it.
         struct Work {
-            detail::Block place;
+            blocks::Block place;
             LuxelBlock block;
-            detail::LitVpls batch{};
-            detail::GroupRadiance sums[detail::groups_per_block]{};
+            blocks::LitVpls batch{};
+            blocks::GroupRadiance sums[blocks::groups_per_block]{};
         };
 
-        void run(detail::Block b) const;
-        void run(const detail::PlacedPage& page) const;
+        void run(blocks::Block b) const;
+        void run(const blocks::PlacedPage& page) const;
         template <InstructionSet Set>
-        void run_page(const detail::PlacedPage& page) const;
+        void run_page(const blocks::PlacedPage& page) const;
         template <InstructionSet Set>
         void shade(Work& work) const {
             work.batch.template shade<Set>(work.block, in_.shading, work.sums);
         }
-        [[nodiscard]] std::vector<Work> start(const detail::PlacedPage& page) const;
+        [[nodiscard]] std::vector<Work> start(const blocks::PlacedPage& page) const;
         template <InstructionSet Set, class FindLit>
-        void add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
+        void add_vpls(const LuxelBlock& block, blocks::GroupRadiance* sums,
                       const FindLit& find_lit) const;
-        void store(detail::Block b, const detail::GroupRadiance* sums) const;
+        void store(blocks::Block b, const blocks::GroupRadiance* sums) const;
 
         /// True when the VPL cannot reach any luxel of the block: skipping it loses nothing. Who
         /// faces it is not asked where masks that tell are at hand.
@@ -133,19 +133,19 @@ CpuBlocks(E&, Monitor*, InstructionSet) -> CpuBlocks<E>;
 
 template <Executor E>
 template <class In>
-void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
+void CpuBlocks<E>::Pipeline<In>::run(blocks::Block b) const {
     run_with(scheduler_.instructions, [this, b](auto set) {
         const auto view = in_.gbuffer.view(b.tile);
         const LuxelBlock block(view.hits, view.surfaces, b, in_.shading);
-        detail::GroupRadiance sums[detail::groups_per_block];
+        blocks::GroupRadiance sums[blocks::groups_per_block];
         if constexpr (KnownVisibility<V>) {
             // Masks first: they are at hand before the VPL is.
             add_vpls<set()>(block, sums, [&](VplIndex j, BlockMask& lit) {
-                return detail::find_known(block, j, in_.visibility, lit) &&
+                return blocks::find_known(block, j, in_.visibility, lit) &&
                        !is_out_of_reach(block, in_.vpls[j]);
             });
         } else {
-            const detail::BlockSight<V> sight(block, in_.visibility);
+            const blocks::BlockSight<V> sight(block, in_.visibility);
             add_vpls<set()>(block, sums, [&](VplIndex j, BlockMask& lit) {
                 const Vpl vpl = in_.vpls[j];
                 if (is_out_of_reach(block, vpl)) return false;
@@ -159,12 +159,12 @@ void CpuBlocks<E>::Pipeline<In>::run(detail::Block b) const {
 
 template <Executor E>
 template <class In>
-auto CpuBlocks<E>::Pipeline<In>::start(const detail::PlacedPage& page) const -> std::vector<Work> {
+auto CpuBlocks<E>::Pipeline<In>::start(const blocks::PlacedPage& page) const -> std::vector<Work> {
     const auto view = in_.gbuffer.view(page.tile);
     std::vector<Work> works;
     works.reserve(page.page.blocks());
     for (std::uint32_t b = 0; b < page.page.blocks(); ++b) {
-        const detail::Block place{page.tile, page.page.block(b)};
+        const blocks::Block place{page.tile, page.page.block(b)};
         works.push_back({place, LuxelBlock(view.hits, view.surfaces, place, in_.shading)});
     }
     return works;
@@ -172,7 +172,7 @@ auto CpuBlocks<E>::Pipeline<In>::start(const detail::PlacedPage& page) const -> 
 
 template <Executor E>
 template <class In>
-void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
+void CpuBlocks<E>::Pipeline<In>::run(const blocks::PlacedPage& page) const {
     run_with(scheduler_.instructions, [&](auto set) { run_page<set()>(page); });
 }
 
@@ -180,14 +180,14 @@ void CpuBlocks<E>::Pipeline<In>::run(const detail::PlacedPage& page) const {
 template <Executor E>
 template <class In>
 template <InstructionSet Set>
-void CpuBlocks<E>::Pipeline<In>::run_page(const detail::PlacedPage& page) const {
+void CpuBlocks<E>::Pipeline<In>::run_page(const blocks::PlacedPage& page) const {
     std::vector<Work> works = start(page);
-    detail::PageSight<V> sight(
+    blocks::PageSight<V> sight(
         in_.gbuffer.view(page.tile).hits, page.page, in_.visibility, Set, [&](std::uint32_t slot) {
             return works[slot / BlockedLayout::block_size].block.counts(slot %
                                                                         BlockedLayout::block_size);
         });
-    constexpr std::uint32_t most = detail::PageSight<V>::most_vpls;
+    constexpr std::uint32_t most = blocks::PageSight<V>::most_vpls;
     const auto matters = [&](const Vpl& vpl) {
         return std::any_of(works.begin(), works.end(),
                            [&](const Work& w) { return !is_out_of_reach(w.block, vpl); });
@@ -215,10 +215,10 @@ void CpuBlocks<E>::Pipeline<In>::run_page(const detail::PlacedPage& page) const 
 template <Executor E>
 template <class In>
 template <InstructionSet Set, class FindLit>
-void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::GroupRadiance* sums,
+void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, blocks::GroupRadiance* sums,
                                           const FindLit& find_lit) const {
     if (block.none_counts) return;
-    detail::LitVpls batch;
+    blocks::LitVpls batch;
     for (VplIndex j = 0; j < in_.vpls.size(); ++j) {
         BlockMask lit;
         if (!find_lit(j, lit)) continue;
@@ -230,14 +230,14 @@ void CpuBlocks<E>::Pipeline<In>::add_vpls(const LuxelBlock& block, detail::Group
 
 template <Executor E>
 template <class In>
-void CpuBlocks<E>::Pipeline<In>::store(detail::Block b, const detail::GroupRadiance* sums) const {
+void CpuBlocks<E>::Pipeline<In>::store(blocks::Block b, const blocks::GroupRadiance* sums) const {
     const Tile tile = in_.gbuffer.tiles()[b.tile];
     const Tile area = BlockedLayout::of(tile).block_area(tile, b.block);
     for (std::uint32_t y = 0; y < area.height; ++y)
         for (std::uint32_t x = 0; x < area.width; ++x) {
             const LuxelIndex i = BlockedLayout::inside(x, y);
-            const detail::GroupRadiance& sum = sums[i / detail::group_size];
-            const std::uint32_t k = i % detail::group_size;
+            const blocks::GroupRadiance& sum = sums[i / blocks::group_size];
+            const std::uint32_t k = i % blocks::group_size;
             image_(tile.x + area.x + x, tile.y + area.y + y) = {sum.r[k], sum.g[k], sum.b[k]};
         }
     if (scheduler_.monitor != nullptr)

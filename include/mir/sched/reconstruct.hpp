@@ -4,8 +4,8 @@
 #include "mir/kernels/fused.hpp"
 #include "mir/kernels/shading_pass.hpp"
 #include "mir/reconstruct.hpp"
+#include "mir/resident/uploaded_vpls.hpp"
 #include "mir/sched/detail/tile_ring.hpp"
-#include "mir/sched/detail/uploaded_vpls.hpp"
 
 namespace mir::sched {
 
@@ -62,7 +62,7 @@ struct Reconstruct {
         static constexpr bool is_known = KnownVisibility<decltype(In::visibility)>;
 
         const In& in_;
-        detail::UploadedVpls<B> vpls_;
+        UploadedVpls<B> vpls_;
         detail::TileRing<B, G> ring_;
         // Last, so that they end, and wait for their work, before the memory goes.
         typename B::Queue copy_;

@@ -4,9 +4,9 @@
 #include "mir/kernels/shading_pass.hpp"
 #include "mir/kernels/word_shading.hpp"
 #include "mir/reconstruct.hpp"
+#include "mir/resident/uploaded_vpls.hpp"
 #include "mir/resident/word_finder.hpp"
 #include "mir/sched/detail/tile_ring.hpp"
-#include "mir/sched/detail/uploaded_vpls.hpp"
 
 namespace mir::sched {
 
@@ -73,7 +73,7 @@ struct ReconstructVisibilityParallel {
         static constexpr bool is_known = KnownVisibility<decltype(In::visibility)>;
 
         const In& in_;
-        detail::UploadedVpls<B> vpls_;
+        UploadedVpls<B> vpls_;
         detail::TileRing<B, G> ring_;
         WordFinder<B> finder_;
         // Last, so that they end, and wait for their work, before the memory goes.

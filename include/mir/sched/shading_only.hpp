@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/blocks/block_list.hpp"
 #include "mir/concepts/executor.hpp"
 #include "mir/kernels/shade_one_vpl.hpp"
 #include "mir/reconstruct.hpp"
-#include "mir/sched/detail/block_list.hpp"
+#include "mir/resident/uploaded_vpls.hpp"
 #include "mir/sched/detail/tile_ring.hpp"
-#include "mir/sched/detail/uploaded_vpls.hpp"
 
 #include <array>
 
@@ -59,7 +59,7 @@ struct ShadingOnly {
         const In& in_;
         Image<Rgb>& image_;
         const ShadingOnly& scheduler_;
-        detail::UploadedVpls<B> vpls_;
+        UploadedVpls<B> vpls_;
         detail::TileRing<B, G> ring_;
         std::array<Plane, 2> planes_;
         std::vector<std::uint8_t> seen_;

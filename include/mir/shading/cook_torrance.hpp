@@ -4,7 +4,7 @@
 #include "mir/core/frame.hpp"
 #include "mir/core/rgb.hpp"
 #include "mir/core/warp.hpp"
-#include "mir/shading/bsdf_sample.hpp"
+#include "mir/data/bsdf_sample.hpp"
 #include "mir/shading/ggx.hpp"
 #include "mir/shading/reflection_lobe.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cuda/segments/gpu_segment_bits.hpp"
-#include "mir/accel/kd_tree_visibility.hpp"
-#include "mir/accel/wide_bvh_visibility.hpp"
+#include "mir/accel/kd/kd_tree_visibility.hpp"
+#include "mir/accel/wide/wide_bvh_visibility.hpp"
 #include "mir/cuda/backend.cuh"
 #include "mir/resident/uploaded_kd_tree.hpp"
 #include "mir/resident/uploaded_wide_bvh.hpp"

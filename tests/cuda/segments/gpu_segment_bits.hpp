@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd_tree.hpp"
-#include "mir/accel/wide_bvh.hpp"
+#include "mir/accel/kd/kd_tree.hpp"
+#include "mir/accel/wide/wide_bvh.hpp"
 #include "mir/cuda/backend.hpp"
 #include "support/segment_ends.hpp"
 

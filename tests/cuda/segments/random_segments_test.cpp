@@ -2,7 +2,7 @@
 #include "support/random_segments.hpp"
 
 #include "cuda/segments/gpu_segment_bits.hpp"
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/host/backend.hpp"
 #include "support/catch.hpp"
 #include "support/segment_bits.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/compare/metrics.hpp"
-#include "mir/io/detail/html_page.hpp"
+#include "mir/io/html_page.hpp"
 #include "report/sections.hpp"
 #include "text.hpp"
 

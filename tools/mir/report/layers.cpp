@@ -2,7 +2,7 @@
 #include "report/layers.hpp"
 
 #include "mir/compare/error_picture.hpp"
-#include "mir/io/detail/html_text.hpp"
+#include "mir/io/html_text.hpp"
 #include "mir/io/png.hpp"
 #include "mir/io/radiance_code.hpp"
 

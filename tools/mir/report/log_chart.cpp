@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "report/log_chart.hpp"
 
-#include "mir/io/detail/html_text.hpp"
+#include "mir/io/html_text.hpp"
 #include "text.hpp"
 
 #include <algorithm>

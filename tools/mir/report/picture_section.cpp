@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/compare/comparable.hpp"
-#include "mir/io/detail/html_page.hpp"
+#include "mir/io/html_page.hpp"
 #include "report/layers.hpp"
 #include "report/sections.hpp"
 #include "report/vpl_drawing.hpp"

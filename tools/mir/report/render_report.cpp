@@ -2,9 +2,9 @@
 #include "report/render_report.hpp"
 
 #include "mir/compare/comparable.hpp"
-#include "mir/io/detail/html_page.hpp"
-#include "mir/io/detail/write_file.hpp"
+#include "mir/io/html_page.hpp"
 #include "mir/io/png.hpp"
+#include "mir/io/write_file.hpp"
 #include "mir/version.hpp"
 #include "read_picture.hpp"
 #include "report/assets.hpp"

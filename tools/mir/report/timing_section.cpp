@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/io/detail/html_page.hpp"
+#include "mir/io/html_page.hpp"
 #include "report/sections.hpp"
 #include "text.hpp"
 

@@ -2,7 +2,7 @@
 #include "report/vpl_drawing.hpp"
 
 #include "mir/data/main_bounces.hpp"
-#include "mir/io/detail/html_page.hpp"
+#include "mir/io/html_page.hpp"
 #include "mir/scene/projection.hpp"
 #include "report/sections.hpp"
 #include "text.hpp"

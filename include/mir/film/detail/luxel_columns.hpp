@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/core/rgb.hpp"
-#include "mir/film/detail/tap_table.hpp"
+#include "mir/film/tap_table.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/accept_box.hpp"
-#include "mir/accel/detail/double3.hpp"
+#include "mir/accel/exact/accept_box.hpp"
+#include "mir/core/double3.hpp"
 #include "mir/micro/surfel.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/detail/find_partners.hpp"
-#include "mir/accel/detail/join_clusters.hpp"
-#include "mir/accel/detail/make_clusters.hpp"
-#include "mir/accel/detail/wide_children.hpp"
+#include "mir/accel/wide/find_partners.hpp"
+#include "mir/accel/wide/join_clusters.hpp"
+#include "mir/accel/wide/make_clusters.hpp"
+#include "mir/accel/wide/wide_children.hpp"
 #include "mir/resident/detail/split_plan.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/detail/split_triangles.hpp"
+#include "mir/accel/wide/split_triangles.hpp"
 #include "mir/resident/detail/counter.hpp"
 #include "mir/resident/wait_at_end.hpp"
 

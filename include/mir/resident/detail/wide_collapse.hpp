@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/detail/collapse_level.hpp"
+#include "mir/accel/wide/collapse_level.hpp"
 #include "mir/resident/detail/cluster_tree.hpp"
 
 namespace mir::detail {

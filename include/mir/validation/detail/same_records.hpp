@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/sampling/vpl_record.hpp"
+#include "mir/data/vpl_record.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/detail/double3.hpp"
+#include "mir/core/double3.hpp"
 #include "mir/core/frame.hpp"
 #include "mir/data/luxel.hpp"
 #include "mir/data/vpl.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/find_surface.hpp"
+#include "mir/accel/exact/find_surface.hpp"
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/cpu/detail/embree.hpp"
 #include "mir/cpu/detail/embree_mask.hpp"

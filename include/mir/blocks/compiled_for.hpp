@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/shading.hpp"
+#include "mir/core/instruction_set.hpp"
+#include "mir/shading/vpl_shading.hpp"
+
+namespace mir::blocks {
+
+/// The shading that has the bits of `shade` and is fastest in loops that are compiled for `Set`.
+template <InstructionSet Set, Shading F>
+[[nodiscard]] F compiled_for(const F& shade) {
+    return shade;
+}
+template <InstructionSet Set, Bsdf B>
+[[nodiscard]] VplShading<B, FusedRoundingFor<Set>> compiled_for(const VplShading<B>& shade) {
+    return {shade.bound};
+}
+
+}  // namespace mir::blocks

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/wide/quantised_bvh.hpp"
+#include "mir/concepts/visibility.hpp"
+
+#include <type_traits>
+
+namespace mir {
+
+/// What backends need to decide the visibility of whole clusters by shafts: a wide hierarchy for
+/// shafts, and an engine for the segments that are left. Model of Visibility by that engine alone,
+/// which must give the bits of hits_segment() asked of every triangle of the hierarchy, as those of
+/// mir/accel/ do. Thread-safe; both must outlive it.
+template <Visibility V>
+struct ClusterVisibility {
+    static constexpr Space space = V::space;  ///< of hierarchy and engine
+
+    QuantisedBvhView<V::space> bvh;  ///< of all triangles, for shafts
+    float sigma = 0.0f;              ///< of the scene (accept_box.hpp), metres
+    V segments;                      ///< the engine
+
+    /// What the engine says; no shaft is asked.
+    [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return segments.visible(a, b); }
+};
+
+/// A Visibility that brings what shafts need.
+template <class V>
+concept ShaftableVisibility = Visibility<V> && requires(const V v) {
+    { v.bvh } -> std::convertible_to<QuantisedBvhView<V::space>>;
+    { v.sigma } -> std::convertible_to<float>;
+    requires Visibility<std::remove_cvref_t<decltype(v.segments)>>;
+};
+
+}  // namespace mir
