@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/kd_tree_scene.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/host/shaft_scene.hpp"
