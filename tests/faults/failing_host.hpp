@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
+#include "mir/concepts/gbuffer.hpp"
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "mir/scene/material.hpp"
@@ -10,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace mirtest {
 
@@ -141,6 +143,20 @@ struct FailingRayCaster {
     [[nodiscard]] std::optional<mir::SurfacePoint> closest_hit(mir::Ray ray) const {
         (*call)();
         return beneath.closest_hit(ray);
+    }
+};
+
+/// The luxels of a buffer, which fail to be shown when told to. Model of TiledGBuffer.
+template <mir::TiledGBuffer G>
+struct FailingLuxels {
+    const G& beneath;
+    FailingCall* call;
+
+    [[nodiscard]] mir::Extent extent() const { return beneath.extent(); }
+    [[nodiscard]] const std::vector<mir::Tile>& tiles() const { return beneath.tiles(); }
+    [[nodiscard]] auto view(mir::TileIndex t) const {
+        (*call)();
+        return beneath.view(t);
     }
 };
 

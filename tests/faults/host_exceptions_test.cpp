@@ -39,6 +39,7 @@ using Bsdf = mirtest::FailingLambert;
 using Executor = mirtest::FailingExecutor<mir::cpu::TbbExecutor>;
 using Caster = mirtest::FailingRayCaster<mir::KdRayCaster<mir::Space::host>>;
 using Sight = mirtest::FailingVisibility<mir::KdTreeVisibility<mir::Space::host>>;
+using Luxels = mir::BlockedGBuffer<Bsdf::Params>;
 using Picture = mir::Image<mir::Rgb>;
 
 /// Every stage that a host can call with an executor, a BSDF, a ray caster or a visibility of its
@@ -49,6 +50,7 @@ class Stages {
     Executor executor{threads_};
     FailingCall sight;
     FailingCall rays;
+    FailingCall views;
 
     /// The pictures of all stages.
     std::vector<Picture> run() {
@@ -58,8 +60,7 @@ class Stages {
 
  private:
     std::vector<Picture> run(const mir::WorldGeometry& geometry);
-    void reconstruct_with_each(std::vector<Picture>& pictures,
-                               const mir::BlockedGBuffer<Bsdf::Params>& luxels,
+    void reconstruct_with_each(std::vector<Picture>& pictures, const Luxels& luxels,
                                const mir::VplList& vpls, const Sight& visibility);
 
     mir::cpu::TbbExecutor threads_{3};
@@ -86,7 +87,7 @@ std::vector<Picture> Stages::run(const mir::WorldGeometry& geometry) {
     const Sight visibility{tree.visibility(), &sight};
 
     const mir::CameraRays camera{scene_.cameras[0], {{18, 17}}};
-    mir::BlockedGBuffer<Bsdf::Params> luxels(camera.grid.luxels(), {16, 16});
+    Luxels luxels(camera.grid.luxels(), {16, 16});
     fill_gbuffer(luxels, 0, camera, caster, surfaces, executor);
     const mir::PathWorld world{geometry,   lights,        surfaces, caster,
                                visibility, camera.camera, 1.0f,     shading_.bound};
@@ -96,6 +97,12 @@ std::vector<Picture> Stages::run(const mir::WorldGeometry& geometry) {
     reconstruct_with_each(pictures, luxels, placed.vpls, visibility);
     pictures.push_back(reconstruct(mir::sched::CpuBlocks{executor}, luxels, placed.vpls.span(),
                                    shafts.visibility(), shading_));
+    const mirtest::FailingLuxels<Luxels> shown{luxels, &views};
+    for (const Picture& one :
+         {reconstruct(mir::sched::Cpu{executor}, shown, placed.vpls.span(), visibility, shading_),
+          reconstruct(mir::sched::CpuBlocks{executor}, shown, placed.vpls.span(), visibility,
+                      shading_)})
+        pictures.push_back(one);
     mir::Film film(camera.grid, mir::default_filter(mir::FilterKind::lanczos), 1);
     film.add_rows(executor, 0, pictures.front());
     pictures.push_back(film.develop(executor, 0));
@@ -111,8 +118,7 @@ std::vector<Picture> Stages::run(const mir::WorldGeometry& geometry) {
     return pictures;
 }
 
-void Stages::reconstruct_with_each(std::vector<Picture>& pictures,
-                                   const mir::BlockedGBuffer<Bsdf::Params>& luxels,
+void Stages::reconstruct_with_each(std::vector<Picture>& pictures, const Luxels& luxels,
                                    const mir::VplList& vpls, const Sight& visibility) {
     const mir::host::Backend backend(executor);
     const auto add = [&](const auto& scheduler) {
@@ -173,15 +179,16 @@ TEST_CASE("what an executor throws reaches the caller from every loop, and the n
     CHECK(same(stages.run(), whole));
 }
 
-TEST_CASE("what a host's BSDF, rays and visibility throw reaches the caller, at whatever call") {
+TEST_CASE("what a host's BSDF, rays, visibility and luxels throw reaches it, at whatever call") {
     Stages stages;
     const std::vector<Picture> whole = stages.run();
-    const std::array<FailingCall*, 3> parts{&Bsdf::call, &stages.rays, &stages.sight};
-    FailingCall* const call = parts[GENERATE(0u, 1u, 2u)];
+    const std::array<FailingCall*, 4> parts{&Bsdf::call, &stages.rays, &stages.sight,
+                                            &stages.views};
+    FailingCall* const call = parts[GENERATE(0u, 1u, 2u, 3u)];
     call->arm(FailingCall::never);
     static_cast<void>(stages.run());
     const std::uint64_t calls = call->calls();
-    REQUIRE(calls > 1000);
+    REQUIRE(calls > 5);
     std::vector<std::uint64_t> silent;
     for (std::uint64_t n = 1; n < calls; n = n + n / 4 + 1) {
         call->arm(n);

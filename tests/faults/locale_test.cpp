@@ -76,9 +76,9 @@ TEST_CASE("numbers of texts have points, whatever the locale") {
     const auto numbers = [] {
         return mir::number_text(1234567.0) + " " + mir::number_text(0.1, 17) + " " +
                mir::number_text(-1e-30) + " " + mir::fixed_text(1234.5678, 2) + " " +
-               mir::fixed_text(-2.5);
+               mir::fixed_text(-2.5) + " " + mir::shortest_text(0.1);
     };
-    const std::string wanted = "1.23457e+06 0.10000000000000001 -1e-30 1234.57 -2";
+    const std::string wanted = "1.23457e+06 0.10000000000000001 -1e-30 1234.57 -2 0.1";
     CHECK(numbers() == wanted);
     CHECK(with_commas(numbers) == wanted);
     CHECK(mir::fixed_text(-1.7976931348623157e308, 100).size() == 1 + 309 + 1 + 100);

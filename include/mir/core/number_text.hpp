@@ -29,4 +29,11 @@ inline std::string fixed_text(double value, int digits = 0) {
     return detail::print_number(value, std::chars_format::fixed, digits);
 }
 
+/// A number in as few characters as tell it from every other double; likewise.
+inline std::string shortest_text(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    return {text.data(), end.ptr};
+}
+
 }  // namespace mir

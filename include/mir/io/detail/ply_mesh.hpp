@@ -171,7 +171,7 @@ inline void PlyMesh::add_face() {
     for (double index : list_) {
         const auto n = static_cast<double>(mesh_.positions.size());
         if (!(index >= 0.0 && index < n) || index != std::floor(index))
-            fail_here("it names vertex " + number_text(index, 15) + ", but there are " +
+            fail_here("it names vertex " + shortest_text(index) + ", but there are " +
                       std::to_string(mesh_.positions.size()) +
                       " (counted from 0); repair or export the file again");
         outline_.push_back(mesh_.positions[static_cast<std::size_t>(index)]);

@@ -40,7 +40,7 @@ class PlyValues {
         const std::size_t most =
             format_ == PlyFormat::ascii ? (left + 1) / 2 : left / ply_size(property.type);
         if (count < 0.0 || count > static_cast<double>(most))
-            fail_here("its list is of " + number_text(count, 15) + " numbers, but the file has " +
+            fail_here("its list is of " + shortest_text(count) + " numbers, but the file has " +
                       std::to_string(left) + " bytes left; export the file again");
         values.clear();
         for (auto i = static_cast<std::size_t>(count); i > 0; --i)
