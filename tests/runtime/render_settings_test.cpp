@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/runtime/settings.hpp"
+#include "mir/runtime/check_settings.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("counts of the path tracer are checked before anything is rendered") {
@@ -7,16 +7,16 @@ TEST_CASE("counts of the path tracer are checked before anything is rendered") {
     s.integrator = mir::Integrator::path;
     for (const std::uint32_t most : {1u, 65536u}) {
         s.path.directions = most;
-        CHECK_NOTHROW(s.validate());
+        CHECK_NOTHROW(check(s));
     }
     for (const std::uint32_t wrong : {0u, 65537u}) {
         s.path.directions = wrong;
-        CHECK_THROWS_AS(s.validate(), mir::Error);
+        CHECK_THROWS_AS(check(s), mir::Error);
     }
     s.path.directions = 1;
     for (const std::uint32_t wrong : {0u, (1u << 24) + 1}) {
         s.path.samples = wrong;
-        CHECK_THROWS_AS(s.validate(), mir::Error);
+        CHECK_THROWS_AS(check(s), mir::Error);
     }
 }
 

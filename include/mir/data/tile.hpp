@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/core/hd.hpp"
+#include "mir/data/extent.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,17 +14,6 @@ namespace mir {
 using LuxelIndex = std::uint32_t;  ///< blocked index inside one tile
 using VplIndex = std::uint32_t;    ///< place in a set of VPLs
 using TileIndex = std::uint32_t;   ///< place in what cut_into_tiles() returned
-
-/// Width and height in luxels or pixels.
-struct Extent {
-    std::uint32_t width = 0;   ///< columns
-    std::uint32_t height = 0;  ///< rows
-
-    /// Width times height; cannot overflow.
-    [[nodiscard]] constexpr std::uint64_t area() const { return std::uint64_t{width} * height; }
-    /// Equal in both directions.
-    friend constexpr bool operator==(Extent, Extent) = default;
-};
 
 /// Rectangle of luxels: the unit of scheduling and of transfer (section 5.1 of the paper).
 struct Tile {

@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/core/unit_circle.hpp"
+#include "mir/film/filter_options.hpp"
 
 #include <array>
 #include <cmath>
@@ -10,15 +11,6 @@
 #include <string_view>
 
 namespace mir {
-
-/// Shape of a pixel filter.
-enum class FilterKind {
-    box,       ///< the mean of a pixel's luxels
-    tent,      ///< linear fall-off
-    gaussian,  ///< exp(-2 d^2), lowered so that it reaches zero at the half-width
-    mitchell,  ///< cubic with B = C = 1/3 (Mitchell and Netravali, SIGGRAPH 1988)
-    lanczos    ///< sinc windowed by a wider sinc: the kernel of the paper, made finite
-};
 
 /// sin(pi x), absolute error below 2e-7 for |x| < 2^20, exactly zero at every integer: libm's sine
 /// of a rounded pi is not.
@@ -30,74 +22,42 @@ constexpr float sinc(float x) {
     return d < 1e-4f ? 1.0f : sin_pi(d) / (pi * d);
 }
 
-/// Separable pixel filter: how much a luxel counts for a pixel. Distances are in pixels. Weights
-/// are not scaled to integrate to one, because Film divides by their sum; they may be negative. A
-/// small value; free of state.
-struct Filter {
-    FilterKind kind = FilterKind::lanczos;  ///< shape
-    float half_width = 3.0f;  ///< pixels; the weight is zero from here on, at least 0.5
-    /// Only for lanczos. With half_width == tau the zeros lie on the integers, so that one luxel
-    /// per pixel is left alone; a half_width of 4 with tau 3 stretches the zeros to 4/3 of a pixel
-    /// and blurs (the pair of pbrt-v2).
-    float tau = 3.0f;
+namespace detail {
 
-    /// Weight along one axis at distance `d` = luxel - pixel centre. Even in `d`. A luxel on the
-    /// very border of a box counts half, so that neighbouring boxes share it.
-    [[nodiscard]] float along(float d) const {
-        d = std::fabs(d);
-        if (!(d < half_width)) return kind == FilterKind::box && d == half_width ? 0.5f : 0.0f;
-        switch (kind) {
-            case FilterKind::box:
-                return 1.0f;
-            case FilterKind::tent:
-                return 1.0f - d / half_width;
-            case FilterKind::gaussian:
-                return larger(0.0f,
-                              std::exp(-2.0f * d * d) - std::exp(-2.0f * half_width * half_width));
-            case FilterKind::mitchell:
-                return mitchell(2.0f * d / half_width);
-            case FilterKind::lanczos:
-                return lanczos(d * tau / half_width, d / half_width);
-        }
-        return 0.0f;
-    }
+/// sinc(x) sinc(u) with a single division; `x` and `u` are not negative.
+constexpr float lanczos_weight(float x, float u) {
+    if (u < 1e-4f) return sinc(x);
+    return sin_pi(x) * sin_pi(u) / (pi * pi * x * u);
+}
 
-    /// Weight of a luxel at `(dx, dy)` pixels from the centre of the pixel.
-    [[nodiscard]] float operator()(float dx, float dy) const { return along(dx) * along(dy); }
+/// `x` in [0, 2]. Source: Mitchell and Netravali 1988, equation 8 with B = C = 1/3.
+constexpr float mitchell_weight(float x) {
+    if (x < 1.0f) return ((7.0f * x - 12.0f) * x * x + 16.0f / 3.0f) / 6.0f;
+    return (2.0f - x) * (2.0f - x) * (8.0f - 7.0f * x) / 18.0f;
+}
 
-    /// True when kind, half-width and tau are equal.
-    friend bool operator==(const Filter&, const Filter&) = default;
+}  // namespace detail
 
- private:
-    /// sinc(x) sinc(u) with a single division; `x` and `u` are not negative.
-    [[nodiscard]] static constexpr float lanczos(float x, float u) {
-        if (u < 1e-4f) return sinc(x);
-        return sin_pi(x) * sin_pi(u) / (pi * pi * x * u);
-    }
-
-    /// `x` in [0, 2]. Source: Mitchell and Netravali 1988, equation 8 with B = C = 1/3.
-    [[nodiscard]] static constexpr float mitchell(float x) {
-        if (x < 1.0f) return ((7.0f * x - 12.0f) * x * x + 16.0f / 3.0f) / 6.0f;
-        return (2.0f - x) * (2.0f - x) * (8.0f - 7.0f * x) / 18.0f;
-    }
-};
-
-/// The filter of a kind with its usual half-width: box 0.5, tent 1, gaussian 2, mitchell 2,
-/// lanczos 3 with tau 3.
-constexpr Filter default_filter(FilterKind kind) {
+inline float Filter::along(float d) const {
+    d = std::fabs(d);
+    if (!(d < half_width)) return kind == FilterKind::box && d == half_width ? 0.5f : 0.0f;
     switch (kind) {
         case FilterKind::box:
-            return {kind, 0.5f};
+            return 1.0f;
         case FilterKind::tent:
-            return {kind, 1.0f};
+            return 1.0f - d / half_width;
         case FilterKind::gaussian:
+            return larger(0.0f,
+                          std::exp(-2.0f * d * d) - std::exp(-2.0f * half_width * half_width));
         case FilterKind::mitchell:
-            return {kind, 2.0f};
+            return detail::mitchell_weight(2.0f * d / half_width);
         case FilterKind::lanczos:
-            break;
+            return detail::lanczos_weight(d * tau / half_width, d / half_width);
     }
-    return {FilterKind::lanczos, 3.0f, 3.0f};
+    return 0.0f;
 }
+
+inline float Filter::operator()(float dx, float dy) const { return along(dx) * along(dy); }
 
 /// A kind and its name on the command line and in files.
 struct FilterName {

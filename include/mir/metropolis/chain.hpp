@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/data/chain_health.hpp"
-#include "mir/metropolis/chain_options.hpp"
+#include "mir/metropolis/metropolis_tuning.hpp"
 #include "mir/metropolis/multiple_try.hpp"
 #include "mir/metropolis/path_mutation.hpp"
 #include "mir/metropolis/primary_sample.hpp"

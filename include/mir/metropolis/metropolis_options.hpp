@@ -2,37 +2,17 @@
 #pragma once
 
 #include "mir/core/limits.hpp"
-#include "mir/metropolis/bootstrap_options.hpp"
-#include "mir/metropolis/chain_options.hpp"
+#include "mir/metropolis/metropolis_tuning.hpp"
+#include "mir/metropolis/primary_sample.hpp"
 
 #include <algorithm>
 #include <limits>
 
 namespace mir {
 
-/// When the chains end.
-enum class ChainStop {
-    fixed,  ///< after a fixed number of recorded states: unbiased up to the normalisation
-    paper   ///< algorithm 2 as printed, after a number of new geometric VPLs: biased, O(1/N)
-};
-
 /// States recorded at most for each new VPL that ChainStop::paper waits for: it might wait for ever
 /// on a path that nothing moves.
 inline constexpr std::uint64_t paper_stop_cap = 64;
-
-/// How chains run, whatever they are run for.
-struct MetropolisTuning {
-    std::uint32_t chains = 4096;        ///< at most, 1..65536; see BootstrapOptions::starts_at()
-    std::uint32_t stride = 64;          ///< mutations from one recorded state to the next
-    std::uint32_t suffix_refresh = 8;   ///< further light paths behind each recorded VPL, 0..255
-    ChainStop stop = ChainStop::fixed;  ///< when chains end
-    ChainOptions chain;                 ///< how they move
-    BootstrapOptions bootstrap;         ///< how many paths estimate P_c and seed them
-    PathTechniques techniques = PathTechniques::bidirectional;  ///< how paths are built
-
-    /// @throws Error(invalid_argument) that names the first bad value.
-    void validate() const;
-};
 
 /// How many states a MetropolisSampler records, how far paths go, and how chains run.
 struct MetropolisOptions : MetropolisTuning {

@@ -3,6 +3,7 @@
 
 #include "mir/direct_light.hpp"
 #include "mir/micro/buffer_gather.hpp"
+#include "mir/micro/check_gather.hpp"
 #include "mir/micro/ray_gather.hpp"
 
 namespace mir {

@@ -30,10 +30,4 @@ struct SurfelHit {
     bool front = true;                                 ///< the side of its normals is seen
 };
 
-/// As what a node is met where an approximate ray stops.
-enum class StopShape {
-    disc,   ///< across the axis of its cone, as large as its sphere: surfaces stay thin
-    sphere  ///< its sphere, which bulges out of flat surfaces
-};
-
 }  // namespace mir

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/micro/gather_options.hpp"
 #include "mir/micro/solid_angle.hpp"
 #include "mir/micro/surfel_ray.hpp"
 #include "mir/micro/surfel_tree_view.hpp"

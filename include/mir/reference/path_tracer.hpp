@@ -3,6 +3,7 @@
 
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/reference/bound_split.hpp"
+#include "mir/reference/light_search.hpp"
 #include "mir/reference/path_rules.hpp"
 #include "mir/reference/rgb_moments.hpp"
 #include "mir/shading/environment_light.hpp"
@@ -15,14 +16,6 @@
 #include <span>
 
 namespace mir {
-
-/// How paths find emissive triangles and the environment. All three have the same expectation.
-enum class LightSearch {
-    mis,        ///< light samples and scattered directions, weighted by PathRules::mis
-    lamps,      ///< explicit: light samples alone; lamps that directions hit do not count, nor does
-                ///< the environment where they escape
-    directions  ///< implicit: scattered directions alone
-};
 
 /// How paths are traced; the estimator is described in docs/reference.md.
 struct PathTracerOptions {

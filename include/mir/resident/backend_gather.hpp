@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/data/image.hpp"
+#include "mir/micro/check_gather.hpp"
 #include "mir/micro/gather_light.hpp"
 #include "mir/micro/gather_pass.hpp"
 #include "mir/resident/backend_gbuffer.hpp"

@@ -7,6 +7,7 @@
 #include "mir/runtime/render_context.hpp"
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/scene/light_table.hpp"
+#include "mir/shading/direct_samples.hpp"
 
 #include <cmath>
 #include <cstdint>

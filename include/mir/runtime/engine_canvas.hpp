@@ -3,6 +3,7 @@
 
 #include "mir/runtime/film_layers.hpp"
 #include "mir/runtime/render_job.hpp"
+#include "mir/shading/direct_samples.hpp"
 
 namespace mir {
 

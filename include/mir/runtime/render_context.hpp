@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/concepts/bsdf.hpp"
+#include "mir/concepts/executor.hpp"
 #include "mir/core/monitor.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
 #include "mir/runtime/stage_clock.hpp"
+#include "mir/scene/world_geometry.hpp"
+#include "mir/shading/surface_table.hpp"
 
 namespace mir {
 

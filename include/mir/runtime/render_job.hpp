@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/film/guides.hpp"
 #include "mir/runtime/image_bands.hpp"
 #include "mir/scene/light_table.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/error.hpp"
 #include "mir/core/monitor.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
@@ -10,7 +11,9 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mir {

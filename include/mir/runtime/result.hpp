@@ -3,12 +3,14 @@
 
 #include "mir/core/rgb.hpp"
 #include "mir/data/chain_health.hpp"
+#include "mir/data/image.hpp"
 #include "mir/data/vpl_list.hpp"
-#include "mir/film/guides.hpp"
+#include "mir/film/guide_images.hpp"
 #include "mir/runtime/light_difference.hpp"
 #include "mir/runtime/share_estimate.hpp"
 #include "mir/runtime/stage_seconds.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/limits.hpp"
-#include "mir/data/blocked_layout.hpp"
-#include "mir/film/filter.hpp"
-#include "mir/film/luxel_grid.hpp"
-#include "mir/metropolis/metropolis_options.hpp"
+#include "mir/core/limit_values.hpp"
+#include "mir/data/extent.hpp"
+#include "mir/film/filter_options.hpp"
+#include "mir/metropolis/metropolis_tuning.hpp"
 #include "mir/micro/gather_options.hpp"
 #include "mir/normalise/policy.hpp"
-#include "mir/paths/path.hpp"
-#include "mir/reference/path_tracer.hpp"
-#include "mir/sampling/instant_radiosity_sampler.hpp"
-#include "mir/shading/direct_samples.hpp"
+#include "mir/reference/light_search.hpp"
+#include "mir/sampling/light_path_options.hpp"
 
-#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -172,6 +169,8 @@ struct RenderSettings {
     bool allow_no_light = false;  ///< a scene without light gives black, not an error
     Limits limits;                ///< checked before memory is taken
 
+    /// Checks every value. Of mir::runtime; check() of mir/runtime/check_settings.hpp is the same
+    /// without that library.
     /// @throws Error(invalid_argument or limit_exceeded) that names the first bad value.
     void validate() const;
 
@@ -188,13 +187,6 @@ struct RenderSettings {
         return (direct_samples + luxels_per_pixel - 1) / luxels_per_pixel;
     }
 
-    /// What brings direct light to one luxel: its samples, or as many VPLs at infinity as there
-    /// are to be others.
-    [[nodiscard]] DirectSamples direct_samples_of_luxel() const {
-        return direct == DirectLight::separate ? DirectSamples(direct_samples_per_luxel())
-                                               : DirectSamples::vpls(vpls);
-    }
-
     /// Paths of one luxel that trace back what the bound removed, likewise; 0 for none.
     [[nodiscard]] std::uint32_t compensate_per_luxel() const {
         return (compensate + luxels_per_pixel - 1) / luxels_per_pixel;
@@ -204,123 +196,6 @@ struct RenderSettings {
 /// Luxels of the image times VPLs: the contributions of a pass, in a number that does not overflow.
 [[nodiscard]] inline double pairs(const RenderSettings& settings) {
     return static_cast<double>(settings.image.area()) * settings.luxels_per_pixel * settings.vpls;
-}
-
-namespace detail {
-
-/// There must be light that can be shown, or traced back.
-inline void check_removed(const RenderSettings& s) {
-    expects(!s.removed_layer || s.integrator == Integrator::vpl,
-            "only the light of VPLs has a bound that removes some of it (there is none to show); "
-            "leave the layer out or use --integrator vpl");
-    if (s.compensate == 0) return;
-    expects(s.compensate <= 65536, "paths per pixel that trace back light must be 0 to 65536");
-    expects(s.integrator == Integrator::vpl,
-            "only the light of VPLs has a bound that removes some of it (there is nothing to trace "
-            "back); leave --compensate out or use --integrator vpl");
-    expects(s.bound.kind != BoundPolicy::Kind::none,
-            "without a bound no light is removed (there is nothing to trace back); leave "
-            "--compensate or --bound none out");
-}
-
-/// Spheres light what points would, with nothing removed.
-inline void check_vsl(const RenderSettings& s) {
-    if (!s.vsl.enabled) return;
-    expects(s.vsl.samples >= 1 && s.vsl.samples <= 1024,
-            "directions in which a luxel sees a sphere must be 1 to 1024; 8 are usual");
-    expects(s.vsl.scale > 0.0f && std::isfinite(s.vsl.scale),
-            "the scale of the spheres' radii must be positive and finite; 1 is usual");
-    expects(s.integrator == Integrator::vpl,
-            "only VPLs can become spheres (there are none); leave --vsl out or use --integrator "
-            "vpl");
-    expects(s.direct == DirectLight::separate,
-            "VPLs on lamps do not become spheres (those spread indirect light alone); leave --vsl "
-            "out or use --direct separate");
-    expects(s.compensate == 0 && !s.removed_layer,
-            "spheres have no bound that removes light (there is nothing to show or to trace back); "
-            "leave --vsl out, or --compensate and the layer of what was removed");
-}
-
-/// Light paths alone tell from where a VPL is lit, and weigh it without a look at the image.
-inline void check_glossy(const RenderSettings& s) {
-    if (!s.glossy.enabled) return;
-    expects(s.glossy.least_roughness >= 0.0f && s.glossy.least_roughness <= 1.0f,
-            "the least roughness of the lobes of VPLs must be 0 to 1; 0.5 is usual");
-    expects(
-        s.integrator == Integrator::vpl,
-        "only VPLs keep the lobes of their surfaces (there are none); leave --glossy out or use "
-        "--integrator vpl");
-    expects(
-        s.sampler == SamplerKind::instant_radiosity && !s.vpl_roulette,
-        "VPLs keep the lobes of their surfaces with light paths only (other samplers weigh VPLs "
-        "by what the image gets of them without lobes); use --sampler ir or keller, or leave "
-        "--glossy out");
-    expects(!s.vsl.enabled,
-            "VPLs are spheres or have lobes (not both are made); leave --vsl or --glossy out");
-}
-
-/// A tile may fill the last blocks of the image, but no more.
-inline void check_tile(const std::optional<Extent>& tile, Extent luxels) {
-    const Extent most = whole_blocks(luxels);
-    if (!tile || (tile->width <= most.width && tile->height <= most.height)) return;
-    const auto text = [](Extent e) {
-        return std::to_string(e.width) + "x" + std::to_string(e.height);
-    };
-    throw Error(ErrorCode::invalid_argument,
-                "a tile of " + text(*tile) + " luxels is larger than the image, which has " +
-                    text(luxels) + "; use " + text(most) +
-                    " for one tile, or leave the choice to the backend");
-}
-
-}  // namespace detail
-
-inline void RenderSettings::validate() const {
-    expects(image.width > 0 && image.height > 0,
-            "an image of zero pixels was asked for (there is nothing to compute); give --width and "
-            "--height of at least 1");
-    check_limit(image.area(), limits.pixels, "pixels");
-    expects(luxels_per_pixel >= 1 && luxels_per_pixel <= max_luxels_per_pixel,
-            "luxels per pixel must be 1 to 64");
-    expects(vpls > 0,
-            "0 VPLs were asked for (there would be no indirect light); ask for at least 1, 256 is "
-            "usual");
-    check_limit(vpls, limits.vpls, "vpls");
-    expects(direct_samples > 0 && direct_samples <= 65536,
-            "next-event samples per pixel must be 1 to 65536");
-    expects(prepass_luxels > 0 && prepass_luxels <= (1u << 24),
-            "luxels of the prepass must be 1 to 16777216");
-    metropolis.validate();
-    expects(path.samples > 0 && path.samples <= 1u << 24,
-            "camera paths per luxel must be 1 to 16777216");
-    expects(path.directions >= 1 && path.directions <= 65536,
-            "paths that go on from a first hit must be 1 to 65536");
-    expects(sampler == SamplerKind::instant_radiosity || bounce_limit() < max_path_edges,
-            "samplers of whole paths hold at most 63 reflections; lower the largest bounce or use "
-            "instant radiosity");
-    expects(sampler != SamplerKind::metropolis || normalisation != NormalisationPolicy::none,
-            "Metropolis sampling yields VPLs without intensities (they follow from what the image "
-            "gets); normalise them: full, prepass or proposal");
-    expects(bounce_limit() >= 1 && bounce_limit() < 255, "the largest bounce must be 1 to 254");
-    expects(!tile || (tile->width > 0 && tile->height > 0),
-            "a tile of zero luxels was asked for (a tile must hold at least one); use 256x256");
-    detail::check_tile(tile, luxel_grid(image, luxels_per_pixel, limits).luxels());
-    expects(bound.kind != BoundPolicy::Kind::fixed ||
-                (bound.value > 0.0f && std::isfinite(bound.value)),
-            "the bound of the geometry term must be positive and finite (per square metre); use "
-            "auto or none");
-    expects(integrator == Integrator::vpl || bound.kind != BoundPolicy::Kind::fixed,
-            "only the light of VPLs has a bounded geometry term (the picture would not be the one "
-            "asked for); leave --bound out or use --integrator vpl");
-    detail::check_removed(*this);
-    detail::check_vsl(*this);
-    detail::check_glossy(*this);
-    expects(micro.surfels > 0,
-            "0 discs were asked for (there would be no indirect light); 16384 are usual");
-    check_limit(micro.surfels, limits.surfels, "surfels");
-    expects(micro.surfel_rays >= 1 && micro.surfel_rays <= 65536,
-            "the rays of a disc must be 1 to 65536; 32 are usual");
-    check(micro.gather);
-    check(micro.buffer());
 }
 
 }  // namespace mir

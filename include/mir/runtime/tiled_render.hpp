@@ -11,10 +11,19 @@
 #include "mir/sampling/visible_area.hpp"
 #include "mir/sampling/vsl_radii.hpp"
 #include "mir/scene/scene_hash.hpp"
+#include "mir/shading/direct_samples.hpp"
 
 #include <limits>
 
 namespace mir {
+
+/// What brings direct light to one luxel: its samples, or as many VPLs at infinity as there are to
+/// be others.
+[[nodiscard]] inline DirectSamples direct_samples_of_luxel(const RenderSettings& settings) {
+    return settings.direct == DirectLight::separate
+               ? DirectSamples(settings.direct_samples_per_luxel())
+               : DirectSamples::vpls(settings.vpls);
+}
 
 namespace detail {
 template <Bsdf B, class Engine, Executor E, class MakeScheduler>
@@ -256,7 +265,7 @@ void TiledRender<B, Engine, E, MakeScheduler>::render_band(Canvas& canvas, const
     std::vector<Layer> layers;
     {
         const auto stage = job_.clock.measure(&StageSeconds::direct);
-        layers.push_back(canvas.direct(band, job_.settings.direct_samples_of_luxel()));
+        layers.push_back(canvas.direct(band, direct_samples_of_luxel(job_.settings)));
         layers.push_back(canvas.emission(band));
         layers.push_back(canvas.coverage(band));
     }
@@ -303,7 +312,7 @@ void TiledRender<B, Engine, E, MakeScheduler>::measure(const Canvas& canvas) {
     if constexpr (!BandEngine<Engine>) {
         const auto stage = job_.clock.measure(&StageSeconds::ledger);
         job_.result.statistics.direct_noise =
-            canvas.direct_noise(job_.settings.direct_samples_of_luxel());
+            canvas.direct_noise(direct_samples_of_luxel(job_.settings));
         const bool bounded =
             job_.settings.bound.kind != BoundPolicy::Kind::none && !job_.settings.vsl.enabled;
         const MissingShares missing =

@@ -4,18 +4,13 @@
 #include "mir/concepts/sampler.hpp"
 #include "mir/core/limits.hpp"
 #include "mir/sampling/light_path.hpp"
+#include "mir/sampling/light_path_options.hpp"
 #include "mir/sampling/survivor_counts.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace mir {
-
-/// When a light path ends.
-enum class Termination {
-    roulette,  ///< by chance, with the albedo as odds of survival: unbiased
-    levels     ///< Keller's: floor(rho^n N) particles survive n bounces; consistent
-};
 
 /// How many VPLs an InstantRadiositySampler wants, from what numbers, and where paths end.
 struct InstantRadiosityOptions {

@@ -2,14 +2,9 @@
 #pragma once
 
 #include "mir/core/random.hpp"
+#include "mir/sampling/light_path_options.hpp"
 
 namespace mir {
-
-/// Where the numbers of a light path come from.
-enum class Sequence {
-    random,  ///< independent Philox numbers
-    halton   ///< Halton sequence over paths, shifted by the seed; random past its dimensions
-};
 
 /// Radical inverse of `i` in `base`: its digits mirrored at the point, in [0, 1).
 MIR_HD inline float radical_inverse(std::uint32_t base, std::uint64_t i) {
