@@ -6,6 +6,7 @@
 // (4.6).
 #include "mir/compare/comparable.hpp"
 #include "mir/cpu/register.hpp"
+#include "mir/reference/rgb_moments.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "reference.hpp"
 #include "tools/mir/load_scene.hpp"

@@ -3,8 +3,10 @@
 // Quoted by docs/embedding.md: the library inside a program of a user's own.
 #include "conformance/executor_suite.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/register.hpp"
 #include "mir/mir.hpp"
+#include "mir/render.hpp"
+#include "mir/runtime/all_renderers.hpp"
+#include "mir/scene/builtin.hpp"
 #include "support/catch.hpp"
 
 #include <atomic>
@@ -49,18 +51,23 @@ mir::Scene make_surveyed_scene() {
 // endregion: places
 
 // region: render
-mir::RenderResult render(const mir::Scene& scene, mir::Monitor& monitor) {
-    mir::Registry registry;
-    mir::cpu::add_to(registry);
-
+mir::RenderResult draw(const mir::Scene& scene, mir::Monitor& monitor) {
     mir::RenderSettings settings;
     settings.image = {64, 48};
     settings.vpls = 128;
     settings.seed = 1;
-    const auto renderer = registry.make(settings.backend, settings.scheduler);
-    return renderer->render(scene, settings, &monitor);
+    return mir::render(scene, settings, &monitor);
 }
 // endregion: render
+
+// region: names
+/// The plain loop of the processor, which others are compared with.
+std::unique_ptr<mir::Renderer> oracle() {
+    mir::Registry registry;
+    mir::add_all_to(registry);
+    return registry.make(mir::BackendKind::cpu, "cpu");
+}
+// endregion: names
 
 // region: executor
 /// A thread per core for each loop. A program of its own would hand the work to its own pool.
@@ -99,24 +106,26 @@ static_assert(mir::Executor<Threads>);
 TEST_CASE("The program of the documentation renders and can be watched") {
     // region: monitor
     mir::Monitor monitor;  // readable from any thread while render() runs
-    const mir::RenderResult result = render(make_scene(), monitor);
+    const mir::RenderResult result = draw(make_scene(), monitor);
     const std::uint64_t done = monitor.contributions;
     // endregion: monitor
     CHECK(done == monitor.planned_contributions);
     CHECK(done >= result.statistics.contributions);
     CHECK(result.beauty.extent() == mir::Extent{64, 48});
     CHECK(result.statistics.indirect_luminance > 0.0);
+    const mir::RenderSettings plain{.image = {16, 16}, .vpls = 8, .measure_missing = false};
+    CHECK(oracle()->render(make_scene(), plain, nullptr).statistics.scheduler == "cpu");
     monitor.cancelled = true;
-    CHECK_THROWS_AS(render(make_scene(), monitor), mir::Error);
+    CHECK_THROWS_AS(draw(make_scene(), monitor), mir::Error);
 }
 
 TEST_CASE("The far scene of the documentation looks as it does at home") {
     const mir::Scene scene = make_surveyed_scene();
     CHECK(glm::length(scene.origin - mir::DVec3(4075540, 931735, 4801629)) < 16.0);
     mir::Monitor monitor;
-    const mir::RenderResult far = render(scene, monitor);
+    const mir::RenderResult far = draw(scene, monitor);
     CHECK(far.statistics.origin == scene.origin);
-    const mir::RenderResult home = render(make_scene(), monitor);
+    const mir::RenderResult home = draw(make_scene(), monitor);
     CHECK(far.statistics.indirect_luminance ==
           mirtest::Approx(home.statistics.indirect_luminance).epsilon(0.1));
 }

@@ -3,7 +3,7 @@
 // first_render SCENE OUTPUT.exr   renders a file under a sun, with the compiled renderers
 #include <mir/io/exr.hpp>
 #include <mir/io/scene_reader.hpp>
-#include <mir/runtime/all_renderers.hpp>
+#include <mir/render.hpp>
 #include <mir/runtime/frame_scene.hpp>
 
 #include <exception>
@@ -22,10 +22,7 @@ int main(int argc, char** argv) {
             scene.cameras.push_back(mir::frame_scene(scene, settings.aspect()).camera);
         scene.directional_lights.push_back({"sun", {0.0f, -0.6f, -0.8f}, {3.0f, 3.0f, 3.0f}});
 
-        mir::Registry renderers;
-        mir::add_all_to(renderers);
-        const auto renderer = renderers.make(mir::BackendKind::automatic, "");
-        const mir::RenderResult result = renderer->render(scene, settings, nullptr);
+        const mir::RenderResult result = mir::render(scene, settings);
         mir::write_exr(argv[2], settings.image, {{"", &result.beauty}});
         for (const std::string& warning : result.warnings) std::cerr << warning << '\n';
     } catch (const std::exception& e) {

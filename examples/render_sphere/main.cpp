@@ -4,9 +4,9 @@
 //
 // Renders the built-in sphere scene with a scheduler that is chosen by name while the program runs,
 // and writes an OpenEXR file and a PNG preview beside it.
-#include "mir/cpu/register.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
+#include "mir/render.hpp"
 #include "mir/scene/builtin.hpp"
 
 #include <exception>
@@ -16,15 +16,12 @@
 namespace {
 
 void render_sphere(const std::string& scheduler, const std::filesystem::path& picture) {
-    mir::Registry registry;
-    mir::cpu::add_to(registry);
-    const auto renderer = registry.make(mir::BackendKind::automatic, scheduler);
-
     const mir::Scene scene = mir::builtin::make("sphere");
     mir::RenderSettings settings;
     settings.image = {320, 240};
     settings.vpls = 256;
-    const mir::RenderResult result = renderer->render(scene, settings, nullptr);
+    settings.scheduler = scheduler;
+    const mir::RenderResult result = mir::render(scene, settings);
 
     auto preview = picture;
     preview.replace_extension(".png");

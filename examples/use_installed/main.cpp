@@ -4,8 +4,8 @@
 //
 // Renders the furnace, a closed box whose radiance is 1 everywhere, with the compiled renderers,
 // and prints the mean of what comes out.
-#include <mir/cpu/register.hpp>
 #include <mir/io/exr.hpp>
+#include <mir/render.hpp>
 #include <mir/scene/builtin.hpp>
 
 #include <exception>
@@ -14,13 +14,12 @@
 namespace {
 
 mir::RenderResult render_furnace() {
-    mir::Registry registry;
-    mir::cpu::add_to(registry);
     mir::RenderSettings settings;
     settings.image = {64, 48};
     settings.vpls = 4096;
-    const auto renderer = registry.make(mir::BackendKind::cpu, "cpu-blocks");
-    return renderer->render(mir::builtin::make("furnace"), settings, nullptr);
+    settings.backend = mir::BackendKind::cpu;
+    settings.scheduler = "cpu-blocks";
+    return mir::render(mir::builtin::make("furnace"), settings);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #pragma once
 
 // Everything that renders with nothing but the standard library and GLM. What needs a package is
-// included by itself: mir/cpu/ (Embree), mir/io/ (files). The compiled renderers, chosen by name,
-// are reached through mir/runtime/renderer.hpp.
+// included by itself: mir/cpu/ (Embree), mir/io/ (files). The compiled renderers
+// are reached through mir/render.hpp, and by name through mir/runtime/all_renderers.hpp.
 #include "mir/accel/exact/accept_box.hpp"
 #include "mir/accel/exact/affine_row.hpp"
 #include "mir/accel/exact/find_surface.hpp"

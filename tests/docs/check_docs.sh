@@ -190,6 +190,29 @@ check_words() {
     done
 }
 
+# docs/api.md: 40 names, each in the header that it links to, and the members of RenderSettings with
+# their defaults, in the order of the header.
+check_api() {
+    page=docs/api.md
+    sed -n 's/^| \[`\([A-Za-z_:]*\)`\](\.\.\/\([^)]*\)) |.*/\1 \2/p' "$page" >"$work/names"
+    [ "$(sort -u "$work/names" | wc -l)" -eq 40 ] ||
+        complain "$page names $(sort -u "$work/names" | wc -l) things, its title says 40"
+    while read -r name header; do
+        grep -qw -- "${name##*:}" "$header" || complain "$page: $header does not name $name"
+    done <"$work/names"
+    # NAME|DEFAULT; a default that is a list or an expression of its own type keeps its text.
+    sed -n '/^struct RenderSettings {/,/void validate/p' include/mir/runtime/settings.hpp |
+        sed -n 's/^    \([A-Za-z][^;(]*\((.*)\)\{0,1\}\);.*/\1/p' | grep -v '^void' |
+        sed 's/{\(.*\)}$/ = \1/; s/ = \(std\)\{0,1\}[A-Za-z]*::/ = /' |
+        sed 's/^.* \([a-z_]*\) = \(.*\)/\1|\2/; s/^[^|]* \([a-z_]*\)$/\1|/' >"$work/members"
+    [ "$(wc -l <"$work/members")" -gt 25 ] || complain "the members of RenderSettings are not found"
+    sed -n '/^## All members/,$s/^| `\([a-z_]*\)` | \(`\([^`]*\)`\)\{0,1\} *|.*/\1|\3/p' "$page" \
+        >"$work/rows"
+    diff "$work/members" "$work/rows" >"$work/diff" ||
+        complain "members of RenderSettings (<) and $page (>) differ:
+$(grep '^[<>]' "$work/diff")"
+}
+
 # The library prints nothing and ends no process. Comments may talk of it.
 check_silence() {
     grep -rnE '\b(v?f?printf|puts|putchar|perror|abort|exit|_Exit|_exit|quick_exit|terminate) ?\(|std::(cout|cerr|clog)|\bassert\(' \
@@ -212,9 +235,9 @@ check_licence() {
 }
 
 case $check in
-code | links | paths | options | names | words | silence | licence) "check_$check" ;;
+code | links | paths | options | names | words | api | silence | licence) "check_$check" ;;
 *)
-    echo "usage: check_docs.sh code|links|paths|options|names|words|silence|licence ROOT [MIR]" >&2
+    echo "usage: check_docs.sh code|links|paths|options|names|words|api|silence|licence ROOT [MIR]" >&2
     exit 2
     ;;
 esac

@@ -23,11 +23,12 @@ includes() {
 }
 
 includes | awk -v table=docs/architecture.md '
-    # The folder of a header: the longest row that it lies in; headers at the root are *.hpp.
+    # The folder of a header: the longest row that it lies in; headers at the root are *.hpp unless a
+    # row names them.
     function folder_of(path,   parts, n) {
         n = split(path, parts, "/")
         if (path == "mir.hpp" || path == "version.hpp") return path
-        if (n == 1) return "*.hpp"
+        if (n == 1) return (path in row) ? path : "*.hpp"
         if ((parts[1] "/" parts[2]) in row) return parts[1] "/" parts[2]
         return parts[1]
     }

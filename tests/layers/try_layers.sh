@@ -30,6 +30,8 @@ planted include/mir/core/error.hpp '#include "mir/data/image.hpp"' 'core may not
 planted include/mir/accel/kd/kd_node.hpp '#include "mir/accel/wide/wide_node.hpp"' \
     'accel/kd may not include accel/wide'
 planted include/mir/reconstruct.hpp '#include "mir/sched/cpu.hpp"' 'may not include sched'
+planted include/mir/reconstruct.hpp '#include "mir/render.hpp"' 'may not include render.hpp'
+planted include/mir/render.hpp '#include "mir/sched/cpu.hpp"' 'render.hpp may not include sched'
 planted include/mir/accel/kd/kd_tree.hpp '#include "mir/accel/exact/detail/thick_triangle.hpp"' \
     'which is for its own folder'
 planted tools/mir/main.cpp '#include "mir/film/detail/tap_view.hpp"' 'which is for its own folder'

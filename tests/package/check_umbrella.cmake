@@ -2,7 +2,7 @@
 # Apart from details, what is for tests (archetypes, validation) and what other umbrellas or components include.
 file(GLOB_RECURSE headers RELATIVE ${INCLUDE_FOLDER} ${INCLUDE_FOLDER}/mir/*.hpp)
 list(FILTER headers EXCLUDE REGEX
-     "/detail/|^mir/(io|runtime|scene/builtin|validation)/|^mir/mir\\.hpp$|/archetypes\\.hpp$")
+     "/detail/|^mir/(io|runtime|scene/builtin|validation)/|^mir/(mir|render)\\.hpp$|/archetypes\\.hpp$")
 file(READ ${INCLUDE_FOLDER}/mir/mir.hpp umbrella)
 foreach(header IN LISTS headers)
     string(FIND "${umbrella}" "#include \"${header}\"" found)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arguments.hpp"
+#include "mir/film/filter.hpp"
 #include "mir/runtime/pass_goal.hpp"
 #include "option_types.hpp"
 

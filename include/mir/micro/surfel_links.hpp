@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/limits.hpp"
+#include "mir/micro/check_gather.hpp"
 #include "mir/micro/ray_gather.hpp"
 
 namespace mir {

@@ -124,19 +124,20 @@ struct GlossySettings {
     [[nodiscard]] float least_alpha() const { return least_roughness * least_roughness; }
 };
 
-/// What to render and how. Plain values with working defaults; validate() tells what is wrong.
+/// What to render and how. Plain values with working defaults, of which designated initialisers may
+/// change some; validate() tells what is wrong.
 struct RenderSettings {
     Extent image{640, 480};                         ///< pixels
     std::uint32_t luxels_per_pixel = 4;             ///< 1..64
     std::uint32_t camera = 0;                       ///< index into Scene::cameras
     Integrator integrator = Integrator::vpl;        ///< says which of the settings below count
-    PathSettings path;                              ///< of Integrator::path
-    MicroSettings micro;                            ///< of Integrator::micro
+    PathSettings path{};                            ///< of Integrator::path
+    MicroSettings micro{};                          ///< of Integrator::micro
     std::uint32_t vpls = 1024;                      ///< wanted geometric VPLs
     SamplerKind sampler = SamplerKind::metropolis;  ///< of Integrator::vpl
     NormalisationPolicy normalisation = NormalisationPolicy::full;  ///< of samplers that need one
     std::uint32_t prepass_luxels = 4096;                            ///< of policy `prepass`
-    MetropolisTuning metropolis;                                    ///< of SamplerKind::metropolis
+    MetropolisTuning metropolis{};                                  ///< of SamplerKind::metropolis
     bool vpl_roulette = false;  ///< instant radiosity keeps VPLs by what they give to the image
     Termination termination = Termination::roulette;  ///< of light paths
     Sequence sequence = Sequence::random;             ///< of SamplerKind::instant_radiosity
@@ -145,21 +146,21 @@ struct RenderSettings {
     /// Largest number of scattering events, 1..254; none: bounce_limit() of VPLs and discs, no
     /// limit of Integrator::path.
     std::optional<std::uint8_t> max_bounce = std::nullopt;
-    BoundPolicy bound;  ///< of the VPLs' geometry term
+    BoundPolicy bound{};  ///< of the VPLs' geometry term
     /// Paths per pixel that trace back what the bound removed, shared out among its luxels, at
     /// least one each; 0: none, so that this light is missing.
     std::uint32_t compensate = 0;
-    VslSettings vsl;                                       ///< a choice instead of `bound`
-    GlossySettings glossy;                                 ///< else all VPLs are Lambertian
+    VslSettings vsl{};                                     ///< a choice instead of `bound`
+    GlossySettings glossy{};                               ///< else all VPLs are Lambertian
     Filter filter = default_filter(FilterKind::gaussian);  ///< from luxels to pixels
     std::uint64_t seed = 0;                                ///< of all random numbers
     unsigned threads = 0;                                  ///< 0: every core
     BackendKind backend = BackendKind::automatic;          ///< which machine renders
     Acceleration acceleration = Acceleration::automatic;   ///< what finds out where rays end
-    std::string scheduler;  ///< name in the Registry; empty: the backend's default
+    std::string scheduler{};  ///< name in the Registry; empty: the backend's default
     /// Luxels scheduled together, rounded up to whole blocks of 16 x 16, not larger than the image
     /// of luxels rounded likewise; none: the backend's choice.
-    std::optional<Extent> tile;
+    std::optional<Extent> tile{};
     bool bounce_layers = false;  ///< one image per bounce besides the sum
     bool removed_layer = false;  ///< an image of the light that the bound removed
     /// Paths measure what the bound removes and the largest bounce cuts (MissingShares), and two
@@ -167,7 +168,7 @@ struct RenderSettings {
     /// image; else the VPLs tell what the bound removes.
     bool measure_missing = true;
     bool allow_no_light = false;  ///< a scene without light gives black, not an error
-    Limits limits;                ///< checked before memory is taken
+    Limits limits{};              ///< checked before memory is taken
 
     /// Checks every value. Of mir::runtime; check() of mir/runtime/check_settings.hpp is the same
     /// without that library.
