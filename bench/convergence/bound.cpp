@@ -5,6 +5,7 @@
 // bound (docs/method.md, 4.4 and 4.5); and what VPLs lose that spread the lobe of their surface
 // (4.6).
 #include "mir/compare/comparable.hpp"
+#include "mir/core/number_text.hpp"
 #include "mir/cpu/register.hpp"
 #include "mir/reference/rgb_moments.hpp"
 #include "mir/runtime/check_scene.hpp"
@@ -52,10 +53,10 @@ std::vector<Treatment> treatments(const BoundOptions& o) {
         all.push_back(
             {"compensate " + std::to_string(paths), mir::BoundPolicy::Kind::automatic, paths});
     for (const float scale : o.vsl)
-        all.push_back({"spheres " + mir::detail::rounded(double(scale), 2),
+        all.push_back({"spheres " + mir::fixed_text(double(scale), 2),
                        mir::BoundPolicy::Kind::automatic, 0, scale});
     for (const float roughness : o.glossy)
-        all.push_back({"lobes from " + mir::detail::rounded(double(roughness), 2),
+        all.push_back({"lobes from " + mir::fixed_text(double(roughness), 2),
                        mir::BoundPolicy::Kind::automatic, 0, 0.0f, roughness});
     all.push_back({"unbounded", mir::BoundPolicy::Kind::none});
     return all;
@@ -98,7 +99,7 @@ class Renders {
         const auto n = static_cast<double>(moments_.pixels().size());
         mean /= n;
         std::printf("%s,%s,%s,%s,%u,%u,%.4f,%.4f,%.4f,%.4f,%.3f\n", scene.c_str(),
-                    o.roughness ? mir::detail::rounded(double(*o.roughness), 2).c_str() : "",
+                    o.roughness ? mir::fixed_text(double(*o.roughness), 2).c_str() : "",
                     o.light_paths ? "ir" : "mir", t.name.c_str(), vpls, count_,
                     std::sqrt(std::max(squares, 0.0) / n) / mean, std::sqrt(variance / n) / mean,
                     std::sqrt(std::max(squares + variance, 0.0) / n) / mean, removed_ / count_,

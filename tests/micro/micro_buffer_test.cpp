@@ -2,6 +2,7 @@
 #include "micro/brute_force_cut.hpp"
 #include "micro/shining_discs.hpp"
 #include "mir/micro/buffer_gather.hpp"
+#include "mir/micro/check_gather.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
 

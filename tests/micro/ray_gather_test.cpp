@@ -2,6 +2,7 @@
 #include "mir/micro/ray_gather.hpp"
 
 #include "micro/shining_discs.hpp"
+#include "mir/micro/check_gather.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;
