@@ -11,6 +11,7 @@ namespace mir {
 template <Backend B>
 class UploadedVpls {
  public:
+    /// Takes memory for the VPLs on the backend and on the host, and copies them there.
     template <VplSet P>
     UploadedVpls(const B& backend, const P& vpls)
         : host_(backend.template host_buffer<Vpl>(vpls.size())),
@@ -23,8 +24,11 @@ class UploadedVpls {
         if (size() > 0) queue.upload(std::span<const Vpl>(host_.span()), there_);
     }
 
+    /// Number of VPLs.
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(there_.size()); }
+    /// Those on the backend; a view.
     [[nodiscard]] VplSpan<B::space> view() const { return {there_.data(), size()}; }
+    /// Those on the host; a view.
     [[nodiscard]] VplSpan<Space::host> host_view() { return {host_.span().data(), size()}; }
 
  private:
