@@ -3,6 +3,7 @@
 
 #include "mir/accel/exact/find_surface.hpp"
 #include "mir/accel/exact/reach.hpp"
+#include "mir/accel/exact/triangle_rows.hpp"
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/concepts/ray_finder.hpp"
 #include "mir/scene/world_geometry.hpp"

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 #include <thread>
 
 namespace mirtool {
@@ -80,8 +81,13 @@ mir::PreviewLook preview_look(const RenderOptions& o, const mir::Image<mir::Rgb>
 
 void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o) {
     compress_with(o.settings.threads);
+    // Each is made by few threads for most of its time. Without a thread it waits for get().
+    std::future<void> preview;
+    if (!paths.png.empty())
+        preview =
+            std::async([&] { mir::write_png(paths.png, r.beauty, preview_look(o, r.beauty)); });
     mir::write_exr(paths.exr, r.beauty.extent(), layers_of(r, o), attributes_of(r, o));
-    if (!paths.png.empty()) mir::write_png(paths.png, r.beauty, preview_look(o, r.beauty));
+    if (preview.valid()) preview.get();
     if (o.vpls_out.ends_with(".glb")) mir::write_vpls_glb(o.vpls_out, r.vpls, r.statistics.origin);
     if (o.vpls_out.ends_with(".ply")) mir::write_vpls_ply(o.vpls_out, r.vpls, r.statistics.origin);
 }

@@ -99,6 +99,7 @@ inline std::vector<std::uint8_t> encode_png(const Image<Rgb>& linear, const Prev
     image.width = linear.width();
     image.height = linear.height();
     image.format = PNG_FORMAT_RGB;
+    image.flags = PNG_IMAGE_FLAG_FAST;  // a fifth of the time for half as many bytes again
     png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::vector<std::uint8_t> file(bytes);
     if (png_image_write_to_memory(&image, file.data(), &bytes, 0, codes.data(), 0, nullptr) == 0)

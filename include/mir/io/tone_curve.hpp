@@ -99,9 +99,15 @@ inline double tone_input(float value) {
     for (const Rgb& pixel : linear.pixels())
         if (const float y = luminance(pixel); std::isfinite(y) && y > 0.0f) values.push_back(y);
     if (values.empty()) return 0.0f;
-    std::sort(values.begin(), values.end());
-    const float low = values[(values.size() - 1) / 20];
-    const float high = values[(values.size() - 1) * 19 / 20];
+    std::vector<float> ordered = values;
+    const auto percentile = [&ordered](std::size_t twentieths) {
+        const std::size_t at = (ordered.size() - 1) * twentieths / 20;
+        const auto nth = ordered.begin() + static_cast<std::ptrdiff_t>(at);
+        std::nth_element(ordered.begin(), nth, ordered.end());
+        return *nth;
+    };
+    const float low = percentile(1);
+    const float high = percentile(19);
     double sum = 0.0;
     for (const float y : values) sum += std::log2(static_cast<double>(std::clamp(y, low, high)));
     return static_cast<float>(std::log2(0.18) - sum / static_cast<double>(values.size()));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mir/render.hpp"
 
+#include "images/support.hpp"
 #include "mir/runtime/all_renderers.hpp"
 #include "mir/scene/builtin.hpp"
-#include "support.hpp"
 #include "support/catch.hpp"
 
 namespace {
