@@ -18,7 +18,7 @@ template <class T>
 class LayerSum {
  public:
     /// Red, green, blue or x, y, z or the one number.
-    using Channels = std::array<double, sizeof(T) / sizeof(float)>;
+    using Channels = std::array<double, std::is_same_v<T, float> ? 1 : 3>;
 
     /// The first image fixes the size; all have it.
     void add(const Image<T>& image) {
