@@ -30,8 +30,11 @@ void check_refused(const std::string& json, const std::string& bytes, const std:
     CHECK(found == code);
 }
 
-std::string lamp(const std::string& fields) {
-    return R"("materials":[{)" + fields + R"(}],"scene":0)";
+/// The triangle with a material.
+std::string made_of(const std::string& material) {
+    const std::string text =
+        with(triangle_json(), R"("scene":0)", R"("materials":[{)" + material + R"(}],"scene":0)");
+    return with(text, R"("indices":1)", R"("indices":1,"material":0)");
 }
 
 }  // namespace
@@ -93,19 +96,28 @@ TEST_CASE("every kind of damage is refused with its place and a remedy") {
          R"("sparse":{"count":2000000000,"indices":{"bufferView":1,"componentType":5121},)"
          R"("values":{"bufferView":0}},"componentType":5126,)",
          "sparse part is broken"},
-        {R"("scene":0)", lamp(R"("emissiveFactor":[-1,0,0])"), "emissiveFactor is negative"},
-        {R"("scene":0)", lamp(R"("emissiveFactor":[1e200,0,0])"), "is not a finite number"},
-        {R"("scene":0)",
-         lamp(R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":-2}})"),
-         "emissiveStrength is negative"},
-        {R"("scene":0)", lamp(R"("extensions":{"KHR_materials_ior":{"ior":0.5}})"), "below 1"},
-        {R"("scene":0)", lamp(R"("extras":{"light_group":70000})"), "light_group"},
-        {R"("scene":0)", lamp(R"("normalTexture":{"index":0})"), "names texture 0"},
         {R"("asset")", R"("x":)" + std::string(5000, '[') + std::string(5000, ']') + R"(,"asset")",
          "nested more than"},
     }));
     check_refused(with(triangle_json(), damage.from, damage.to), triangle_bytes(), damage.says,
                   damage.code);
+}
+
+TEST_CASE("damage of a material that is used is refused with its place and a remedy") {
+    struct Wrong {
+        const char* material;
+        const char* says;
+    };
+    const auto wrong = GENERATE(values<Wrong>({
+        {R"("emissiveFactor":[-1,0,0])", "emissiveFactor is negative"},
+        {R"("emissiveFactor":[1e200,0,0])", "is not a finite number"},
+        {R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":-2}})",
+         "emissiveStrength is negative"},
+        {R"("extensions":{"KHR_materials_ior":{"ior":0.5}})", "below 1"},
+        {R"("extras":{"light_group":70000})", "light_group"},
+        {R"("normalTexture":{"index":0})", "names texture 0"},
+    }));
+    check_refused(made_of(wrong.material), triangle_bytes(), wrong.says, ErrorCode::invalid_input);
 }
 
 TEST_CASE("a position that is not finite is refused by mesh and number") {
