@@ -5,8 +5,9 @@
 
 namespace mir::cpu {
 
-/// Adds the compiled CPU renderers: "cpu-blocks", the tuned path, and "cpu", the plain loop that
-/// is the oracle. RenderSettings::acceleration says what both trace with.
+/// Adds the compiled CPU renderers: "cpu-blocks", the tuned path (default), "cpu", the plain loop
+/// that is the oracle, and "os", "rc" and "rcvp", the paper's. They trace with what
+/// RenderSettings::acceleration says.
 void add_to(Registry& registry);
 
 /// "Embree 3.13.5" or the like, and the vector instructions that loops will use.
