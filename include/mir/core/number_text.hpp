@@ -24,12 +24,14 @@ inline std::string number_text(double value, int digits = 6) {
     return detail::print_number(value, std::chars_format::general, digits);
 }
 
-/// A number with so many digits behind the point, at most 100, as "%.2f" writes it; likewise.
+/// A number with so many digits behind the point, at most 100, as "%.2f" writes it in the
+/// locale "C".
 inline std::string fixed_text(double value, int digits = 0) {
     return detail::print_number(value, std::chars_format::fixed, digits);
 }
 
-/// A number in as few characters as tell it from every other double; likewise.
+/// A number in as few characters as tell it from every other double, in any
+/// locale.
 inline std::string shortest_text(double value) {
     std::array<char, 32> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value);

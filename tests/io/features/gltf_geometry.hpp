@@ -105,7 +105,7 @@ inline Features gltf_accessors() {
             {lift_sparse,
              [](Gltf& g) {
                  lift_sparse(g);
-                 // Zeros, but for what is sparse.
+                 // Zeros where nothing is sparse.
                  g.file["accessors"][0].erase("bufferView");
              }},
             read(mesh([](const mir::Mesh& m) { CHECK(m.positions.at(0) == mir::Vec3(0, 0, 5)); }))),
