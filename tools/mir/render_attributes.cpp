@@ -64,8 +64,8 @@ void append_pass_attributes(const mir::RenderStatistics& s, mir::ExrAttributes& 
 
 std::vector<mir::ExrLayer> layers_of(const mir::RenderResult& r, const RenderOptions& o) {
     using mir::ExrPrecision;
-    std::vector<mir::ExrLayer> layers{{"", &r.beauty},
-                                      {"", &r.coverage, ExrPrecision::half, mir::ExrScalar::alpha}};
+    std::vector<mir::ExrLayer> layers{
+        {"", &r.beauty}, {"", &r.coverage, ExrPrecision::single, mir::ExrScalar::alpha}};
     if (wants(o, "albedo")) layers.push_back({"albedo", &r.guides.albedo, ExrPrecision::half});
     if (wants(o, "normal")) layers.push_back({"normal", &r.guides.normal, ExrPrecision::half});
     if (wants(o, "position")) layers.push_back({"position", &r.guides.position});
