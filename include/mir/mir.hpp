@@ -300,6 +300,7 @@
 #include "mir/shading/glossy_shading.hpp"
 #include "mir/shading/inverse_distance.hpp"
 #include "mir/shading/lambert.hpp"
+#include "mir/shading/luxel_tracer.hpp"
 #include "mir/shading/material_params.hpp"
 #include "mir/shading/mean_factors.hpp"
 #include "mir/shading/mean_reflectance.hpp"

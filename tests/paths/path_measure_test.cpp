@@ -209,7 +209,7 @@ TEST_CASE("glossy vertices are drawn from their lobe, but x3 as a VPL's light is
     };
     for_each_path(world, 4, [&](const Path& path, const PathMeasure& m) {
         REQUIRE(m.from_eye[2] == Approx(lobe(path.x(1), path.eye, path.x(2))).epsilon(1e-3));
-        if (!world.surfaces.is_lambertian(path.x(2).material))
+        if (!world.luxels.surfaces.is_lambertian(path.x(2).material))
             REQUIRE(m.from_eye[3] ==
                     Approx(world.area_unit *
                            cosine_density(path.x(2), path.x(3), path.x(2).shading_normal)));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/ray_caster.hpp"
 #include "mir/reference/bound_split.hpp"
 #include "mir/reference/light_search.hpp"
 #include "mir/reference/path_rules.hpp"
 #include "mir/reference/rgb_moments.hpp"
 #include "mir/shading/environment_light.hpp"
+#include "mir/shading/luxel_tracer.hpp"
 #include "mir/shading/scene_light.hpp"
 #include "mir/shading/surface_table.hpp"
 
@@ -69,18 +69,15 @@ class PathTracer {
     /// As they were given.
     [[nodiscard]] const PathTracerOptions& options() const { return options_; }
 
-    /// What `ray` sees first: the luxel that fill_gbuffer() stores.
-    [[nodiscard]] std::optional<Vertex> first_vertex(const Ray& ray) const;
-
-    /// What a camera ray along the unit vector `direction` sees behind the scene: D_0 of luxels
-    /// without first_vertex(), W m^-2 sr^-1.
-    [[nodiscard]] Rgb background(Vec3 direction) const {
-        return environment_.radiance(direction) * split_.unbounded();
+    /// What a camera ray sees: the luxel that fill_gbuffer() stores, before the environment.
+    [[nodiscard]] Vertex luxel(const Ray& ray) const {
+        const SeenLuxel seen = luxels_(ray);
+        return {luxels_.hit(seen), luxels_.surface(seen, environment_)};
     }
 
     /// Adds one estimate of the radiance that leaves `first` towards the viewer, W m^-2 sr^-1:
     /// D_b is added to element b of `bounces`, which has two elements or more. The last one takes
-    /// all later bounces too.
+    /// all later bounces too. An empty luxel has D_0 alone: its emission.
     void trace(const Vertex& first, Random& random, std::span<RgbSum> bounces) const;
 
  private:
@@ -109,6 +106,7 @@ class PathTracer {
     }
 
     World world_;
+    LuxelTracer<R, Space::host, B> luxels_;
     PathTracerOptions options_;
     BoundSplit split_;
     DeltaLight<B, V> deltas_;
@@ -119,6 +117,7 @@ class PathTracer {
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions options)
     : world_(world),
+      luxels_{world.caster, world.surfaces.view()},
       options_(options),
       split_{options.bound, options.part, options.bound_lamps},
       deltas_(world.lights, world.visibility),
@@ -141,18 +140,10 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-auto PathTracer<B, R, V, Rules>::first_vertex(const Ray& ray) const -> std::optional<Vertex> {
-    const auto point = world_.caster.closest_hit(ray);
-    if (!point) return std::nullopt;
-    return Vertex{{lift(*point), point->geometric_normal},
-                  world_.surfaces.luxel_surface(*point, -ray.direction)};
-}
-
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 void PathTracer<B, R, V, Rules>::trace(const Vertex& first, Random& random,
                                        std::span<RgbSum> bounces) const {
     bounces[0] += first.surface.emission * split_.unbounded();
-    if (B::is_black(first.surface.bsdf)) return;
+    if (is_empty(first.hit) || B::is_black(first.surface.bsdf)) return;
     bounces[1] += sampled_light(first, 1, random);
     const float share = 1.0f / static_cast<float>(options_.directions);
     for (std::uint32_t i = 0; i < options_.directions; ++i) {

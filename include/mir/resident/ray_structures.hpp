@@ -16,8 +16,6 @@ struct KdRays {
 
     KdTreeView<S> tree;  ///< of the scene
 
-    /// What finds the first triangle along a ray.
-    [[nodiscard]] KdRayFinder<S, Opaque> finder() const { return {tree}; }
     /// What says whether two points see each other.
     [[nodiscard]] Sight sight() const { return {tree}; }
     /// What finds the first surface point along a ray; `geometry` is that of the tree.
@@ -34,8 +32,6 @@ struct WideRays {
     WideBvhView<S> bvh;  ///< of the scene
     M mask{};            ///< of the same scene
 
-    /// What finds the first triangle along a ray.
-    [[nodiscard]] WideRayFinder<S, M> finder() const { return {bvh, mask}; }
     /// What says whether two points see each other.
     [[nodiscard]] Sight sight() const { return {bvh, mask}; }
     /// What finds the first surface point along a ray; `geometry` is that of the hierarchy.
