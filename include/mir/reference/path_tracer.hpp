@@ -38,8 +38,8 @@ struct PathTracerOptions {
 /// Unidirectional path tracer with next-event estimation, the reference that other estimators are
 /// compared with: radiance split by the number b of scattering events, D_0 emission seen directly,
 /// D_1 direct light, D_b what VPLs of bounce b bring. Unbiased, up to `max_bounce` if there is one.
-/// Point, spot and directional lights are summed exactly at every vertex, since no direction finds
-/// them. Rays that leave the scene see its environment.
+/// Lights that the scene lists are summed at every vertex, since no direction finds them. Rays that
+/// leave the scene see its environment.
 ///
 /// Conventions are those of docs/method.md, 4: shading normal at the receiver, geometric normal at
 /// the emitter, black where shading and geometric side disagree, points lifted by
@@ -109,7 +109,7 @@ class PathTracer {
     LuxelTracer<R, Space::host, B> luxels_;
     PathTracerOptions options_;
     BoundSplit split_;
-    DeltaLight<B, V> deltas_;
+    ListedLight<B, V> listed_;
     EnvironmentView<Space::host> environment_;
     EnvironmentLight<B, V> environment_light_;
 };
@@ -120,7 +120,7 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
       luxels_{world.caster, world.surfaces.view()},
       options_(options),
       split_{options.bound, options.part, options.bound_lamps},
-      deltas_(world.lights, world.visibility),
+      listed_(world.lights, world.visibility),
       environment_(world.lights.view().environment),
       environment_light_(world.lights, world.visibility, 1) {
     expects(options.light_samples >= 1 && options.light_samples <= 65536,
@@ -231,7 +231,8 @@ Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint32_t bo
     if (!environment_.empty() && is_all_wanted(bounce))
         for (std::uint32_t i = 0; i < samples; ++i) sum += environment_sample(at, bounce, random);
     if (samples > 1) sum = sum * (1.0f / static_cast<float>(samples));
-    return is_all_wanted(bounce) ? sum + deltas_(at.hit, at.surface) : sum;
+    if (!is_all_wanted(bounce)) return sum;
+    return sum + listed_(at.hit, at.surface, [&](std::uint32_t) { return random.next_2d(); });
 }
 
 /// Whether light that no bound holds for counts at a vertex: lights without extent, the
@@ -245,22 +246,20 @@ template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint32_t bounce,
                                              Random& random) const {
     const float pick = random.next();
-    const EmitterSample e = world_.lights.sample_emitter(pick, random.next_2d());
+    const EmitterSample lamp = world_.lights.sample_emitter(pick, random.next_2d());
     const Vec3 eye = at.hit.position;
-    const bool from_back = e.both_sides && glm::dot(eye - e.position, e.normal) < 0.0f;
-    const Vec3 normal = from_back ? -e.normal : e.normal;
-    const Vec3 target = lift(e.position, normal, e.offset);
-    const Vec3 d = target - eye;
+    const LightPoint e = lamp.on_side(lamp.shows_back(eye));
+    const Vec3 d = e.position - eye;
     const float d2 = length_squared(d);
     const Vec3 wi = d * (1.0f / std::sqrt(d2));
-    const float cosine = -glm::dot(wi, normal);
+    const float cosine = -glm::dot(wi, e.normal);
     if (!(cosine > 0.0f)) return {};
     const float share =
-        bounce == 1 ? split_.emitted(at.hit, at.surface.normal, {target, normal}) : 1.0f;
-    const Rgb light = reflected<B>(at.hit, at.surface, wi) * e.radiance * share;
-    if (is_black(light) || !world_.visibility.visible(eye, target)) return {};
+        bounce == 1 ? split_.emitted(at.hit, at.surface.normal, {e.position, e.normal}) : 1.0f;
+    const Rgb light = reflected<B>(at.hit, at.surface, wi) * e.emission * share;
+    if (is_black(light) || !world_.visibility.visible(eye, e.position)) return {};
 
-    const float density = Rules::per_steradian(e.pdf_area, d2, cosine);
+    const float density = Rules::per_steradian(e.pdf, d2, cosine);
     const float sampled = static_cast<float>(light_samples_at(bounce)) * density;
     const float found = static_cast<float>(directions_at(bounce)) *
                         B::pdf(at.surface.bsdf, at.surface.normal, wi, at.surface.wo);

@@ -34,9 +34,9 @@ bool shows_mesh(const Scene& scene, const Predicate& holds) {
 
 /// True when something in the scene could shine: a light, or a triangle that is placed.
 inline bool has_light(const Scene& scene) {
-    const bool delta = !scene.point_lights.empty() || !scene.spot_lights.empty() ||
-                       !scene.directional_lights.empty();
-    return delta || scene.environment || detail::shows_mesh(scene, [&](const Mesh& mesh) {
+    bool listed = false;
+    for_each_listed_light(scene, [&listed](const auto&) { listed = true; });
+    return listed || scene.environment || detail::shows_mesh(scene, [&](const Mesh& mesh) {
                return mesh.material < scene.materials.size() &&
                       scene.materials[mesh.material].emits();
            });

@@ -35,9 +35,7 @@ class GltfBuilder {
         for (const Material& material : scene.materials) add(material);
         for (const Mesh& mesh : scene.meshes) add(mesh);
         for (const Instance& instance : scene.instances) add(instance);
-        for (const PointLight& light : scene.point_lights) add(light);
-        for (const SpotLight& light : scene.spot_lights) add(light);
-        for (const DirectionalLight& light : scene.directional_lights) add(light);
+        for_each_listed_light(scene, [this](const auto& light) { add(light); });
         for (const Camera& camera : scene.cameras) add(camera);
         finish(scene.name);
         return std::move(model_);
