@@ -9,7 +9,7 @@ here=$(cd -- "$(dirname -- "$0")" && pwd)
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 mkdir -p "$copy/docs/decisions" "$copy/examples/one"
-echo '# Page' | tee "$copy/README.md" "$copy/docs/page.md" "$copy/docs/decisions/README.md" \
+echo '# Page' | tee "$copy/README.md" "$copy/docs/limits.md" "$copy/docs/decisions/README.md" \
     >"$copy/examples/one/README.md"
 
 # try CHECK refused|accepted PAGE TEXT: what CHECK says of a page that ends with TEXT.
@@ -26,17 +26,17 @@ try() {
 
 ten='ten words '
 long=$ten$ten$ten$ten$ten$ten$ten$ten$ten$ten$ten$ten
-try columns accepted docs/page.md "$long"
-for page in README.md docs/page.md docs/decisions/README.md examples/one/README.md; do
+try columns accepted docs/limits.md "$long"
+for page in README.md docs/limits.md docs/decisions/README.md examples/one/README.md; do
     try columns refused "$page" "${long}x"
 done
-try columns accepted docs/page.md "${long% }…"
-try columns accepted docs/page.md "| $long |"
-try columns accepted docs/page.md "    $long"
-try columns accepted docs/page.md "$(printf '```sh\n%sx\n```' "$long")"
-try english refused docs/page.md 'It is computed anew.'
+try columns accepted docs/limits.md "${long% }…"
+try columns accepted docs/limits.md "| $long |"
+try columns accepted docs/limits.md "    $long"
+try columns accepted docs/limits.md "$(printf '```sh\n%sx\n```' "$long")"
+try english refused docs/limits.md 'It is computed anew.'
 try english refused docs/decisions/README.md 'Pairs, of which two are clear.'
-try english accepted docs/page.md 'Pairs, any of which may be clear.'
+try english accepted docs/limits.md 'Pairs, any of which may be clear.'
 # shellcheck disable=SC2016
-try english accepted docs/page.md 'The test "trees are built anew" runs `anew`.'
-try english accepted docs/page.md "$(printf '```sh\nmir anew\n```')"
+try english accepted docs/limits.md 'The test "trees are built anew" runs `anew`.'
+try english accepted docs/limits.md "$(printf '```sh\nmir anew\n```')"
