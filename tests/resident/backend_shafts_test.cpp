@@ -157,7 +157,7 @@ TEST_CASE("Shafts of a backend refuse what they have no room for") {
     const mirtest::World world = soup(false, 1.0f, 0.0f);
     const ShaftStage stage = stage_of(world, 500, 9);
     auto queue = backend.queue();
-    const mir::UploadedWideBvh<HostBackend> bvh(backend, queue, stage.bvh());
+    const mirtest::UploadedWideBvh<HostBackend> bvh(backend, queue, stage.bvh());
     const mir::ClusterVisibility<mir::WideBvhVisibility<mir::Space::host>> visibility{
         bvh.quantised(), stage.sigma(), {bvh.view()}};
     std::vector<std::uint32_t> out(512 / 32 * 9);
