@@ -192,7 +192,7 @@
 #include "mir/micro/triangle_gather.hpp"
 #include "mir/normalise/normalise.hpp"
 #include "mir/normalise/policy.hpp"
-#include "mir/normalise/probe.hpp"
+#include "mir/normalise/prepass.hpp"
 #include "mir/normalise/response.hpp"
 #include "mir/paths/each_path.hpp"
 #include "mir/paths/grow.hpp"
