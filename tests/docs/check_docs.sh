@@ -17,7 +17,7 @@ bad=$work/bad
 
 complain() { printf '%s\n' "$*" | tee -a "$bad" >&2; }
 
-pages() { ls README.md docs/*.md examples/*/README.md; }
+pages() { ls ./*.md docs/*.md docs/decisions/*.md examples/*/README.md | sed 's,^\./,,'; }
 
 # Lines of a region between "// region: NAME" and "// endregion: NAME" without their common indent;
 # without NAME the whole file after its licence line.
@@ -99,8 +99,13 @@ check_links() {
     done
     # Pages that nobody can reach are not read.
     for page in docs/*.md; do
-        [ "$page" = docs/index.md ] || grep -q "(${page#docs/})" docs/index.md ||
-            complain "docs/index.md does not list $page"
+        [ "$page" = docs/README.md ] || grep -q "(${page#docs/})" docs/README.md ||
+            complain "docs/README.md does not list $page"
+    done
+    for page in docs/decisions/*.md; do
+        [ "$page" = docs/decisions/README.md ] ||
+            grep -q "(${page#docs/decisions/})" docs/decisions/README.md ||
+            complain "docs/decisions/README.md does not list $page"
     done
     for page in examples/*/README.md; do
         grep -q "(../$page)" docs/embedding.md || complain "docs/embedding.md does not list $page"
@@ -118,7 +123,12 @@ check_paths() {
         grep -nE '(^|[^[:alnum:].*/])/(home|root|work|tmp|mnt|Users|usr)/' "$page" |
             while read -r line; do complain "$page: absolute path: $line"; done
     done
-    # What the code cites: `docs/method.md, 4.2`.
+    # What the code cites: `docs/limits.md`, `docs/decisions/031`, `docs/method.md, 4.2`.
+    code='include src backends tools tests bench examples cmake'
+    # shellcheck disable=SC2086
+    grep -rhoE 'docs/([a-z_]+\.md|decisions/[0-9]{3})' $code | sort -u | while read -r cited; do
+        [ -e "$cited" ] || ls "$cited"-*.md >/dev/null 2>&1 || complain "the code cites $cited, which does not exist"
+    done
     grep -rhoE 'docs/method\.md, [0-9]+(\.[0-9]+)?' include backends tools tests bench examples |
         sort -u | while read -r reference; do
             section=${reference##* }
@@ -190,6 +200,33 @@ check_words() {
     done
 }
 
+# Lines of prose have at most 120 columns: all but those of tables and of blocks of code.
+check_columns() {
+    for page in $(pages); do
+        awk '/^ *```/ { code = !code; print ""; next }
+             { print code || /^ *\|/ || /^    / || /^<!--/ ? "" : $0 }' "$page" |
+            grep -nE '.{121}' | cut -d: -f1 | while read -r line; do
+                complain "$page:$line: more than 120 columns"
+            done
+    done
+}
+
+# Words that no technical text of today has. Blocks of code, names in backquotes and titles in
+# quotes may hold them.
+check_english() {
+    words='anew|likewise|dear(er|est)?|foretold|foretell|but for|in place of|asked for w(as|ere)'
+    words="$words|of which|thereof|whereof|therein|wherein|hitherto|henceforth|whilst|amongst|betwixt"
+    words="$words|who of (them|these|those)"
+    for page in $(pages); do
+        # shellcheck disable=SC2016
+        awk '/^ *```/ { code = !code; print ""; next } { print code ? "" : $0 }' "$page" |
+            sed -E 's/`[^`]*`//g; s/"[^"]*"//g; s/(any|all|none|some|most|each|both) of which//g' |
+            grep -noiwE "$words" | while read -r found; do
+                complain "$page:${found%%:*}: \"${found#*:}\" is archaic"
+            done
+    done
+}
+
 # docs/api.md: 40 names, each in the header that it links to, and the members of RenderSettings with
 # their defaults, in the order of the header.
 check_api() {
@@ -235,9 +272,12 @@ check_licence() {
 }
 
 case $check in
-code | links | paths | options | names | words | api | silence | licence) "check_$check" ;;
+code | links | paths | options | names | words | columns | english | api | silence | licence)
+    "check_$check"
+    ;;
 *)
-    echo "usage: check_docs.sh code|links|paths|options|names|words|api|silence|licence ROOT [MIR]" >&2
+    checks='code|links|paths|options|names|words|columns|english|api|silence|licence'
+    echo "usage: check_docs.sh $checks ROOT [MIR]" >&2
     exit 2
     ;;
 esac
