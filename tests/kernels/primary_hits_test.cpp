@@ -6,8 +6,7 @@
 #include "mir/cpu/tbb_executor.hpp"
 #include "mir/host/backend.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
-#include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/uploaded_scene.hpp"
 #include "support/catch.hpp"
 #include "support/lazy_backend.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/exact/lanes.hpp"
+#include "mir/accel/kd/detail/lanes.hpp"
 
 #include <cmath>
 #include <limits>

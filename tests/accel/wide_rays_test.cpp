@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/wide/wide_bvh_visibility.hpp"
+#include "mir/accel/wide/wide_rays.hpp"
 
 #include "conformance/packet_suite.hpp"
 #include "conformance/ray_caster_suite.hpp"
@@ -24,7 +24,7 @@ TEST_CASE("A scene traced by a wide tree is the one that was built by any execut
     mir::WideBvhOptions options;
     options.leaf_size = 2;
     const mir::WideBvhScene scene(world.geometry, executor, options);
-    const mir::WideBvhStatistics made = mir::wide_statistics(scene.bvh().nodes());
+    const mir::WideBvhStatistics made = mir::wide_statistics(scene.tree().nodes());
     CHECK(made.triangles == world.geometry.triangles().size());
     CHECK(made.largest_leaf <= 2);
     CHECK_FALSE(scene.visibility().visible({0.1f, 0.2f, 0.9f}, {0.1f, 0.2f, -0.9f}));

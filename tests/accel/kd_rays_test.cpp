@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "mir/accel/kd/kd_tree_visibility.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
 
 #include "accel/simple_kd_tree.hpp"
 #include "conformance/packet_suite.hpp"
 #include "conformance/ray_caster_suite.hpp"
 #include "conformance/visibility_suite.hpp"
-#include "mir/accel/kd/kd_ray_caster.hpp"
 #include "support/catch.hpp"
 
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "mir/resident/uploaded_scene.hpp"
+
 #include "conformance/stage.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
-#include "mir/resident/uploaded_lights.hpp"
-#include "mir/resident/uploaded_surfaces.hpp"
 #include "support/catch.hpp"
 #include "support/lazy_backend.hpp"
 
