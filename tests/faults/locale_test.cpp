@@ -10,6 +10,7 @@
 #include "mir/runtime/check_places.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/scene/builtin.hpp"
+#include "mir/scene/detail/coarse_meshes.hpp"
 #include "mir/scene/scene_hash.hpp"
 #include "support/catch.hpp"
 #include "support/comma_locale.hpp"

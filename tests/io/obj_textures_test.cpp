@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "io/detail/read_file.hpp"
 #include "io/gltf_fixture.hpp"
 #include "mir/io/obj_reader.hpp"
 #include "mir/scene/texture_table.hpp"

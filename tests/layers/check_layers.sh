@@ -18,6 +18,8 @@ includes() {
         [ ! -d "backends/$component/src" ] || (cd "backends/$component/src" &&
             grep -ro '^#include "mir/[^"]*"' . | sed "s#^\./#mir/$component/#")
     done
+    # What is compiled of a folder counts as that folder.
+    (cd src && grep -ro '^#include "mir/[^"]*"' io | sed 's#^#mir/#')
     grep -ro '^#include "mir/[^"]*detail/[^"]*"' tools/mir examples docs |
         sed 's#^#outside/#' || true
 }
