@@ -168,8 +168,8 @@ check_names() {
             section 'Exit codes' | grep -q "^| $code |" ||
                 complain "docs/command_line.md does not list exit code $code"
         done
-    sed -n 's/^    {"\([a-z-]*\)", .*/\1/p' include/mir/scene/builtin.hpp >"$work/scenes"
-    [ -s "$work/scenes" ] || complain "include/mir/scene/builtin.hpp lists no scene"
+    sed -n 's/^    {"\([a-z-]*\)", .*/\1/p' src/scenes/builtin.cpp >"$work/scenes"
+    [ -s "$work/scenes" ] || complain "src/scenes/builtin.cpp lists no scene"
     listed docs/scene_files.md "built-in scene" <"$work/scenes"
 }
 

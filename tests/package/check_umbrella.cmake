@@ -3,7 +3,7 @@
 # components include.
 file(GLOB_RECURSE headers RELATIVE ${INCLUDE_FOLDER} ${INCLUDE_FOLDER}/mir/*.hpp)
 list(FILTER headers EXCLUDE REGEX
-     "/detail/|^mir/(io|runtime|scene/builtin|validation)/|^mir/(mir|render)\\.hpp$|/archetypes\\.hpp$")
+     "/detail/|^mir/(io|runtime|validation)/|^mir/(mir|render|scenes)\\.hpp$|/archetypes\\.hpp$")
 file(READ ${INCLUDE_FOLDER}/mir/mir.hpp umbrella)
 foreach(header IN LISTS headers)
     file(STRINGS ${INCLUDE_FOLDER}/${header} public REGEX "^namespace mir(::[a-z]+)? {")

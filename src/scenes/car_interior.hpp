@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/scene/builtin/car_body.hpp"
-#include "mir/scene/builtin/tube.hpp"
+#include "scenes/car_body.hpp"
+#include "scenes/tube.hpp"
 
 namespace mir::builtin {
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#include "mir/scenes.hpp"
+#include "scenes/car.hpp"
+#include "scenes/furniture.hpp"
+#include "scenes/solids.hpp"
 
-#include "mir/scene/builtin/car_room.hpp"
-#include "mir/scene/builtin/door_ajar.hpp"
+#include <cmath>
 
 namespace mir::builtin {
+namespace {
 
 /// The wall at z = -3.2 with a door frame from x = 1.1 to 2.1, and the door, hung on the right and
 /// opened by `angle` into the garage.
-inline void place_door_wall(Scene& s, std::uint32_t plaster, std::uint32_t wood, float angle) {
+void place_door_wall(Scene& s, std::uint32_t plaster, std::uint32_t wood, float angle) {
     const auto wall = [&](const char* name, std::uint32_t m, Vec3 low, Vec3 size) {
         s.place(box(name, m, low, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}));
     };
@@ -24,10 +27,9 @@ inline void place_door_wall(Scene& s, std::uint32_t plaster, std::uint32_t wood,
                    Vec3(2.13f, 1.05f, -3.185f) + 0.89f * across - 0.035f * through, 0.03f, 24, 12));
 }
 
-/// The paper's fourth scene (section 6, "garage"): the car in a closed garage whose only lamps are
-/// in the next room. Light comes through the door, and the door stops most shadow rays: as many
-/// triangles as in car_room(), but rays that find alike.
-inline Scene garage() {
+}  // namespace
+
+Scene garage() {
     Scene s;
     s.name = "garage";
     const std::uint32_t plaster = s.add(lambertian("plaster", {0.72f, 0.7f, 0.66f}));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/scene/builtin/tube.hpp"
+#include "scenes/tube.hpp"
 
 namespace mir::builtin {
 

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
-#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scenes.hpp"
 
 namespace mir::builtin {
 
-/// The paper's simplest scene (section 6, "sphere"): about 2 000 triangles, a sphere in a room with
-/// a main lamp turned down or up, and a second lamp in a room behind a plane that leaves a small
-/// passage.
-inline Scene sphere_room(Lamp lamp) {
+Scene sphere_room(Lamp lamp) {
     Scene s;
     s.name = lamp == Lamp::down ? "sphere" : "sphere-indirect";
     const std::uint32_t wall = s.add(lambertian("wall", {0.7f, 0.68f, 0.65f}));

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
-#include "mir/scene/builtin/car.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
-#include "mir/scene/builtin/wire_fence.hpp"
+#include "mir/scenes.hpp"
+#include "scenes/car.hpp"
+#include "scenes/car_materials.hpp"
+#include "scenes/wire_fence.hpp"
 
 namespace mir::builtin {
+namespace {
 
 /// Two rooms in one shell, x from -4.5 to 4.5, z from -9 to 5.5, 3.6 m high: a plane at z = -4.5
 /// leaves a passage of 0.9 m beside the wall on the right. Lamps as in sphere_room(): the main one
 /// above the car, turned down or up, the other behind the plane.
-inline void place_rooms(Scene& s, Lamp lamp) {
+void place_rooms(Scene& s, Lamp lamp) {
     const std::uint32_t wall = s.add(lambertian("wall", {0.7f, 0.68f, 0.65f}));
     const std::uint32_t floor = s.add(lambertian("floor", {0.42f, 0.41f, 0.4f}));
     const std::uint32_t plane = s.add(lambertian("plane", {0.45f, 0.52f, 0.6f}));
@@ -27,15 +27,9 @@ inline void place_rooms(Scene& s, Lamp lamp) {
     s.place(quad("far lamp", far, {-1, 3.55f, -7.8f}, {2, 0, 0}, {0, 0, 2}));
 }
 
-/// Turned by `angle` about the vertical, then moved to `centre`.
-inline Mat4 turned(float angle, Vec3 centre) {
-    const float c = std::cos(angle);
-    const float d = std::sin(angle);
-    return {Vec4(c, 0, -d, 0), Vec4(0, 1, 0, 0), Vec4(d, 0, c, 0), Vec4(centre, 1)};
-}
+}  // namespace
 
-/// The paper's second scene (section 6, "voiture"): a car of about 480 000 triangles in two rooms.
-inline Scene car_room(Lamp lamp) {
+Scene car_room(Lamp lamp) {
     Scene s;
     s.name = lamp == Lamp::down ? "car" : "car-indirect";
     place_rooms(s, lamp);
@@ -47,9 +41,7 @@ inline Scene car_room(Lamp lamp) {
     return s;
 }
 
-/// The paper's third scene ("voiture+grillage"): woven wire over the car and on three of its sides,
-/// between it and the lamp, about 1.4 million triangles in all.
-inline Scene car_grille(Lamp lamp) {
+Scene car_grille(Lamp lamp) {
     Scene s = car_room(lamp);
     s.name = lamp == Lamp::down ? "car-grille" : "car-grille-indirect";
     const std::uint32_t wire = s.add(coated("wire", {0.3f, 0.3f, 0.32f}, 0.6f, 0.3f));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/scene/builtin/car_materials.hpp"
-#include "mir/scene/builtin/car_panels.hpp"
+#include "scenes/car_materials.hpp"
+#include "scenes/car_panels.hpp"
 
 namespace mir::builtin {
 

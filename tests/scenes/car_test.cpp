@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin/car.hpp"
+#include "scenes/car.hpp"
 
 #include "mir/core/random.hpp"
 #include "mir/scene/scene_hash.hpp"
 #include "mir/scene/world_geometry.hpp"
+#include "scenes/car_panels.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_measures.hpp"
 

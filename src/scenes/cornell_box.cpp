@@ -1,26 +1,10 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
-#include "mir/scene/builtin/shapes.hpp"
-#include "mir/scene/scene.hpp"
+#include "mir/scenes.hpp"
+#include "scenes/furniture.hpp"
 
 namespace mir::builtin {
 
-/// Which way a lamp shines.
-enum class Lamp { down, up };
-
-/// A box on the floor, turned by `angle` about the vertical through `corner`.
-inline Mesh turned_block(std::string name, std::uint32_t material, Vec3 corner, float width,
-                         float height, float angle) {
-    const Vec3 a = width * Vec3(std::cos(angle), 0.0f, -std::sin(angle));
-    const Vec3 c = width * Vec3(std::sin(angle), 0.0f, std::cos(angle));
-    return box(std::move(name), material, corner, a, {0.0f, height, 0.0f}, c);
-}
-
-/// The Cornell box: a room of 2 m open to the viewer, a red and a green wall, two blocks. With the
-/// lamp up it hangs below the ceiling and lights it: nearly all light on the floor is indirect.
-/// Dimensions follow the measured box of Goral et al. (1984), scaled and straightened.
-inline Scene cornell_box(Lamp lamp) {
+Scene cornell_box(Lamp lamp) {
     Scene s;
     s.name = lamp == Lamp::down ? "cornell-box" : "cornell-inverted";
     const std::uint32_t white = s.add(lambertian("white", {0.725f, 0.71f, 0.68f}));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/scene/builtin/car_hull.hpp"
-#include "mir/scene/builtin/sheet.hpp"
+#include "scenes/car_hull.hpp"
+#include "scenes/sheet.hpp"
 
 #include <array>
 #include <initializer_list>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#include "mir/scenes.hpp"
+#include "scenes/furniture.hpp"
 
-#include "mir/scene/builtin/cornell_box.hpp"
+#include <cmath>
 
 namespace mir::builtin {
+namespace {
 
 /// A car of 3.9 m whose nose points to -z: body, cabin and wheels. `rear` is the middle of the
 /// ground line behind it. The wheels stand out of the body by 3 cm, so that no two faces coincide.
-inline void place_plain_car(Scene& s, std::uint32_t paint, std::uint32_t tyre, Vec3 rear) {
+void place_plain_car(Scene& s, std::uint32_t paint, std::uint32_t tyre, Vec3 rear) {
     s.place(box("car body", paint, rear + Vec3(-0.85f, 0.25f, -3.9f), {1.7f, 0, 0}, {0, 0.6f, 0},
                 {0, 0, 3.9f}));
     s.place(box("car cabin", paint, rear + Vec3(-0.7f, 0.85f, -2.5f), {1.4f, 0, 0}, {0, 0.5f, 0},
@@ -18,26 +20,9 @@ inline void place_plain_car(Scene& s, std::uint32_t paint, std::uint32_t tyre, V
                 box("wheel", tyre, rear + Vec3(x, 0, z), {0.2f, 0, 0}, {0, 0.6f, 0}, {0, 0, 0.6f}));
 }
 
-/// Three boards between two sides, with a carton on each board. `corner` is the one with the
-/// smallest coordinates; 1.6 m wide, 1.9 m high.
-inline void place_shelves(Scene& s, std::uint32_t wood, std::uint32_t carton, Vec3 corner) {
-    for (const float x : {0.0f, 1.56f})
-        s.place(box("shelf side", wood, corner + Vec3(x, 0, 0), {0.04f, 0, 0}, {0, 1.9f, 0},
-                    {0, 0, 0.4f}));
-    for (const float y : {0.5f, 1.1f, 1.7f}) {
-        s.place(box("shelf", wood, corner + Vec3(0.04f, y, 0), {1.52f, 0, 0}, {0, 0.03f, 0},
-                    {0, 0, 0.4f}));
-        s.place(box("carton", carton, corner + Vec3(0.2f + 0.4f * (y - 0.5f), y + 0.03f, 0.03f),
-                    {0.5f, 0, 0}, {0, 0.3f, 0}, {0, 0, 0.3f}));
-    }
-}
+}  // namespace
 
-/// Two closed rooms of 6 x 3 x 6 m and a wall between them whose door stands ajar. Both lamps are
-/// in the room behind the wall and shine at its ceiling: no lamp is seen from the camera's room,
-/// and 1 to 3 % of the emitted power gets there, through the gap. The hard case for light paths
-/// that start at the lamps, small enough for tests: after the garage of section 6 of the paper and
-/// the room of Veach and Guibas, "Metropolis light transport", SIGGRAPH 1997, figure 2.
-inline Scene door_ajar() {
+Scene door_ajar() {
     Scene s;
     s.name = "door-ajar";
     const std::uint32_t plaster = s.add(lambertian("plaster", {0.72f, 0.7f, 0.66f}));

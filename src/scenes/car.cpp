@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#include "scenes/car.hpp"
 
-#include "mir/scene/builtin/car_interior.hpp"
-#include "mir/scene/builtin/wheel.hpp"
+#include "scenes/car_interior.hpp"
+#include "scenes/wheel.hpp"
 
 #include <array>
+#include <cmath>
+#include <utility>
 
 namespace mir::builtin {
+namespace {
 
 /// Four wheels with their brakes and the liners of their arches.
-inline void place_wheels(Scene& s, const CarMaterials& m, const Mat4& car) {
+void place_wheels(Scene& s, const CarMaterials& m, const Mat4& car) {
     const auto four = [&](const Mesh& right) {
         for (const bool left : {false, true})
             for (const float z : {-car_axle, car_axle}) {
@@ -35,7 +38,7 @@ inline void place_wheels(Scene& s, const CarMaterials& m, const Mat4& car) {
 }
 
 /// Bars behind the grille and the air intake, and the lamps beside them.
-inline void place_front_details(Scene& s, const CarMaterials& m, const Mat4& car) {
+void place_front_details(Scene& s, const CarMaterials& m, const Mat4& car) {
     Mesh bars = empty_mesh("grille", m.metal);
     for (int i = -20; i <= 20; ++i) {
         const float x = 0.0167f * static_cast<float>(i);
@@ -59,7 +62,7 @@ inline void place_front_details(Scene& s, const CarMaterials& m, const Mat4& car
 }
 
 /// Mirrors, handles, wipers, exhaust pipes, plate and aerial.
-inline void place_small_parts(Scene& s, const CarMaterials& m, const Mat4& car) {
+void place_small_parts(Scene& s, const CarMaterials& m, const Mat4& car) {
     const auto add = [&](Mesh mesh) { s.place(std::move(mesh), car); };
     const auto pair = [&](Mesh mesh) { add(both_sides(std::move(mesh))); };
     pair(cushion("mirror", m.paint, placed({0.105f, 0.062f, 0.06f}, {0.985f, 0.985f, -0.5f}), 64,
@@ -85,9 +88,9 @@ inline void place_small_parts(Scene& s, const CarMaterials& m, const Mat4& car) 
                 16));
 }
 
-/// A sports coupe of 4.4 x 1.9 x 1.4 m, about 480 000 triangles, glass left out: thick panels with
-/// gaps between them, wheels, seats. `car` carries its frame (car_hull.hpp) into the world.
-inline void place_car(Scene& s, const Mat4& car) {
+}  // namespace
+
+void place_car(Scene& s, const Mat4& car) {
     const CarMaterials m = add_car_materials(s);
     place_flanks(s, m, car);
     place_decks(s, m, car);

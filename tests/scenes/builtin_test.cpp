@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin.hpp"
-
 #include "conformance/brute_force.hpp"
 #include "mir/scene/light_table.hpp"
 #include "mir/scene/scene_hash.hpp"
+#include "mir/scenes.hpp"
+#include "scenes/furniture.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_measures.hpp"
 

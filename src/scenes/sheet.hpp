@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/scene/builtin/solids.hpp"
+#include "scenes/solids.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 
 #include <initializer_list>
 #include <span>
@@ -100,6 +100,13 @@ inline Mat4 placed(Vec3 half, Vec3 centre, float pitch = 0.0f) {
     const float s = std::sin(pitch);
     return {Vec4(half.x, 0, 0, 0), half.y * Vec4(0, c, s, 0), half.z * Vec4(0, -s, c, 0),
             Vec4(centre, 1.0f)};
+}
+
+/// Turned by `angle` about the vertical, then moved to `centre`.
+inline Mat4 turned(float angle, Vec3 centre) {
+    const float c = std::cos(angle);
+    const float d = std::sin(angle);
+    return {Vec4(c, 0, -d, 0), Vec4(0, 1, 0, 0), Vec4(d, 0, c, 0), Vec4(centre, 1)};
 }
 
 /// Ring swept by a closed profile of (distance from the x axis, x), which runs clockwise with

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin/sheet.hpp"
-#include "mir/scene/builtin/tube.hpp"
+#include "scenes/sheet.hpp"
+#include "scenes/tube.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_measures.hpp"
 

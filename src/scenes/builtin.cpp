@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
 #include "mir/core/error.hpp"
-#include "mir/scene/builtin/car_room.hpp"
-#include "mir/scene/builtin/check_rooms.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
-#include "mir/scene/builtin/corner.hpp"
-#include "mir/scene/builtin/door_ajar.hpp"
-#include "mir/scene/builtin/garage.hpp"
-#include "mir/scene/builtin/sphere_room.hpp"
+#include "mir/scenes.hpp"
 
-#include <array>
 #include <string>
-#include <string_view>
 
 namespace mir::builtin {
 
-/// A scene that is generated in code, and what it shows.
-struct Entry {
-    std::string_view name;         ///< what make() takes
-    std::string_view description;  ///< one line of help
-    Scene (*make)();               ///< generates it anew, with the same bits each time
-};
-
-/// Every built-in scene, in the order in which help lists them.
-inline constexpr std::array<Entry, 15> scenes{{
+constinit const std::array<Entry, 15> scenes{{
     {"cornell-box", "the Cornell box", [] { return cornell_box(Lamp::down); }},
     {"cornell-inverted", "the Cornell box with its lamp turned to the ceiling",
      [] { return cornell_box(Lamp::up); }},
@@ -47,9 +29,7 @@ inline constexpr std::array<Entry, 15> scenes{{
     {"disc-above-plane", "irradiance pi/2 below the centre", [] { return disc_above_plane(); }},
 }};
 
-/// Makes the scene called `name`.
-/// @throws Error(invalid_argument) that lists the names when there is none.
-inline Scene make(std::string_view name) {
+Scene make(std::string_view name) {
     std::string names;
     for (const Entry& e : scenes) {
         if (e.name == name) return e.make();

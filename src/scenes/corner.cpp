@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
-#pragma once
-
-#include "mir/scene/builtin/shapes.hpp"
-#include "mir/scene/scene.hpp"
+#include "mir/scenes.hpp"
 
 namespace mir::builtin {
 
-/// Floor and wall, 2 m x 2 m each, that meet at a right angle, and a lamp that shines into the edge
-/// between them: what a bound of the geometry term removes is the light near that edge. Only the
-/// two see each other, so each bounce goes from one to the other.
-inline Scene corner() {
+Scene corner() {
     Scene s;
     s.name = "corner";
     const std::uint32_t floor = s.add(lambertian("floor", {0.8f, 0.7f, 0.6f}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin/wire_fence.hpp"
+#include "scenes/wire_fence.hpp"
 
 #include "support/catch.hpp"
 #include "support/mesh_measures.hpp"
