@@ -116,7 +116,7 @@ check_links() {
 check_paths() {
     for page in $(pages); do
         # shellcheck disable=SC2016
-        grep -oE '`(include|backends|tools|tests|bench|examples|cmake|docs)/[^` ]*`' "$page" |
+        grep -oE '`(include|src|backends|tools|tests|bench|examples|cmake|docs)/[^` ]*`' "$page" |
             tr -d '`' | sort -u | while read -r path; do
                 [ -e "$path" ] || complain "$page names $path, which does not exist"
             done
@@ -129,7 +129,7 @@ check_paths() {
     grep -rhoE 'docs/([a-z_]+\.md|decisions/[0-9]{3})' $code | sort -u | while read -r cited; do
         [ -e "$cited" ] || ls "$cited"-*.md >/dev/null 2>&1 || complain "the code cites $cited, which does not exist"
     done
-    grep -rhoE 'docs/method\.md, [0-9]+(\.[0-9]+)?' include backends tools tests bench examples |
+    grep -rhoE 'docs/method\.md, [0-9]+(\.[0-9]+)?' include src backends tools tests bench examples |
         sort -u | while read -r reference; do
             section=${reference##* }
             grep -qE "^#+ $(printf '%s' "$section" | sed 's/\./\\./') " docs/method.md ||
@@ -178,15 +178,15 @@ check_names() {
             section 'Exit codes' | grep -q "^| $code |" ||
                 complain "docs/command_line.md does not list exit code $code"
         done
-    sed -n 's/^    {"\([a-z-]*\)", .*/\1/p' include/mir/scene/builtin.hpp >"$work/scenes"
-    [ -s "$work/scenes" ] || complain "include/mir/scene/builtin.hpp lists no scene"
+    sed -n 's/^    {"\([a-z-]*\)", .*/\1/p' src/scenes/builtin.cpp >"$work/scenes"
+    [ -s "$work/scenes" ] || complain "src/scenes/builtin.cpp lists no scene"
     listed docs/scene_files.md "built-in scene" <"$work/scenes"
 }
 
 # Names in backquotes that look like those of code, with an underscore or a capital inside, occur in
 # the tree. Not those of options, nor of what other programs call so.
 check_words() {
-    set -- include backends tools tests bench examples cmake docs/snippets CMakeLists.txt
+    set -- include src backends tools tests bench examples cmake docs/snippets CMakeLists.txt
     { grep -rhI . "$@" && find "$@"; } | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$work/known"
     printf '%s\n' CornellBox libPyImath map_Ks map_Pr | sort -u - "$work/known" >"$work/all"
     for page in $(pages); do
@@ -253,14 +253,14 @@ $(grep '^[<>]' "$work/diff")"
 # The library prints nothing and ends no process. Comments may talk of it.
 check_silence() {
     grep -rnE '\b(v?f?printf|puts|putchar|perror|abort|exit|_Exit|_exit|quick_exit|terminate) ?\(|std::(cout|cerr|clog)|\bassert\(' \
-        include backends | grep -vE '^[^:]*:[0-9]*: *//' | while read -r line; do
+        include src backends | grep -vE '^[^:]*:[0-9]*: *//' | while read -r line; do
         complain "the library prints or ends the process: $line"
     done
 }
 
 # The first two lines of a file of code name the licence.
 check_licence() {
-    find include backends tools tests bench examples cmake docs CMakeLists.txt .ci ./*.sh -type f \
+    find include src backends tools tests bench examples cmake docs CMakeLists.txt .ci ./*.sh -type f \
         \( -name '*.[ch]pp' -o -name '*.cu' -o -name '*.cuh' -o -name '*.py' -o -name '*.sh' \
         -o -name '*.cmake' -o -name CMakeLists.txt -o -path '.ci/run' \) >"$work/code"
     [ "$(wc -l <"$work/code")" -gt 100 ] || complain "no code is found"

@@ -3,7 +3,7 @@
 
 #include "images/support.hpp"
 #include "mir/runtime/all_renderers.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 #include <array>

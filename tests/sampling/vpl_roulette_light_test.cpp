@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The light that VPLs bring after roulette, and what one of them is worth.
 #include "conformance/sampler_suite.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/contribution.hpp"
 #include "sampling/roulette_stage.hpp"
 #include "support/statistics.hpp"
