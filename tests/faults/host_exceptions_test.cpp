@@ -17,7 +17,7 @@
 #include "mir/reference/trace_reference.hpp"
 #include "mir/resident/backend_film.hpp"
 #include "mir/sampling/metropolis_sampler.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/sched/reconstruct.hpp"

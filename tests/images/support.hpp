@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/cpu/register.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 
 #include <array>
 #include <cmath>

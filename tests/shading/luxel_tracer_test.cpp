@@ -5,7 +5,7 @@
 #include "mir/fill_gbuffer.hpp"
 #include "mir/for_each_luxel.hpp"
 #include "mir/reference/path_tracer.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
 #include "support/test_sky.hpp"

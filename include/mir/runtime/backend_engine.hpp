@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd/kd_ray_caster.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
 #include "mir/accel/kd/kd_tree.hpp"
-#include "mir/accel/kd/kd_tree_visibility.hpp"
 #include "mir/core/monitor.hpp"
 #include "mir/data/image.hpp"
 #include "mir/data/vpl_list.hpp"
@@ -15,9 +14,8 @@
 #include "mir/resident/backend_response.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
 #include "mir/resident/quantised_bvh.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
-#include "mir/resident/uploaded_kd_tree.hpp"
-#include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/uploaded_scene.hpp"
+#include "mir/resident/uploaded_trees.hpp"
 #include "mir/runtime/band_engine.hpp"
 #include "mir/runtime/sampling_engine.hpp"
 #include "mir/runtime/stage_clock.hpp"

@@ -9,7 +9,7 @@
 #include "mir/resident/backend_metropolis.hpp"
 #include "mir/resident/ray_structures.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
-#include "mir/resident/uploaded_lights.hpp"
+#include "mir/resident/uploaded_scene.hpp"
 #include "mir/resident/wait_at_end.hpp"
 #include "mir/runtime/backend_engine.hpp"
 #include "mir/sampling/visible_area.hpp"

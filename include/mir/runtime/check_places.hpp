@@ -4,6 +4,7 @@
 #include "mir/core/error.hpp"
 #include "mir/core/number_text.hpp"
 #include "mir/scene/bounds.hpp"
+#include "mir/scene/light_kinds.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <string>

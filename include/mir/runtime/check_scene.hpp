@@ -4,6 +4,7 @@
 #include "mir/core/number_text.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
+#include "mir/scene/light_kinds.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/film/film.hpp"
+#include "mir/runtime/film_layer.hpp"
 #include "mir/runtime/render_context.hpp"
 
 #include <algorithm>
@@ -11,16 +12,6 @@
 #include <vector>
 
 namespace mir {
-
-/// Layers of the film of a render. Those of the bounces, if there are any, come next, then what
-/// the bound removed, if that is wanted.
-enum FilmLayer : std::size_t {
-    direct_layer,
-    emission_layer,
-    coverage_layer,
-    indirect_layer,
-    first_bounce_layer
-};
 
 /// Makes the beauty of a result: emission + direct + indirect.
 template <Executor E>

@@ -12,6 +12,7 @@
 #include "mir/runtime/host_canvas.hpp"
 #include "mir/runtime/indirect_probes.hpp"
 #include "mir/runtime/light_correction.hpp"
+#include "mir/runtime/picture_bytes.hpp"
 
 namespace mir {
 
@@ -97,7 +98,9 @@ RenderResult MicroRender<B, Engine, E>::run() {
     if (job_.settings.micro.check != GatherCheck::none && !sources.light.empty()) check(sources);
     const ImageBands<B, Engine, E> bands(job_.context(), 0);
     const std::size_t bounces = job_.settings.bounce_layers ? sources.light.size() + 1 : 0;
-    Canvas canvas(job_, NoScheduler{}, std::size_t{first_bounce_layer} + bounces);
+    const std::size_t layers = std::size_t{first_bounce_layer} + bounces;
+    check_picture(job_.settings, layers);
+    Canvas canvas(job_, NoScheduler{}, layers);
     if (job_.settings.measure_missing) {
         const auto stage = job_.clock.measure(&StageSeconds::ledger);
         s.direct_noise = canvas.direct_noise(job_.settings.direct_samples_per_luxel());

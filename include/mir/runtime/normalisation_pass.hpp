@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/normalise/normalise.hpp"
-#include "mir/normalise/probe.hpp"
+#include "mir/normalise/prepass.hpp"
 #include "mir/runtime/image_bands.hpp"
 #include "mir/sampling/probe_rays.hpp"
 
@@ -85,7 +85,7 @@ std::vector<ImageResponse> NormalisationPass<B, Engine, E, F>::probed(VplSpan<Sp
     auto sum = no_response(probes.extent(), vpls.size());
     add(probes, vpls, sum);
     std::vector<ImageResponse> responses = sum.mean();
-    const std::vector<VplIndex> poor = poorly_probed(responses);
+    const std::vector<VplIndex> poor = poorly_measured(responses);
     if (poor.empty()) return responses;
     std::vector<Vpl> again;
     for (VplIndex j : poor) again.push_back(vpls[j]);

@@ -4,6 +4,7 @@
 #include "mir/reference/trace_reference.hpp"
 #include "mir/runtime/film_layers.hpp"
 #include "mir/runtime/luxel_coverage.hpp"
+#include "mir/runtime/picture_bytes.hpp"
 #include "mir/runtime/render_job.hpp"
 
 #include <algorithm>
@@ -39,6 +40,10 @@ class PathRender {
 
 template <Bsdf B, class Engine, Executor E>
 RenderResult PathRender<B, Engine, E>::run() {
+    check_picture(
+        job_.settings,
+        first_bounce_layer +
+            (job_.settings.bounce_layers ? std::size_t{job_.settings.bounce_limit()} : 0));
     const ReferenceImage reference = trace();
     RenderStatistics& s = job_.result.statistics;
     s.luxels = job_.rays.grid.luxels().area();

@@ -5,6 +5,7 @@
 #include "mir/runtime/host_canvas.hpp"
 #include "mir/runtime/host_only.hpp"
 #include "mir/runtime/normalisation_pass.hpp"
+#include "mir/runtime/picture_bytes.hpp"
 #include "mir/runtime/render_job.hpp"
 #include "mir/runtime/sampler_choice.hpp"
 #include "mir/runtime/vpl_light.hpp"
@@ -225,9 +226,10 @@ void TiledRender<B, Engine, E, MakeScheduler>::render(const VplRecords& records,
     if (normalises) kept = normalise_vpls(bands, records);
     const VplLight<B> light(job_.settings, shading_, job_.result.vpls,
                             {sphere_radii(), lobes(records, normalises)});
-    Canvas canvas(
-        job_, make_scheduler_,
-        std::size_t{first_bounce_layer} + light.bounces() + (job_.settings.removed_layer ? 1 : 0));
+    const std::size_t layers =
+        std::size_t{first_bounce_layer} + light.bounces() + (job_.settings.removed_layer ? 1 : 0);
+    check_picture(job_.settings, layers);
+    Canvas canvas(job_, make_scheduler_, layers);
     if (job_.settings.measure_missing) measure(canvas);
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
         job_.begin_band(i, bands.count());
