@@ -122,6 +122,7 @@
 #include "mir/for_each_luxel.hpp"
 #include "mir/glossy_light.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/host_schedulers.hpp"
 #include "mir/host/shaft_scene.hpp"
 #include "mir/host/wide_build.hpp"
 #include "mir/host/wide_bvh_scene.hpp"

@@ -35,7 +35,7 @@ planted include/mir/render.hpp '#include "mir/sched/cpu.hpp"' 'render.hpp may no
 planted include/mir/accel/kd/kd_tree.hpp '#include "mir/accel/exact/detail/thick_triangle.hpp"' \
     'which is for its own folder'
 planted tools/mir/main.cpp '#include "mir/film/detail/tap_view.hpp"' 'which is for its own folder'
-planted backends/cpu/src/register_cpu.cpp '#include "mir/cuda/register.hpp"' 'cpu may not include cuda'
+planted backends/cpu/src/trace_embree.cpp '#include "mir/cuda/register.hpp"' 'cpu may not include cuda'
 mkdir include/mir/furniture
 echo '#include "mir/core/error.hpp"' >include/mir/furniture/chair.hpp
 planted include/mir/furniture/chair.hpp '' 'furniture has no row'

@@ -3,7 +3,7 @@
 
 #include "conformance/sampler_suite.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scene/builtin.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
@@ -304,7 +304,7 @@ TEST_CASE("with a door ajar a kept VPL is worth several plain ones", "[statistic
 TEST_CASE("the sampler keeps the axioms of Sampler") {
     const Stage stage(mir::builtin::make("door-ajar"));
     const Probe probe = stage.probe(1);
-    mir::cpu::TbbExecutor two(2);
+    mir::TbbExecutor two(2);
     mirtest::sampler_suite(
         [&](std::uint64_t seed) {
             mir::InstantRadiosityOptions options;

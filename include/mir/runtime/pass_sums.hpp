@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/runtime/check_scene.hpp"
-#include "mir/runtime/film_layers.hpp"
+#include "mir/runtime/add_up_layers.hpp"
 #include "mir/runtime/layer_sum.hpp"
 #include "mir/runtime/luminance_spread.hpp"
 #include "mir/runtime/pass_statistics.hpp"
