@@ -4,7 +4,7 @@
 // on the processor and on a GPU where there is one: milliseconds by stage, and nanoseconds for a
 // contribution. What `--accel auto` chooses has beside it what asks ray by ray: Embree's packets,
 // and the plain kernel over a kd-tree. tools/plot_growth.py draws it.
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/bench_scene.hpp"
 #include "support/frame_runs.hpp"
 

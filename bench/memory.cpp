@@ -9,8 +9,8 @@
 #include "mir/resident/backend_visibility.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
 #include "mir/resident/quantised_bvh.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
-#include "mir/resident/uploaded_kd_tree.hpp"
+#include "mir/resident/uploaded_scene.hpp"
+#include "mir/resident/uploaded_trees.hpp"
 #include "support/bench_scene.hpp"
 #include "support/metered_backend.hpp"
 

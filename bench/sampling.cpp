@@ -18,8 +18,7 @@ namespace {
 
 using namespace mirbench;
 
-mir::VplRecords time_sampling(const BenchScene& s, mir::TbbExecutor& executor,
-                              double& seconds) {
+mir::VplRecords time_sampling(const BenchScene& s, mir::TbbExecutor& executor, double& seconds) {
     constexpr std::uint32_t vpls = 256;
     const float aspect =
         static_cast<float>(paper_image.width) / static_cast<float>(paper_image.height);

@@ -66,7 +66,7 @@ class Bench {
                                                                     clusters_.blocks.data(),
                                                                     clusters_.clusters.data(),
                                                                     vpls_.span(),
-                                                                    wide_.bvh().view(),
+                                                                    wide_.tree().view(),
                                                                     sigma_,
                                                                     {},
                                                                     words_.data(),
@@ -96,7 +96,7 @@ class Bench {
         std::uint32_t word = 0;
         for (std::uint32_t k = 0; k < mir::cluster_luxels; ++k) {
             const mir::Hit hit = hits.load(c * mir::cluster_luxels + k);
-            if (mir::faces(hit, vpl) && !is_hidden(wide_.bvh().view(), vpl.position, hit.position))
+            if (mir::faces(hit, vpl) && !is_hidden(wide_.tree().view(), vpl.position, hit.position))
                 word |= 1u << k;
         }
         return word;

@@ -6,8 +6,8 @@
 // (4.6).
 #include "mir/compare/comparable.hpp"
 #include "mir/core/number_text.hpp"
-#include "mir/runtime/all_renderers.hpp"
 #include "mir/reference/rgb_moments.hpp"
+#include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "reference.hpp"
 #include "tools/mir/load_scene.hpp"

@@ -2,9 +2,9 @@
 //
 // Error of the indirect light against the number of VPLs, for each sampler: docs/convergence.md.
 #include "image_error.hpp"
-#include "mir/runtime/all_renderers.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
+#include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/renderer.hpp"
 #include "montage.hpp"
 #include "options.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Not a benchmark: bounces gathered from discs against those of the path tracer, for several
-// numbers of discs, thresholds and rays: docs/micro_rendering.md. CSV on standard output.
+// numbers of discs, thresholds and rays: docs/decisions/042. CSV on standard output.
 // Arguments: `builtin:NAME` or a scene file, and the numbers of Plan in their order.
 #include "scene_study.hpp"
 

@@ -4,7 +4,7 @@
 #include "mir/micro/gather_pass.hpp"
 #include "mir/resident/backend_gbuffer.hpp"
 #include "mir/resident/backend_layer.hpp"
-#include "mir/resident/uploaded_surfel_tree.hpp"
+#include "mir/resident/uploaded_trees.hpp"
 
 namespace mirbench {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Not a benchmark: what the parts of micro-rendering bring, as ratios of one run, on one thread:
-// docs/micro_rendering.md. CSV on standard output. Argument: `builtin:NAME` or a scene file.
+// docs/decisions/043. CSV on standard output. Argument: `builtin:NAME` or a scene file.
 #include "scene_study.hpp"
 
 #include <algorithm>

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd/kd_ray_finder.hpp"
-#include "mir/accel/wide/wide_bvh_visibility.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
+#include "mir/accel/wide/wide_rays.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
 #include "mir/resident/quantised_bvh.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
-#include "mir/resident/uploaded_kd_tree.hpp"
-#include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/uploaded_scene.hpp"
+#include "mir/resident/uploaded_trees.hpp"
 #include "mir/shaft/device/cluster_visibility.hpp"
 #include "paper_scene.hpp"
 

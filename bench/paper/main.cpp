@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The measurements of section 6 of the 2009 paper: docs/performance.md.
+// The measurements of section 6 of the 2009 paper: docs/decisions/021.
 #include "mir/core/error.hpp"
 #include "options.hpp"
 #include "report.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "options.hpp"
 
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -7,8 +7,8 @@
 #include "mir/paths/path_world.hpp"
 #include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/sampling/visible_area.hpp"
-#include "mir/scene/builtin.hpp"
 #include "mir/scene/scene_hash.hpp"
+#include "mir/scenes.hpp"
 
 #include <algorithm>
 

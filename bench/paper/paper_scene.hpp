@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd/kd_ray_caster.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
 #include "mir/accel/kd/kd_tree.hpp"
-#include "mir/accel/kd/kd_tree_visibility.hpp"
 #include "mir/accel/wide/wide_options.hpp"
 #include "mir/data/gbuffer.hpp"
 #include "mir/data/vpl_list.hpp"

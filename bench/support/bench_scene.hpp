@@ -3,8 +3,8 @@
 
 #include "mir/accel/wide/wide_options.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/host/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/scene/scene_hash.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench_scene.hpp"
 #include "mir/io/gltf_reader.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/contribution.hpp"
 #include "mir/version.hpp"
 

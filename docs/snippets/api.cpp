@@ -3,7 +3,7 @@
 // Quoted by docs/api.md: errors and progress of a render, VPLs made by hand, an axiom checked.
 #include "mir/mir.hpp"
 #include "mir/render.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/validation/executor.hpp"
 #include "mir/validation/visibility.hpp"
 #include "support/catch.hpp"

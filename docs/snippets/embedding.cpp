@@ -6,7 +6,7 @@
 #include "mir/mir.hpp"
 #include "mir/render.hpp"
 #include "mir/runtime/all_renderers.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 #include <atomic>

@@ -5,7 +5,7 @@
 
 // region: picture
 #include "mir/render.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 
 mir::RenderResult picture_of_sphere() {
     const mir::Scene scene = mir::builtin::make("sphere");

@@ -8,8 +8,8 @@
 #include "self_check.hpp"
 
 #include <mir/cpu/embree_visibility.hpp>
-#include <mir/host/tbb_executor.hpp>
 #include <mir/fill_visibility.hpp>
+#include <mir/host/tbb_executor.hpp>
 #include <mir/io/png.hpp>
 #include <mir/reshade.hpp>
 #include <mir/sched/cpu_blocks.hpp>

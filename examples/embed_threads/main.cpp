@@ -12,7 +12,7 @@
 #include <mir/place_vpls.hpp>
 #include <mir/reconstruct.hpp>
 #include <mir/sampling/metropolis_sampler.hpp>
-#include <mir/scene/builtin.hpp>
+#include <mir/scenes.hpp>
 #include <mir/sched/cpu_blocks.hpp>
 #include <mir/shading/vpl_shading.hpp>
 #include <mir/validation/executor.hpp>

@@ -3,6 +3,7 @@
 #include "mir/host/tbb_executor.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/mir.hpp"
+#include "mir/scenes.hpp"
 
 int main() {
     using Bsdf = mir::Lambert;

@@ -7,7 +7,7 @@
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
 #include "mir/render.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 
 #include <exception>
 #include <filesystem>

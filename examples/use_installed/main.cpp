@@ -6,7 +6,7 @@
 // and prints the mean of what comes out.
 #include <mir/io/exr.hpp>
 #include <mir/render.hpp>
-#include <mir/scene/builtin.hpp>
+#include <mir/scenes.hpp>
 
 #include <exception>
 #include <iostream>

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd/kd_ray_caster.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
 #include "mir/accel/kd/kd_tree.hpp"
-#include "mir/accel/kd/kd_tree_visibility.hpp"
 #include "mir/resident/backend_film.hpp"
 #include "mir/resident/backend_guides.hpp"
 #include "mir/resident/backend_response.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
 #include "mir/resident/quantised_bvh.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
-#include "mir/resident/uploaded_kd_tree.hpp"
-#include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/uploaded_scene.hpp"
+#include "mir/resident/uploaded_trees.hpp"
 #include "runtime/render_frame.hpp"
 
 #include <cstdint>

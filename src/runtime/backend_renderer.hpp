@@ -22,9 +22,9 @@ namespace mir {
 /// A Backend, and what a renderer wants to know of the machine behind it.
 template <Backend M>
 struct BackendMachine {
-    M backend;                  ///< where frames are made
-    std::string name;           ///< of the backend, as users write it
-    std::string device;         ///< make of the machine
+    M backend;                                    ///< where frames are made
+    std::string name;                             ///< of the backend, as users write it
+    std::string device;                           ///< make of the machine
     std::function<std::uint64_t()> usable_bytes;  ///< free, or kept for the next image
     std::function<void()> trim;                   ///< gives back what is kept
 };
@@ -62,8 +62,8 @@ class BackendRenderer final : public Renderer {
     [[nodiscard]] RenderResult render_in_memory(const PlacedScene& placed,
                                                 RenderSettings settings) const {
         Extent tile = settings.tile.value_or(default_tile);
-        settings.limits.visibility_bytes = std::min<std::uint64_t>(settings.limits.visibility_bytes,
-                                                                   machine_.usable_bytes() / 2);
+        settings.limits.visibility_bytes =
+            std::min<std::uint64_t>(settings.limits.visibility_bytes, machine_.usable_bytes() / 2);
         for (;;) {
             settings.tile = tile;
             try {
@@ -97,7 +97,8 @@ class BackendRenderer final : public Renderer {
                                             const BackendStructures& structures) const {
         const BackendFrameOptions options{
             scheduler_, structures.kd_tree, structures.shafts,
-            std::min<std::uint64_t>(machine_.usable_bytes() / 4, BackendFrameOptions{}.chain_bytes)};
+            std::min<std::uint64_t>(machine_.usable_bytes() / 4,
+                                    BackendFrameOptions{}.chain_bytes)};
         const std::unique_ptr<RenderFrame> frame = [&] {
             const auto stage = job.clock.measure(&StageSeconds::upload);
             return job.with_surfaces(

@@ -7,7 +7,7 @@ namespace mir {
 namespace {
 
 /// Luxels times VPLs from which a kd-tree, which single rays walk faster, is worth the time that
-/// the host takes to build it (docs/performance.md, "A whole frame"). Bits are the same.
+/// the host takes to build it (docs/decisions/031). Bits are the same.
 constexpr double kd_tree_pays = 13e9;
 
 constexpr BackendStructures both{"kdtree+shafts", true, true};

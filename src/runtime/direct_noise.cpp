@@ -24,18 +24,18 @@ std::vector<double> estimate(RenderJob& job, AnyVisibility visibility,
                                              {0, grid, pass_seed(job.settings.seed, which)},
                                              samples.distant_vpls};
     std::vector<double> means(static_cast<std::size_t>(luxels.extent().area()));
-    for_each_luxel(luxels, job.executor,
-                   [&](std::uint32_t x, std::uint32_t y, const auto& place, LuxelIndex i) {
-                       const Hit hit = place.hit(i);
-                       if (is_empty(hit)) return;
-                       double sum = 0.0;
-                       for (std::uint32_t cell = 0; cell < grid.per_pixel(); ++cell)
-                           sum += static_cast<double>(luminance(
-                               light(hit, place.surface(i),
-                                     x * grid.per_pixel_x + cell % grid.per_pixel_x,
-                                     y * grid.per_pixel_y + cell / grid.per_pixel_x)));
-                       means[y * luxels.extent().width + x] = sum / grid.per_pixel();
-                   });
+    for_each_luxel(
+        luxels, job.executor,
+        [&](std::uint32_t x, std::uint32_t y, const auto& place, LuxelIndex i) {
+            const Hit hit = place.hit(i);
+            if (is_empty(hit)) return;
+            double sum = 0.0;
+            for (std::uint32_t cell = 0; cell < grid.per_pixel(); ++cell)
+                sum += static_cast<double>(luminance(
+                    light(hit, place.surface(i), x * grid.per_pixel_x + cell % grid.per_pixel_x,
+                          y * grid.per_pixel_y + cell / grid.per_pixel_x)));
+            means[y * luxels.extent().width + x] = sum / grid.per_pixel();
+        });
     return means;
 }
 

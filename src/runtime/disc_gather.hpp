@@ -33,8 +33,8 @@ class DiscGather {
     /// gather_light() there, W m^-2 sr^-1.
     [[nodiscard]] virtual Image<Rgb> gather(const AnyLuxels& luxels, const SurfelTree& tree,
                                             std::span<const SurfelRadiance> radiance,
-                                            const DiscGatherOptions& options,
-                                            const LuxelBand& band, const Done& done) = 0;
+                                            const DiscGatherOptions& options, const LuxelBand& band,
+                                            const Done& done) = 0;
 };
 
 }  // namespace mir

@@ -82,10 +82,9 @@ class HostFrame final : public RenderFrame {
         return host_layer(Image<Rgb>(band.extent()));
     }
     [[nodiscard]] LayerPtr direct(const FrameBand& band, DirectSamples samples) override {
-        return host_layer(direct_light<B>(HostBand<B>::of(band).gbuffer, job_.lights,
-                                          rays().visibility(),
-                                          {band.first_row, job_.rays.grid, job_.settings.seed},
-                                          samples, job_.executor));
+        return host_layer(direct_light<B>(
+            HostBand<B>::of(band).gbuffer, job_.lights, rays().visibility(),
+            {band.first_row, job_.rays.grid, job_.settings.seed}, samples, job_.executor));
     }
     [[nodiscard]] LayerPtr emission(const FrameBand& band) override;
     [[nodiscard]] LayerPtr coverage(const FrameBand& band) override {
@@ -164,12 +163,11 @@ template <Bsdf B>
 Image<Rgb> HostFrame<B>::light_of_points(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
                                          Monitor* monitor) {
     if (band.visibility)
-        return with_host_scheduler(
-            scheduler_, job_.executor, monitor, [&](const auto& scheduler) {
-                return with_shading<B>(kernel, [&](const auto& shading) {
-                    return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
-                });
+        return with_host_scheduler(scheduler_, job_.executor, monitor, [&](const auto& scheduler) {
+            return with_shading<B>(kernel, [&](const auto& shading) {
+                return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
             });
+        });
     return with_host_scheduler(
         scheduler_, job_.executor, monitor, [&]<class S>(const S& scheduler) {
             if constexpr (std::is_same_v<S, sched::CpuBlocks<AnyExecutor>>)
@@ -246,10 +244,9 @@ std::vector<Image<Rgb>> HostFrame<B>::develop() {
 
 std::unique_ptr<RenderFrame> host_frame(RenderJob& job, const TracedScene& traced,
                                         HostScheduler scheduler) {
-    return job.with_surfaces(
-        [&]<Bsdf B>(const SurfaceTable<B>&) -> std::unique_ptr<RenderFrame> {
-            return std::make_unique<HostFrame<B>>(job, traced, scheduler);
-        });
+    return job.with_surfaces([&]<Bsdf B>(const SurfaceTable<B>&) -> std::unique_ptr<RenderFrame> {
+        return std::make_unique<HostFrame<B>>(job, traced, scheduler);
+    });
 }
 
 }  // namespace mir

@@ -11,7 +11,7 @@ namespace {
 
 /// Luxels times VPLs from which shafts save more time than our hierarchy takes longer to build than
 /// Embree's: 128 for each triangle, more where triangles are so many that shafts decide less
-/// (docs/performance.md, "Auto against Embree"). The number of threads has no say, as in all that
+/// (docs/decisions/012). The number of threads has no say, as in all that
 /// may change a bit.
 double pairs_that_pay(double triangles) {
     constexpr double many = 1e6;

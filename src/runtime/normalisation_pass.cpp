@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/normalisation_pass.hpp"
 
-#include "mir/normalise/probe.hpp"
+#include "mir/normalise/prepass.hpp"
 
 namespace mir {
 
@@ -24,8 +24,8 @@ void NormalisationPass::add(const FrameBand& band, VplSpan<Space::host> vpls,
 std::vector<ImageResponse> NormalisationPass::over_image(VplSpan<Space::host> vpls) {
     const RenderJob& job = frame_.job();
     const ResponsePtr sum = frame_.response(bands_.luxels(), vpls.size(), bound_);
-    const bool keep = job.settings.normalisation == NormalisationPolicy::full &&
-                      bands_.fit_together(vpls.size());
+    const bool keep =
+        job.settings.normalisation == NormalisationPolicy::full && bands_.fit_together(vpls.size());
     for (std::uint32_t i = 0; i < bands_.count(); ++i) {
         BandPtr band = bands_.make(i);
         bands_.find_visible(*band, vpls);
@@ -41,14 +41,14 @@ std::vector<ImageResponse> NormalisationPass::probed(VplSpan<Space::host> vpls) 
     const RenderJob& job = frame_.job();
     const BandPtr probes = [&] {
         const auto stage = job.clock.measure(&StageSeconds::gbuffer);
-        return frame_.trace({job.rays.camera, job.aspect(), job.settings.prepass_luxels,
-                             job.settings.seed});
+        return frame_.trace(
+            {job.rays.camera, job.aspect(), job.settings.prepass_luxels, job.settings.seed});
     }();
     bands_.find_visible(*probes, vpls);
     const ResponsePtr sum = frame_.response(probes->extent(), vpls.size(), bound_);
     add(*probes, vpls, *sum);
     std::vector<ImageResponse> responses = sum->mean();
-    const std::vector<VplIndex> poor = poorly_probed(responses);
+    const std::vector<VplIndex> poor = poorly_measured(responses);
     if (poor.empty()) return responses;
     std::vector<Vpl> again;
     for (VplIndex j : poor) again.push_back(vpls[j]);

@@ -9,6 +9,7 @@
 #include "mir/micro/surfel_direct_light.hpp"
 #include "mir/micro/surfel_tree_build.hpp"
 #include "mir/micro/triangle_gather.hpp"
+#include "mir/runtime/picture_bytes.hpp"
 #include "runtime/direct_noise.hpp"
 #include "runtime/film_layers.hpp"
 #include "runtime/host_band.hpp"
@@ -65,13 +66,11 @@ class DiscRender {
     [[nodiscard]] std::vector<Radiance> light(const Discs& discs);
     void check(const Sources& sources);
     void render_band(const FrameBand& band, const Sources& sources);
-    [[nodiscard]] Image<Rgb> gather(const Luxels& gbuffer,
-                                    const LuxelBand& rows, const Discs& discs,
-                                    const Radiance& source);
+    [[nodiscard]] Image<Rgb> gather(const Luxels& gbuffer, const LuxelBand& rows,
+                                    const Discs& discs, const Radiance& source);
     template <class Done = decltype(no_progress)>
-    [[nodiscard]] Image<Rgb> gather_by_triangles(const Luxels& gbuffer,
-                                                 const LuxelBand& rows, const Discs& discs,
-                                                 const Radiance& source,
+    [[nodiscard]] Image<Rgb> gather_by_triangles(const Luxels& gbuffer, const LuxelBand& rows,
+                                                 const Discs& discs, const Radiance& source,
                                                  const Done& done = no_progress);
     void correct(Image<Rgb>& light, const LuxelBand& rows);
     void append_indirect(const FrameBand& band, const Sources& sources,
@@ -96,6 +95,8 @@ RenderResult DiscRender<B>::run() {
     if (job_.monitor != nullptr)
         job_.monitor->planned_gathers = saturating_mul(s.luxels, sources.light.size());
     if (job_.settings.micro.check != GatherCheck::none && !sources.light.empty()) check(sources);
+    const std::size_t bounces = job_.settings.bounce_layers ? sources.light.size() + 1 : 0;
+    check_picture(job_.settings, std::size_t{first_bounce_layer} + bounces);
     const ImageBands bands(frame_, 0);
     if (job_.settings.measure_missing) {
         const auto stage = job_.clock.measure(&StageSeconds::ledger);
@@ -244,9 +245,9 @@ Image<Rgb> DiscRender<B>::gather(const Luxels& gbuffer, const LuxelBand& rows, c
 
 template <Bsdf B>
 template <class Done>
-Image<Rgb> DiscRender<B>::gather_by_triangles(
-    const Luxels& gbuffer, const LuxelBand& rows, const Discs& discs,
-    const Radiance& source, const Done& done) {
+Image<Rgb> DiscRender<B>::gather_by_triangles(const Luxels& gbuffer, const LuxelBand& rows,
+                                              const Discs& discs, const Radiance& source,
+                                              const Done& done) {
     // Micro-buffers have no rays of their own.
     const bool by_rays = job_.settings.micro.luxels != MicroGather::buffers;
     GatherOptions options = by_rays ? job_.settings.micro.gather : GatherOptions{};

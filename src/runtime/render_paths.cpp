@@ -2,6 +2,7 @@
 #include "runtime/render_paths.hpp"
 
 #include "mir/reference/trace_reference.hpp"
+#include "mir/runtime/picture_bytes.hpp"
 #include "runtime/film_layers.hpp"
 #include "runtime/host_band.hpp"
 #include "runtime/image_bands.hpp"
@@ -41,8 +42,8 @@ LayerPtr rows_of(const Image<Rgb>& image, const FrameBand& band) {
 
 /// All but the coverage, in the order of FilmLayer.
 std::vector<Image<Rgb>> layers_of(const ReferenceImage& reference, bool bounces) {
-    std::vector<Image<Rgb>> layers{reference.bounce(1), reference.bounce(0), {},
-                                   reference.beauty()};
+    std::vector<Image<Rgb>> layers{
+        reference.bounce(1), reference.bounce(0), {}, reference.beauty()};
     const auto indirect = layers[indirect_layer].pixels();
     for (std::size_t i = 0; i < indirect.size(); ++i)
         indirect[i] =
@@ -57,12 +58,15 @@ std::vector<Image<Rgb>> layers_of(const ReferenceImage& reference, bool bounces)
 
 RenderResult render_paths(RenderFrame& frame) {
     RenderJob& job = frame.job();
+    const bool by_bounce = job.settings.bounce_layers;
+    check_picture(job.settings,
+                  first_bounce_layer + (by_bounce ? std::size_t{job.settings.bounce_limit()} : 0));
     const ReferenceImage reference = trace(frame);
     RenderStatistics& s = job.result.statistics;
     s.luxels = job.rays.grid.luxels().area();
     s.camera_paths = saturating_mul(s.luxels, job.settings.path.samples);
     s.emitted_power = static_cast<float>(job.lights.power());
-    const std::vector<Image<Rgb>> images = layers_of(reference, job.settings.bounce_layers);
+    const std::vector<Image<Rgb>> images = layers_of(reference, by_bounce);
     const ImageBands bands(frame, 0);
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
         const BandPtr band = bands.make(i);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/render_vpls.hpp"
 
+#include "mir/runtime/picture_bytes.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/sampling/vsl_radii.hpp"
 #include "runtime/direct_noise.hpp"
@@ -97,8 +98,7 @@ void measure_what_is_missing(RenderFrame& frame, float bound) {
     RenderJob& job = frame.job();
     if (!job.settings.measure_missing || !frame.traits().on_host) return;
     const auto stage = job.clock.measure(&StageSeconds::ledger);
-    job.result.statistics.direct_noise =
-        direct_noise(frame, direct_samples_of_luxel(job.settings));
+    job.result.statistics.direct_noise = direct_noise(frame, direct_samples_of_luxel(job.settings));
     const bool bounded =
         job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
     const MissingShares missing = missing_light(frame, bounded ? bound : no_bound);
@@ -108,7 +108,7 @@ void measure_what_is_missing(RenderFrame& frame, float bound) {
 
 /// Adds what a band brings to a mean luminance over the image: row by row, so that bands change
 /// nothing.
-void add_mean(RenderFrame& frame, const FrameLayer& layer, double RenderStatistics::* mean) {
+void add_mean(RenderFrame& frame, const FrameLayer& layer, double RenderStatistics::*mean) {
     RenderStatistics& s = frame.job().result.statistics;
     const double share = 1.0 / static_cast<double>(s.luxels);
     for (const double row : frame.row_luminances(layer)) s.*mean += row * share;
@@ -181,6 +181,7 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
     keep_radii(frame);
     keep_lobes(frame, sampled.records, normalises);
     const VplLight light(s, bound, vpls);
+    check_picture(s, std::size_t{first_bounce_layer} + light.bounces() + (s.removed_layer ? 1 : 0));
     measure_what_is_missing(frame, bound);
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
         job.begin_band(i, bands.count());

@@ -4,7 +4,7 @@
 #include "mir/for_each_luxel.hpp"
 #include "mir/kernels/luxel_light.hpp"
 #include "mir/reference/path_tracer.hpp"
-#include "runtime/film_layers.hpp"
+#include "mir/runtime/film_layer.hpp"
 
 #include <array>
 

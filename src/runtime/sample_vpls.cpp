@@ -48,7 +48,7 @@ template <Bsdf B>
 auto path_world(const RenderJob& job, const SurfaceTable<B>& surfaces, const AnyEngine& rays,
                 float bound) {
     return PathWorld<B, AnyRayCaster, AnyVisibility>{
-        job.geometry,      job.lights,       surfaces,     rays.ray_caster(),
+        job.geometry,      job.lights,      surfaces,     rays.ray_caster(),
         rays.visibility(), job.rays.camera, job.aspect(), bound};
 }
 

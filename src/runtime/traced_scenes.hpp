@@ -23,7 +23,7 @@ using TracedScenePtr = std::unique_ptr<const TracedScene>;
 
 /// Embree, where the build has it.
 struct EmbreeTracing {
-    std::string version;                              ///< "Embree 3.13.5" or the like
+    std::string version;                            ///< "Embree 3.13.5" or the like
     TracedScenePtr (*trace)(const WorldGeometry&);  ///< builds cpu::EmbreeScene
 };
 /// Null in a build without.

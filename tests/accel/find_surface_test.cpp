@@ -5,9 +5,9 @@
 #include "accel/build_worlds.hpp"
 #include "accel/wide_nodes.hpp"
 #include "mir/accel/kd/kd_build.hpp"
-#include "mir/accel/kd/kd_ray_finder.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
 #include "mir/accel/wide/wide_bvh.hpp"
-#include "mir/accel/wide/wide_ray_finder.hpp"
+#include "mir/accel/wide/wide_rays.hpp"
 #include "support/closed_rooms.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include "accel/wide_nodes.hpp"
 #include "mir/accel/kd/kd_build.hpp"
 #include "mir/accel/kd/kd_traverse.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 namespace {

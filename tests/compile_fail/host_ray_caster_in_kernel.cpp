@@ -1,7 +1,6 @@
 // expect: mir: paths in a kernel need a ray caster with find_point()
 // SPDX-License-Identifier: MIT
-#include "mir/accel/kd/kd_ray_caster.hpp"
-#include "mir/accel/kd/kd_tree_visibility.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
 #include "mir/paths/path_world.hpp"
 #include "mir/shading/lambert.hpp"
 

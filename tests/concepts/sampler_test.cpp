@@ -5,7 +5,7 @@
 #include "conformance/sampler_suite.hpp"
 #include "mir/concepts/archetypes.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
 

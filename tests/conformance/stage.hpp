@@ -6,7 +6,7 @@
 #include "mir/data/image.hpp"
 #include "mir/data/vpl_list.hpp"
 #include "mir/fill_gbuffer.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/surface_table.hpp"
 #include "mir/validation/detail/same_pixels.hpp"
 

@@ -4,7 +4,7 @@
 #include "accel/against_brute_force.hpp"
 #include "accel/wide_checks.hpp"
 #include "mir/accel/wide/wide_traverse.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/copied_wide_bvh.hpp"
 
 // What a tree promises that a backend builds. `build(geometry, options)` gives a CopiedWideBvh.

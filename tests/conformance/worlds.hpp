@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/core/frame.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "mir/validation/worlds.hpp"
 
 #include <utility>

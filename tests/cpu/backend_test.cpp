@@ -2,8 +2,8 @@
 #include "mir/host/backend.hpp"
 
 #include "conformance/backend_suite.hpp"
-#include "mir/host/tbb_executor.hpp"
 #include "mir/data/soa.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "support/catch.hpp"
 #include "support/lazy_backend.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/worlds.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("a failure inside Embree becomes an error in words") {

@@ -42,7 +42,7 @@ Leaks count_leaks(const mirtest::World& world, Vec3 centre, std::size_t packets,
 }  // namespace
 
 // Embree is an engine of its own. Its robust mode takes its edges from vertices that neighbours
-// share; what it still leaks is measured here, and docs/validation.md says it.
+// share; what it still leaks is measured here, and docs/tests.md says it.
 TEST_CASE("Embree leaks at edges and vertices at most what is said of it") {
     constexpr std::size_t packets = 12500;
     const double million = 1e6 / (16.0 * packets);

@@ -3,7 +3,7 @@
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/host/tbb_executor.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
-#include "mir/scene/builtin/sphere_room.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 TEMPLATE_TEST_CASE("InstantRadiositySampler with Embree yields the same records on any executor",

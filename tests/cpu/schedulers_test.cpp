@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/scheduler_suite.hpp"
-#include "mir/host/host_schedulers.hpp"
 #include "mir/cpu/embree_scene.hpp"
+#include "mir/host/host_schedulers.hpp"
 #include "mir/host/tbb_executor.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "support/catch.hpp"

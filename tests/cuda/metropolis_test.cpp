@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cuda/metropolis.hpp"
 
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 #include "support/chain_scene.hpp"
 #include "support/same_records.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cuda/shafts.hpp"
 
+#include "conformance/shaft_suite.hpp"
 #include "mir/cuda/device.hpp"
 #include "shaft/adversarial_cases.hpp"
-#include "support/catch.hpp"
 
 // Words by the GPU's shafts against every triangle asked on the host, bit for bit.
 
@@ -22,17 +22,12 @@ std::vector<std::uint32_t> words(const ShaftStage& stage,
         backend, {stage.hits(), stage.lit().vpls, &stage.bvh(), stage.sigma(), layout}, options);
 }
 
+const auto by_default = [](const ShaftStage& stage) { return words(stage); };
+
 }  // namespace
 
 TEST_CASE("The GPU's shafts give the bits of every triangle asked on the host") {
-    for (const auto& [scale, x] :
-         {std::pair{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}})
-        for (const bool needles : {false, true}) {
-            INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
-            const mirtest::World world = soup(needles, scale, x);
-            const ShaftStage stage = stage_of(world, 2000, 40);
-            CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
-        }
+    mirtest::shaft_soup_suite(by_default);
 }
 
 TEST_CASE("The GPU's shafts give the bits of single segments in a closed room") {
@@ -46,7 +41,7 @@ TEST_CASE("The GPU's shafts give the bits of single segments in a closed room") 
 }
 
 TEST_CASE("No limit, batch or lack of room changes a bit of the GPU's shafts") {
-    const mirtest::World world = mirtest::triangle_soup(60, 18, 1.0f, mir::Vec3(0.0f));
+    const mirtest::World world = soup(false);
     const ShaftStage stage = stage_of(world, 3000, 37);
     const auto truth = stage.by_brute_force();
     for (std::uint32_t nodes : {0u, 1u, 3u, 1000u})
@@ -58,13 +53,7 @@ TEST_CASE("No limit, batch or lack of room changes a bit of the GPU's shafts") {
 }
 
 TEST_CASE("Any number of luxels and of VPLs is right for the GPU's shafts") {
-    const mirtest::World world = mirtest::triangle_soup(60, 18, 1.0f, mir::Vec3(0.0f));
-    for (std::uint32_t luxels : {0u, 1u, 33u, 256u, 513u, 8193u})
-        for (std::uint32_t vpls : {0u, 1u, 31u, 33u, 129u}) {
-            CAPTURE(luxels, vpls);
-            const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
-            CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
-        }
+    mirtest::shaft_count_suite(by_default, {0, 1, 33, 256, 513, 8193}, {0, 1, 31, 33, 129});
 }
 
 TEST_CASE("Luxels that the GPU puts into clusters by pages keep their bits") {

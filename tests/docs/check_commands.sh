@@ -30,7 +30,7 @@ complain() { printf '%s\n' "$*" | tee -a "$bad" >&2; }
 
 # Every command on one line: page, line, what to do with its block, command; between tabs.
 list_commands() {
-    for page in README.md docs/*.md examples/*/README.md; do
+    for page in *.md docs/*.md docs/decisions/*.md examples/*/README.md; do
         awk -v page="$page" '
             inside && $0 == "```" { inside = 0; next }
             inside {
@@ -126,7 +126,7 @@ done <"$work/commands"
 
 if [ "$which" = quick ]; then
     # shellcheck disable=SC2016
-    grep -noE '`(mir|\./render\.sh) [^`]*`' README.md docs/*.md | tr -d '`' >"$work/inline"
+    grep -noE '`(mir|\./render\.sh) [^`]*`' *.md docs/*.md docs/decisions/*.md | tr -d '`' >"$work/inline"
     while IFS= read -r found; do
         place=$(printf '%s\n' "$found" | cut -d: -f1,2)
         check_options "$place" "$(printf '%s\n' "$found" | cut -d: -f3-)"

@@ -17,7 +17,7 @@ bad=$work/bad
 
 complain() { printf '%s\n' "$*" | tee -a "$bad" >&2; }
 
-pages() { ls README.md docs/*.md examples/*/README.md; }
+pages() { ls ./*.md docs/*.md docs/decisions/*.md examples/*/README.md | sed 's,^\./,,'; }
 
 # Lines of a region between "// region: NAME" and "// endregion: NAME" without their common indent;
 # without NAME the whole file after its licence line.
@@ -99,8 +99,13 @@ check_links() {
     done
     # Pages that nobody can reach are not read.
     for page in docs/*.md; do
-        [ "$page" = docs/index.md ] || grep -q "(${page#docs/})" docs/index.md ||
-            complain "docs/index.md does not list $page"
+        [ "$page" = docs/README.md ] || grep -q "(${page#docs/})" docs/README.md ||
+            complain "docs/README.md does not list $page"
+    done
+    for page in docs/decisions/*.md; do
+        [ "$page" = docs/decisions/README.md ] ||
+            grep -q "(${page#docs/decisions/})" docs/decisions/README.md ||
+            complain "docs/decisions/README.md does not list $page"
     done
     for page in examples/*/README.md; do
         grep -q "(../$page)" docs/embedding.md || complain "docs/embedding.md does not list $page"
@@ -111,15 +116,20 @@ check_links() {
 check_paths() {
     for page in $(pages); do
         # shellcheck disable=SC2016
-        grep -oE '`(include|backends|tools|tests|bench|examples|cmake|docs)/[^` ]*`' "$page" |
+        grep -oE '`(include|src|backends|tools|tests|bench|examples|cmake|docs)/[^` ]*`' "$page" |
             tr -d '`' | sort -u | while read -r path; do
                 [ -e "$path" ] || complain "$page names $path, which does not exist"
             done
         grep -nE '(^|[^[:alnum:].*/])/(home|root|work|tmp|mnt|Users|usr)/' "$page" |
             while read -r line; do complain "$page: absolute path: $line"; done
     done
-    # What the code cites: `docs/method.md, 4.2`.
-    grep -rhoE 'docs/method\.md, [0-9]+(\.[0-9]+)?' include backends tools tests bench examples |
+    # What the code cites: `docs/limits.md`, `docs/decisions/031`, `docs/method.md, 4.2`.
+    code='include src backends tools tests bench examples cmake'
+    # shellcheck disable=SC2086
+    grep -rhoE 'docs/([a-z_]+\.md|decisions/[0-9]{3})' $code | sort -u | while read -r cited; do
+        [ -e "$cited" ] || ls "$cited"-*.md >/dev/null 2>&1 || complain "the code cites $cited, which does not exist"
+    done
+    grep -rhoE 'docs/method\.md, [0-9]+(\.[0-9]+)?' include src backends tools tests bench examples |
         sort -u | while read -r reference; do
             section=${reference##* }
             grep -qE "^#+ $(printf '%s' "$section" | sed 's/\./\\./') " docs/method.md ||
@@ -168,15 +178,15 @@ check_names() {
             section 'Exit codes' | grep -q "^| $code |" ||
                 complain "docs/command_line.md does not list exit code $code"
         done
-    sed -n 's/^    {"\([a-z-]*\)", .*/\1/p' include/mir/scene/builtin.hpp >"$work/scenes"
-    [ -s "$work/scenes" ] || complain "include/mir/scene/builtin.hpp lists no scene"
+    sed -n 's/^    {"\([a-z-]*\)", .*/\1/p' src/scenes/builtin.cpp >"$work/scenes"
+    [ -s "$work/scenes" ] || complain "src/scenes/builtin.cpp lists no scene"
     listed docs/scene_files.md "built-in scene" <"$work/scenes"
 }
 
 # Names in backquotes that look like those of code, with an underscore or a capital inside, occur in
 # the tree. Not those of options, nor of what other programs call so.
 check_words() {
-    set -- include backends tools tests bench examples cmake docs/snippets CMakeLists.txt
+    set -- include src backends tools tests bench examples cmake docs/snippets CMakeLists.txt
     { grep -rhI . "$@" && find "$@"; } | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$work/known"
     printf '%s\n' CornellBox libPyImath map_Ks map_Pr | sort -u - "$work/known" >"$work/all"
     for page in $(pages); do
@@ -186,6 +196,33 @@ check_words() {
             grep -E '_|[a-z][A-Z]' | sort -u | comm -23 - "$work/all" |
             while read -r name; do
                 complain "$page names $name, which occurs nowhere in the code"
+            done
+    done
+}
+
+# Lines of prose have at most 120 columns: all but those of tables and of blocks of code.
+check_columns() {
+    for page in $(pages); do
+        awk '/^ *```/ { code = !code; print ""; next }
+             { print code || /^ *\|/ || /^    / || /^<!--/ ? "" : $0 }' "$page" |
+            grep -nE '.{121}' | cut -d: -f1 | while read -r line; do
+                complain "$page:$line: more than 120 columns"
+            done
+    done
+}
+
+# Words that no technical text of today has. Blocks of code, names in backquotes and titles in
+# quotes may hold them.
+check_english() {
+    words='anew|likewise|dear(er|est)?|foretold|foretell|but for|in place of|asked for w(as|ere)'
+    words="$words|of which|thereof|whereof|therein|wherein|hitherto|henceforth|whilst|amongst|betwixt"
+    words="$words|who of (them|these|those)"
+    for page in $(pages); do
+        # shellcheck disable=SC2016
+        awk '/^ *```/ { code = !code; print ""; next } { print code ? "" : $0 }' "$page" |
+            sed -E 's/`[^`]*`//g; s/"[^"]*"//g; s/(any|all|none|some|most|each|both) of which//g' |
+            grep -noiwE "$words" | while read -r found; do
+                complain "$page:${found%%:*}: \"${found#*:}\" is archaic"
             done
     done
 }
@@ -216,14 +253,14 @@ $(grep '^[<>]' "$work/diff")"
 # The library prints nothing and ends no process. Comments may talk of it.
 check_silence() {
     grep -rnE '\b(v?f?printf|puts|putchar|perror|abort|exit|_Exit|_exit|quick_exit|terminate) ?\(|std::(cout|cerr|clog)|\bassert\(' \
-        include backends | grep -vE '^[^:]*:[0-9]*: *//' | while read -r line; do
+        include src backends | grep -vE '^[^:]*:[0-9]*: *//' | while read -r line; do
         complain "the library prints or ends the process: $line"
     done
 }
 
 # The first two lines of a file of code name the licence.
 check_licence() {
-    find include backends tools tests bench examples cmake docs CMakeLists.txt .ci ./*.sh -type f \
+    find include src backends tools tests bench examples cmake docs CMakeLists.txt .ci ./*.sh -type f \
         \( -name '*.[ch]pp' -o -name '*.cu' -o -name '*.cuh' -o -name '*.py' -o -name '*.sh' \
         -o -name '*.cmake' -o -name CMakeLists.txt -o -path '.ci/run' \) >"$work/code"
     [ "$(wc -l <"$work/code")" -gt 100 ] || complain "no code is found"
@@ -235,9 +272,12 @@ check_licence() {
 }
 
 case $check in
-code | links | paths | options | names | words | api | silence | licence) "check_$check" ;;
+code | links | paths | options | names | words | columns | english | api | silence | licence)
+    "check_$check"
+    ;;
 *)
-    echo "usage: check_docs.sh code|links|paths|options|names|words|api|silence|licence ROOT [MIR]" >&2
+    checks='code|links|paths|options|names|words|columns|english|api|silence|licence'
+    echo "usage: check_docs.sh $checks ROOT [MIR]" >&2
     exit 2
     ;;
 esac

@@ -2,11 +2,13 @@
 #include "faults/failing_new.hpp"
 #include "faults/writers.hpp"
 #include "mir/io/exr.hpp"
+#include "mir/io/gltf_reader.hpp"
 #include "mir/io/scene_reader.hpp"
 #include "mir/scene/scene_hash.hpp"
 #include "support/catch.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <OpenEXR/ImfHeader.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

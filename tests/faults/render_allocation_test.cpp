@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "faults/failing_new.hpp"
 #include "mir/runtime/all_renderers.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 #include <cstring>

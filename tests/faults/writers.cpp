@@ -8,7 +8,7 @@
 #include "mir/io/png.hpp"
 #include "mir/io/vpl_ply.hpp"
 #include "mir/runtime/progressive_render.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "runtime/noise_renderer.hpp"
 
 #include <memory>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "mir/runtime/renderer.hpp"
-
 #include "runtime/frame_features.hpp"
 #include "support/catch.hpp"
 

@@ -107,8 +107,8 @@ struct Render {
 
     explicit Render(RenderSettings s)
         : settings(std::move(s)),
-          job({world.scene, world.geometry, mir::AnyExecutor(executor), nullptr, clock},
-              settings) {}
+          job({world.scene, world.geometry, mir::AnyExecutor(executor), nullptr, clock}, settings) {
+    }
 };
 
 }  // namespace
@@ -145,8 +145,7 @@ TEST_CASE("Other samplers stay with the executor, whatever the frame can do") {
 
 TEST_CASE("A frame on the host runs chains on the executor") {
     Render render(settings());
-    const auto frame =
-        mir::host_frame(render.job, render.traced, mir::HostScheduler::cpu_blocks);
+    const auto frame = mir::host_frame(render.job, render.traced, mir::HostScheduler::cpu_blocks);
     const mir::SampledVpls sampled = sample_vpls(*frame, bound);
     CHECK(sampled.normalisation == mir::Normalisation::image_response);
     CHECK(sampled.records.health);

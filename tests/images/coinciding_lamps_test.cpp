@@ -2,7 +2,7 @@
 //
 // Lamps that lie exactly in a wall, or in one place with another lamp: every engine and every way
 // to find lamps means the same picture.
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"

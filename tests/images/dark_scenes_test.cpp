@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes in which samplers find little or nothing: each has a defined picture and says why.
 #include "images/support.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "images/support.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"
 

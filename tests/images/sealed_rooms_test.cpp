@@ -3,7 +3,7 @@
 // Closed rooms in which nothing shines, with all light outside: not a ray may pass their edges. By
 // the library's own structures; what Embree leaks is in tests/cpu/embree_leaks_test.cpp.
 #include "images/support.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/closed_rooms.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/runtime/all_renderers.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 
 #include <array>
 #include <cmath>

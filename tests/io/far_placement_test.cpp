@@ -4,8 +4,8 @@
 #include "io/gltf_fixture.hpp"
 #include "mir/io/gltf_writer.hpp"
 #include "mir/io/scene_reader.hpp"
-#include "mir/scene/builtin.hpp"
 #include "mir/scene/scene_hash.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "io/detail/outside.hpp"
 #include "io/gltf_everything.hpp"
-#include "mir/io/detail/outside.hpp"
 #include "support/catch.hpp"
 
 #include <filesystem>

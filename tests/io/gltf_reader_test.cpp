@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/io/gltf_reader.hpp"
 
+#include "io/detail/gltf_triangles.hpp"
 #include "io/gltf_fixture.hpp"
 #include "support/catch.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/io/html_report.hpp"
 
+#include "mir/io/html_text.hpp"
 #include "support/catch.hpp"
 #include "support/temporary_folder.hpp"
 

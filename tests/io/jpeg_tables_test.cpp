@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/io/detail/jpeg_tables.hpp"
+#include "io/detail/jpeg_tables.hpp"
 
 #include "io/gltf_fixture.hpp"
 #include "support/catch.hpp"

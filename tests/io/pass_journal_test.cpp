@@ -2,7 +2,7 @@
 #include "mir/io/pass_journal.hpp"
 
 #include "mir/runtime/progressive_render.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "runtime/noise_renderer.hpp"
 #include "support/catch.hpp"
 #include "support/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/io/detail/polygon.hpp"
+#include "io/detail/polygon.hpp"
 
 #include "support/catch.hpp"
 

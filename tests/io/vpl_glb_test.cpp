@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/io/vpl_glb.hpp"
 
+#include "io/detail/gltf_arrays.hpp"
 #include "io/gltf_fixture.hpp"
-#include "mir/io/detail/gltf_arrays.hpp"
 #include "support/catch.hpp"
 #include "support/some_vpls.hpp"
 

@@ -3,11 +3,10 @@
 
 #include "conformance/stage.hpp"
 #include "kernels/brute_finder.hpp"
-#include "mir/host/tbb_executor.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
-#include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/uploaded_scene.hpp"
 #include "support/catch.hpp"
 #include "support/lazy_backend.hpp"
 

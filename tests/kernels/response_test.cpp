@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/kernels/response.hpp"
 
-#include "mir/host/tbb_executor.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/normalise/response.hpp"
 #include "mir/resident/backend_response.hpp"
 #include "mir/shading/vpl_shading.hpp"

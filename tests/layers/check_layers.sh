@@ -18,6 +18,8 @@ includes() {
         [ ! -d "backends/$component/src" ] || (cd "backends/$component/src" &&
             grep -ro '^#include "mir/[^"]*"' . | sed "s#^\./#mir/$component/#")
     done
+    # What is compiled of a row counts as that row.
+    (cd src && grep -ro '^#include "mir/[^"]*"' io scenes | sed 's#^#mir/#')
     grep -ro '^#include "mir/[^"]*detail/[^"]*"' tools/mir examples docs |
         sed 's#^#outside/#' || true
 }
@@ -29,6 +31,7 @@ includes | awk -v table=docs/architecture.md '
         n = split(path, parts, "/")
         if (path == "mir.hpp" || path == "version.hpp") return path
         if (n == 1) return (path in row) ? path : "*.hpp"
+        if ((parts[1] ".hpp") in row) return parts[1] ".hpp"
         if ((parts[1] "/" parts[2]) in row) return parts[1] "/" parts[2]
         return parts[1]
     }

@@ -3,7 +3,7 @@
 
 #include "mir/metropolis/bootstrap.hpp"
 #include "mir/metropolis/systematic_resampling.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"

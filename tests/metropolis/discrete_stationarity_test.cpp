@@ -1,42 +1,31 @@
 // SPDX-License-Identifier: MIT
 // Detailed balance of the acceptance rules, by exact enumeration of everything that can happen on a
 // few states. A rule is right when |pi_i P_ij - pi_j P_ji| vanishes to rounding.
-#include "metropolis/exact_chain.hpp"
-#include "mir/metropolis/multiple_try.hpp"
-#include "mir/metropolis/small_step.hpp"
+#include "metropolis/exact_rules.hpp"
 #include "support/catch.hpp"
 
 #include <numeric>
 #include <vector>
 
+using mirtest::balanced;
+using mirtest::broken;
 using mirtest::completed;
 using mirtest::imbalance;
+using mirtest::independent_tries;
+using mirtest::loser_reuse;
 using mirtest::no_transitions;
+using mirtest::single_try;
 using mirtest::stationary_error;
+using mirtest::target;
 using mirtest::TransitionMatrix;
+using mirtest::Weights;
 
 namespace {
 
-using Weights = std::vector<double>;
-
-constexpr double balanced = 1e-12;
-constexpr double broken = 1e-3;
-
-const Weights target = {0.1, 0.35, 0.05, 0.5};
 const TransitionMatrix asymmetric = {
     {0.1, 0.6, 0.2, 0.1}, {0.3, 0.1, 0.1, 0.5}, {0.7, 0.1, 0.1, 0.1}, {0.25, 0.05, 0.4, 0.3}};
 const TransitionMatrix symmetric = {
     {0.1, 0.4, 0.3, 0.2}, {0.4, 0.3, 0.1, 0.2}, {0.3, 0.1, 0.5, 0.1}, {0.2, 0.2, 0.1, 0.5}};
-
-/// The chain that proposes by `t` and accepts j after i with rule(i, j).
-template <class Rule>
-TransitionMatrix single_try(const TransitionMatrix& t, const Rule& rule) {
-    TransitionMatrix p = no_transitions(t.size());
-    for (std::size_t i = 0; i < t.size(); ++i)
-        for (std::size_t j = 0; j < t.size(); ++j)
-            if (i != j && t[i][j] > 0.0) p[i][j] = t[i][j] * rule(i, j);
-    return completed(p);
-}
 
 /// Generic multiple-try Metropolis (Liu, Liang, Wong 2000) with tries by `t`, drawn backwards too,
 /// and weights w(y, x). accept(x, y, forward sum, backward sum) is the probability of acceptance.
@@ -72,34 +61,6 @@ double ratio_of_sums(std::size_t, std::size_t, double forward, double backward) 
     return mir::acceptance(backward, forward);
 }
 
-/// Multiple-try Metropolis with `tries` independent candidates of probabilities `q`. Weights must
-/// be whole numbers: the choice then changes only at multiples of 1 / sum, and the midpoints
-/// between those stand for every number it may get. rule(w of the current state, weights, number).
-template <class Rule>
-TransitionMatrix independent_tries(const Weights& w, const Weights& q, std::size_t tries,
-                                   const Rule& rule) {
-    TransitionMatrix p = no_transitions(w.size());
-    mirtest::for_each_tuple(w.size(), tries, [&](const std::vector<std::size_t>& drawn) {
-        double probability = 1.0, sum = 0.0;
-        Weights weights;
-        for (std::size_t y : drawn) {
-            probability *= q[y];
-            sum += w[y];
-            weights.push_back(w[y]);
-        }
-        for (std::size_t x = 0; x < w.size(); ++x)
-            for (int k = 0; k < static_cast<int>(sum) && w[x] > 0.0; ++k) {
-                const mir::MultipleTry step = rule(w[x], weights, (k + 0.5) / sum);
-                p[x][drawn[step.chosen]] += probability / sum * step.acceptance;
-            }
-    });
-    return completed(p);
-}
-
-mir::MultipleTry loser_reuse(double current, const Weights& candidates, double choice) {
-    return mir::multiple_try(current, candidates, choice, 0.0);
-}
-
 /// The winner judged as if it had been the only candidate.
 mir::MultipleTry winner_alone(double current, const Weights& candidates, double choice) {
     mir::MultipleTry step = loser_reuse(current, candidates, choice);
@@ -133,35 +94,6 @@ Weights product(const Weights& a, const Weights& b) {
     Weights c;
     for (std::size_t i = 0; i < a.size(); ++i) c.push_back(a[i] * b[i]);
     return c;
-}
-
-/// Primary sample space in one dimension, cut into cells: the share of all numbers with which the
-/// library's small step moves the middle of one cell into another.
-TransitionMatrix small_steps(std::size_t cells) {
-    const mir::SmallStep step(0.03f, 0.4f);
-    constexpr int numbers = 4096;
-    TransitionMatrix t = no_transitions(cells);
-    for (std::size_t i = 0; i < cells; ++i)
-        for (int k = 0; k < numbers; ++k) {
-            const float middle = (static_cast<float>(i) + 0.5f) / static_cast<float>(cells);
-            const float to = step.perturb(middle, static_cast<float>(k) / numbers);
-            t[i][static_cast<std::size_t>(to * static_cast<float>(cells))] += 1.0 / numbers;
-        }
-    return t;
-}
-
-/// Contributions I(u) of the cells of a toy: a bright feature, dark gaps.
-const Weights toy = {1, 1, 7, 4, 0, 0, 2, 1, 1, 0, 3, 1, 1, 1, 0, 2};
-
-TransitionMatrix large_toy_steps(std::size_t tries) {
-    const Weights uniform(toy.size(), 1.0 / static_cast<double>(toy.size()));
-    return independent_tries(toy, uniform, tries, loser_reuse);
-}
-
-TransitionMatrix small_toy_steps() {
-    return single_try(small_steps(toy.size()), [](std::size_t i, std::size_t j) {
-        return toy[i] > 0.0 ? mir::acceptance(toy[i], toy[j]) : 0.0;
-    });
 }
 
 }  // namespace
@@ -288,67 +220,5 @@ TEST_CASE("wrong rules over independent candidates are rejected") {
     SECTION("weights that are not divided by the proposal's density") {
         CHECK(imbalance(whole_weights, independent_tries(whole_weights, proposal, 3, loser_reuse)) >
               broken);
-    }
-}
-
-TEST_CASE("candidates that share random numbers are rejected") {
-    // The second candidate is the neighbour of the first: each is uniform, the pair is not.
-    const std::size_t n = toy.size();
-    TransitionMatrix p = no_transitions(n);
-    for (std::size_t x = 0; x < n; ++x)
-        for (std::size_t first = 0; first < n && toy[x] > 0.0; ++first) {
-            const std::size_t second = (first + 1) % n;
-            const double sum = toy[first] + toy[second];
-            for (int k = 0; k < static_cast<int>(sum); ++k) {
-                const auto step = loser_reuse(toy[x], {toy[first], toy[second]}, (k + 0.5) / sum);
-                p[x][step.chosen == 0 ? first : second] +=
-                    step.acceptance / sum / static_cast<double>(n);
-            }
-        }
-    CHECK(imbalance(toy, completed(p)) > broken);
-}
-
-TEST_CASE("large and small steps in primary sample space are in detailed balance") {
-    const TransitionMatrix small = small_toy_steps();
-    CHECK(imbalance(toy, small) < balanced);
-    for (std::size_t tries : {1u, 2u, 3u}) {
-        CAPTURE(tries);
-        const TransitionMatrix large = large_toy_steps(tries);
-        CHECK(imbalance(toy, large) < balanced);
-        const auto half = [](std::size_t) { return 0.5; };
-        CHECK(imbalance(toy, mirtest::mixture(large, small, half)) < balanced);
-        CHECK(stationary_error(toy, mirtest::mixture(large, small, half)) < balanced);
-    }
-}
-
-TEST_CASE("wrong steps in primary sample space are rejected") {
-    SECTION("a share of large steps that depends on the state") {
-        const auto share = [](std::size_t i) { return toy[i] > 2.0 ? 0.2 : 0.8; };
-        CHECK(imbalance(toy, mirtest::mixture(large_toy_steps(2), small_toy_steps(), share)) >
-              broken);
-    }
-    SECTION("a small step that moves one way") {
-        TransitionMatrix upwards = small_steps(toy.size());
-        for (std::size_t i = 0; i < toy.size(); ++i)
-            for (std::size_t j = 0; j < toy.size(); ++j)
-                upwards[i][j] *= (j + toy.size() - i) % toy.size() < toy.size() / 2 ? 2.0 : 0.0;
-        CHECK(imbalance(toy, single_try(upwards, [](std::size_t i, std::size_t j) {
-                            return toy[i] > 0.0 ? mir::acceptance(toy[i], toy[j]) : 0.0;
-                        })) > broken);
-    }
-    SECTION("a small step that is clamped at the border") {
-        TransitionMatrix clamped = no_transitions(4);
-        for (std::size_t i = 0; i < 4; ++i) {
-            clamped[i][std::min<std::size_t>(i + 2, 3)] += 0.5;
-            clamped[i][i < 2 ? 0 : i - 2] += 0.5;
-        }
-        CHECK(imbalance(target, single_try(clamped, [](std::size_t i, std::size_t j) {
-                            return mir::acceptance(target[i], target[j]);
-                        })) > broken);
-    }
-    SECTION("every proposal with contribution accepted") {
-        CHECK(imbalance(toy, single_try(small_steps(toy.size()), [](std::size_t i, std::size_t j) {
-                            return toy[i] > 0.0 && toy[j] > 0.0 ? 1.0 : 0.0;
-                        })) > broken);
     }
 }

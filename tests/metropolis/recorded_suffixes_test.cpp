@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/sampling/metropolis_sampler.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
 #include "support/path_lab.hpp"

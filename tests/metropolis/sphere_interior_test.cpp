@@ -8,7 +8,7 @@
 #include "mir/place_vpls.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sampling/metropolis_sampler.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/vpl_shading.hpp"

@@ -2,7 +2,7 @@
 #include "mir/metropolis/suffix_refresh.hpp"
 
 #include "mir/metropolis/acceptance.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"

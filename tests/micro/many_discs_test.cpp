@@ -2,7 +2,7 @@
 #include "micro/nearest_triangle.hpp"
 #include "micro/surfel_worlds.hpp"
 #include "mir/micro/surfel_traverse.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;

@@ -4,7 +4,7 @@
 #include "conformance/brute_force.hpp"
 #include "micro/shining_discs.hpp"
 #include "mir/micro/surfel_direct_light.hpp"
-#include "mir/scene/builtin/check_rooms.hpp"
+#include "mir/scene/check_rooms.hpp"
 #include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
 

@@ -15,7 +15,8 @@ function(use_prefix prefix build)
 endfunction()
 
 install_mir(${SCRATCH}/prefix)
-use_prefix(${SCRATCH}/prefix ${SCRATCH}/first)
+# mir::io was compiled with nlohmann-json, and needs it no more.
+use_prefix(${SCRATCH}/prefix ${SCRATCH}/first -D CMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON)
 
 file(GLOB_RECURSE config ${SCRATCH}/prefix/*.cmake)
 foreach(file IN LISTS config)

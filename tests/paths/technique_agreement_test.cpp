@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"

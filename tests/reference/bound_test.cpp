@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The bound of the geometry term: what the path tracer keeps is what VplShading keeps.
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "studio.hpp"
 #include "support/analytic_sphere.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The path tracer against numbers known in closed form (docs/method.md, 9).
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "studio.hpp"
 #include "support/catch.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The path tracer under an environment.
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "studio.hpp"

@@ -4,7 +4,7 @@
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/host/tbb_executor.hpp"
 #include "mir/reference/trace_reference.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
 

@@ -2,7 +2,7 @@
 #include "mir/reference/path_tracer.hpp"
 
 #include "mir/direct_light.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "studio.hpp"

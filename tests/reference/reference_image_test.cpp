@@ -2,7 +2,7 @@
 #include "mir/reference/reference_image.hpp"
 
 #include "mir/runtime/cancellable_executor.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "studio.hpp"
 #include "support/catch.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/reference/path_tracer.hpp"
-#include "mir/scene/builtin/check_rooms.hpp"
+#include "mir/scene/check_rooms.hpp"
 #include "support/catch.hpp"
 #include "support/textured_scene.hpp"
 

@@ -2,7 +2,7 @@
 //
 // Every way to find light and to spend samples has one expectation, bounce by bounce.
 #include "conformance/stage.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "studio.hpp"

@@ -3,8 +3,12 @@
 
 #include "images/support.hpp"
 #include "mir/runtime/all_renderers.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
+
+#include <array>
+#include <optional>
+#include <thread>
 
 namespace {
 
@@ -89,4 +93,25 @@ TEST_CASE("a monitor sees what mir::render did") {
         mir::render(mir::builtin::make("sphere"), quick_settings(), &monitor);
     CHECK(monitor.contributions >= result.statistics.contributions);
     CHECK(monitor.contributions == monitor.planned_contributions);
+}
+
+TEST_CASE("one Renderer renders on several threads at once, and each gets the bytes of one alone") {
+    const mir::Scene scene = mir::builtin::make("cornell-box");
+    mir::Registry registry;
+    mir::add_all_to(registry);
+    const auto renderer = registry.make(mir::BackendKind::cpu, "");
+    std::array<mir::RenderSettings, 4> settings;
+    std::array<std::optional<mir::RenderResult>, 4> together;
+    std::array<std::thread, 4> threads;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        settings[i] = quick_settings();
+        settings[i].seed = i;
+        settings[i].integrator = i == 3 ? mir::Integrator::path : mir::Integrator::vpl;
+        threads[i] =
+            std::thread([&, i] { together[i] = renderer->render(scene, settings[i], nullptr); });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (std::uint32_t i = 0; i < 4; ++i)
+        CHECK(mirtest::same_bits(together[i]->beauty,
+                                 renderer->render(scene, settings[i], nullptr).beauty));
 }

@@ -2,7 +2,7 @@
 #include "mir/resident/backend_metropolis.hpp"
 
 #include "mir/host/tbb_executor.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"

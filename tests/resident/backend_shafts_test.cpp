@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/device/backend_shafts.hpp"
 
-#include "mir/host/tbb_executor.hpp"
+#include "conformance/shaft_suite.hpp"
 #include "mir/host/backend.hpp"
-#include "shaft/shaft_stage.hpp"
-#include "support/catch.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "support/lazy_backend.hpp"
 #include "support/shaft_words.hpp"
 
@@ -29,16 +28,12 @@ std::vector<std::uint32_t> words(const ShaftStage& stage,
     return mirtest::shaft_words(HostBackend(executor), input(stage), options, trace);
 }
 
+const auto by_default = [](const ShaftStage& stage) { return words(stage); };
+
 }  // namespace
 
 TEST_CASE("Shafts of a backend give the bits of every triangle asked") {
-    const auto [scale, x] =
-        GENERATE(table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}}));
-    const bool needles = GENERATE(false, true);
-    INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
-    const mirtest::World world = soup(needles, scale, x);
-    const ShaftStage stage = stage_of(world, 2000, 40);
-    CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
+    mirtest::shaft_soup_suite(by_default);
 }
 
 TEST_CASE("Most pairs of a closed room are decided without a single segment") {
@@ -84,7 +79,7 @@ TEST_CASE("Nothing of a deep hierarchy is lost, and lanes take new pairs while o
 }
 
 TEST_CASE("No limit of a backend's shafts changes a bit") {
-    const mirtest::World world = soup(GENERATE(false, true), 1.0f, 0.0f);
+    const mirtest::World world = soup(GENERATE(false, true));
     const ShaftStage stage = stage_of(world, 700, 30);
     const auto truth = stage.by_brute_force();
     for (std::uint32_t of_block : {0u, 1u, 2u, 5u, 1000u})
@@ -95,7 +90,7 @@ TEST_CASE("No limit of a backend's shafts changes a bit") {
 }
 
 TEST_CASE("No batch of VPLs and no number of groups changes a bit") {
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const mirtest::World world = soup(false);
     const ShaftStage stage = stage_of(world, 3000, 37);
     const auto truth = stage.by_brute_force();
     for (std::uint32_t vpls : {1u, 2u, 36u, 37u, 38u})
@@ -108,7 +103,7 @@ TEST_CASE("No batch of VPLs and no number of groups changes a bit") {
 }
 
 TEST_CASE("No room for leaves changes a bit") {
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const mirtest::World world = soup(false);
     const ShaftStage stage = stage_of(world, 3000, 37);
     const auto truth = stage.by_brute_force();
     for (std::uint32_t leaves : {0u, 1u, 7u, 8u, 9u, 100u, 5000u}) {
@@ -118,20 +113,12 @@ TEST_CASE("No room for leaves changes a bit") {
 }
 
 TEST_CASE("Any number of luxels and of VPLs is right for a backend's shafts") {
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
-    for (std::uint32_t luxels : {0u, 1u, 33u, 256u, 513u, 8193u})
-        for (std::uint32_t vpls : {0u, 1u, 33u}) {
-            CAPTURE(luxels, vpls);
-            const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
-            CHECK(different_bits(words(stage), stage.by_brute_force()) == 0);
-        }
+    mirtest::shaft_count_suite(by_default, {0, 1, 33, 256, 513, 8193}, {0, 1, 33});
 }
 
 TEST_CASE("Luxels and VPLs beyond reach, and those that are no number, are asked one by one") {
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
-    Lit lit = mirtest::random_lit(world.geometry, 500, 40, mirtest::test_random(22));
-    for (std::size_t i = 0; i < lit.luxels.size(); i += 5) lit.luxels[i].position *= 40.0f;
-    for (std::size_t j = 0; j < lit.vpls.size(); j += 3) lit.vpls[j].position *= 1e4f;
+    const mirtest::World world = soup(false);
+    Lit lit = mirtest::lit_beyond_reach(world);
     lit.luxels[77].position.y = std::numeric_limits<float>::quiet_NaN();
     const ShaftStage stage(world.geometry, lit);
     CHECK(different_bits(words(stage), stage.by_segments()) == 0);
@@ -139,25 +126,23 @@ TEST_CASE("Luxels and VPLs beyond reach, and those that are no number, are asked
 
 TEST_CASE("A luxel that is no number changes no bit of its neighbours by a backend's shafts") {
     const bool room = GENERATE(false, true);
-    const mirtest::World world = room ? mirtest::sphere_in_box() : soup(false, 1.0f, 0.0f);
-    Lit lit =
+    const mirtest::World world = room ? mirtest::sphere_in_box() : soup(false);
+    const Lit lit =
         mirtest::clustered(mirtest::random_lit(world.geometry, 5120, 60, mirtest::test_random(23)));
     const std::size_t first = GENERATE(std::size_t{0}, 1, 16, 40);
     const int axis = GENERATE(0, 1, 2);
     CAPTURE(room, first, axis);
-    for (std::size_t i = first; i < lit.luxels.size(); i += 48)
-        lit.luxels[i].position[axis] = std::numeric_limits<float>::quiet_NaN();
-    const ShaftStage stage(world.geometry, lit);
+    const ShaftStage stage(world.geometry, mirtest::with_nan(lit, first, 48, axis));
     CHECK(different_bits(words(stage), stage.by_segments()) == 0);
 }
 
 TEST_CASE("Shafts of a backend refuse what they have no room for") {
     mir::InlineExecutor executor;
     const HostBackend backend(executor);
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const mirtest::World world = soup(false);
     const ShaftStage stage = stage_of(world, 500, 9);
     auto queue = backend.queue();
-    const mir::UploadedWideBvh<HostBackend> bvh(backend, queue, stage.bvh());
+    const mirtest::UploadedWideBvh<HostBackend> bvh(backend, queue, stage.bvh());
     const mir::ClusterVisibility<mir::WideBvhVisibility<mir::Space::host>> visibility{
         bvh.quantised(), stage.sigma(), {bvh.view()}};
     std::vector<std::uint32_t> out(512 / 32 * 9);
@@ -183,7 +168,7 @@ TEST_CASE("Luxels that are put into clusters by pages keep their bits") {
         GENERATE(table<std::uint32_t, std::uint32_t>({{2, 2}, {4, 2}, {5, 2}, {1, 8}, {3, 3}}));
     INFO(blocks_x << " x " << blocks_y << " blocks");
     const mir::BlockedLayout layout{blocks_x, blocks_y};
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const mirtest::World world = soup(false);
     const ShaftStage stage = stage_of(world, layout.size(), 70);
     REQUIRE(stage.hits().stride == layout.size());
     mirtest::ShaftInput in = input(stage);

@@ -2,7 +2,7 @@
 #include "mir/runtime/check_scene.hpp"
 
 #include "mir/runtime/check_world.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support/catch.hpp"
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/runtime/frame_scene.hpp"
 
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 #include <limits>

@@ -3,8 +3,8 @@
 
 #include "conformance/sampler_suite.hpp"
 #include "mir/host/tbb_executor.hpp"
-#include "mir/scene/builtin.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/analytic_sphere.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/sampling/emission.hpp"
 
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"
 #include "support/test_sky.hpp"

@@ -2,7 +2,7 @@
 // Where the power of the lamps goes: in a closed room all of it is absorbed.
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"

@@ -4,7 +4,7 @@
 #include "conformance/brute_force.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "mir/fill_gbuffer.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/analytic_sphere.hpp"

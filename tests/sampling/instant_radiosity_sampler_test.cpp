@@ -3,7 +3,7 @@
 
 #include "conformance/brute_force.hpp"
 #include "conformance/sampler_suite.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"

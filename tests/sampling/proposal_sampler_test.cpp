@@ -3,7 +3,7 @@
 
 #include "conformance/sampler_suite.hpp"
 #include "mir/host/tbb_executor.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"

@@ -2,7 +2,7 @@
 #include "mir/data/gbuffer.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "mir/sched/cpu.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/vpl_shading.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/sampling/target_floor.hpp"
 
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
 #include "support/sampler_light.hpp"

@@ -2,7 +2,7 @@
 #include "mir/sampling/vpl_generator.hpp"
 
 #include "mir/paths/each_path.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin/shapes.hpp"
 #include "mir/scene/light_table.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
 

@@ -2,7 +2,7 @@
 #include "mir/scene/light_table.hpp"
 
 #include "mir/core/random.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mir/scene/recentre.hpp"
 
-#include "mir/scene/builtin.hpp"
 #include "mir/scene/scene_hash.hpp"
 #include "mir/scene/world_geometry.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 #include <cstdint>

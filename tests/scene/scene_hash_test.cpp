@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/scene/scene_hash.hpp"
 
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 #include "support/test_sky.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 
 #include "support/catch.hpp"
 #include "support/mesh_measures.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/scene/world_geometry.hpp"
 
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
 

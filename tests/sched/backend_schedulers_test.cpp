@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/brute_force.hpp"
 #include "conformance/scheduler_suite.hpp"
-#include "mir/host/tbb_executor.hpp"
 #include "mir/fill_visibility.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/reshade.hpp"
 #include "mir/sched/reconstruct.hpp"
 #include "mir/sched/reconstruct_visibility_parallel.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "segments/compare_engines.hpp"
 #include "support/catch.hpp"
 #include "support/fused_visibility.hpp"

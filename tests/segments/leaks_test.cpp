@@ -75,7 +75,7 @@ class Structures {
     explicit Structures(const mirtest::World& world)
         : tree_(world.geometry),
           bvh_(world.geometry),
-          lanes_(mir::make_triangle_lanes(bvh_.bvh().triangles())) {}
+          lanes_(mir::make_triangle_lanes(bvh_.tree().triangles())) {}
 
     /// A way to ask for a block of segments: how many pass.
     struct Way {
@@ -87,11 +87,11 @@ class Structures {
     /// object stays where it is.
     [[nodiscard]] std::vector<Way> ways() const {
         std::vector<Way> all{{"kd-tree", one_by_one(tree_.tree().view())},
-                             {"wide hierarchy", one_by_one(bvh_.bvh().view())}};
+                             {"wide hierarchy", one_by_one(bvh_.tree().view())}};
         for (const mir::InstructionSet set : mirtest::instruction_sets()) {
             all.push_back({named("packets, kd-tree", set), by_packets(tree_.tree().view(), set)});
             all.push_back(
-                {named("packets, wide hierarchy", set), by_packets(bvh_.bvh().view(), set)});
+                {named("packets, wide hierarchy", set), by_packets(bvh_.tree().view(), set)});
             all.push_back({named("shafts", set), by_shafts(set)});
         }
         return all;
@@ -123,7 +123,7 @@ class Structures {
     [[nodiscard]] std::function<std::size_t(const LeakBlock&)> by_shafts(
         mir::InstructionSet set) const {
         return [this, set](const LeakBlock& block) {
-            const mir::ShaftVisibility shafts{bvh_.bvh().view(), lanes_.data(), {}, {}};
+            const mir::ShaftVisibility shafts{bvh_.tree().view(), lanes_.data(), {}, {}};
             return count_shafts(block, shafts, set);
         };
     }

@@ -10,7 +10,7 @@
 #include <iostream>
 
 // Random segments through whole scenes: 20 000 for each of the smaller ones in every run, as many
-// as MIR_TEST_SEGMENTS says for each of the six otherwise (docs/validation.md has the figures for
+// as MIR_TEST_SEGMENTS says for each of the six otherwise (docs/decisions/049 has the figures for
 // 10^7). Hypothesis: kd-tree and Embree have different answers only within rounding, and for less
 // than one in 1e5 of the segments that meet edges by chance. Seed: that of test_random().
 
@@ -27,7 +27,7 @@ std::uint64_t most_disagreements(std::uint64_t asked) {
     return std::max<std::uint64_t>(4, asked / 100000);
 }
 
-/// Lines of the table in docs/validation.md.
+/// Lines of the table in docs/decisions/049.
 void print(std::string_view scene, const Comparison& c) {
     const auto line = [&](const char* kinds, const Disagreements& d) {
         std::cout << "| " << scene << " | " << kinds << " | " << d.asked << " | "

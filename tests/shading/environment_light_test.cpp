@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shading/environment_light.hpp"
 
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
 #include "support/free_sight.hpp"

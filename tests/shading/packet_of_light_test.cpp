@@ -2,7 +2,7 @@
 #include "mir/shading/packet_of_light.hpp"
 
 #include "conformance/worlds.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/shapes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/environment_light.hpp"
 #include "mir/shading/scene_light.hpp"

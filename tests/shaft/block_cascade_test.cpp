@@ -2,10 +2,8 @@
 #include "mir/shaft/host/block_cascade.hpp"
 
 #include "accel/build_worlds.hpp"
+#include "conformance/shaft_suite.hpp"
 #include "shaft/block_words.hpp"
-#include "support/catch.hpp"
-
-#include <limits>
 
 // Words by whole blocks against every triangle asked, bit for bit: docs/shafts.md.
 
@@ -18,18 +16,14 @@ using mirtest::ShaftStage;
 using mirtest::soup;
 using mirtest::stage_of;
 
+const auto by_default = [](const ShaftStage& stage) { return by_blocks(stage); };
+
 }  // namespace
 
 TEST_CASE("Blocks give the bits of every triangle asked") {
-    const auto [scale, x] =
-        GENERATE(table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}}));
-    const bool needles = GENERATE(false, true);
-    INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
-    const mirtest::World world = soup(needles, scale, x);
-    const ShaftStage stage = stage_of(world, 2000, 40);
-    const std::vector<std::uint32_t> truth = stage.by_brute_force();
-    for (mir::InstructionSet set : mirtest::instruction_sets())
-        CHECK(different_bits(by_blocks(stage, {}, set), truth) == 0);
+    for (const mir::InstructionSet set : mirtest::instruction_sets())
+        mirtest::shaft_soup_suite(
+            [set](const ShaftStage& stage) { return by_blocks(stage, {}, set); });
 }
 
 TEST_CASE("Blocks in closed rooms give the bits of every triangle asked") {
@@ -92,13 +86,7 @@ TEST_CASE("Triangles that lie in several leaves change no bit of a block") {
 }
 
 TEST_CASE("Blocks of any number of luxels are right") {
-    const mirtest::World world = soup(false);
-    for (std::uint32_t luxels : {0u, 1u, 15u, 17u, 256u, 257u, 513u})
-        for (std::uint32_t vpls : {0u, 1u, 33u}) {
-            CAPTURE(luxels, vpls);
-            const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
-            CHECK(different_bits(by_blocks(stage), stage.by_brute_force()) == 0);
-        }
+    mirtest::shaft_count_suite(by_default, {0, 1, 15, 17, 256, 257, 513}, {0, 1, 33});
 }
 
 TEST_CASE("Luxels that are scattered over the scene give the same bits") {
@@ -113,21 +101,12 @@ TEST_CASE("Luxels that are scattered over the scene give the same bits") {
 
 TEST_CASE("Luxels and VPLs beyond reach give the bits of single segments") {
     const mirtest::World world = soup(false);
-    Lit lit = mirtest::random_lit(world.geometry, 500, 40, mirtest::test_random(22));
-    for (std::size_t i = 0; i < lit.luxels.size(); i += 5) lit.luxels[i].position *= 40.0f;
-    for (std::size_t j = 0; j < lit.vpls.size(); j += 3) lit.vpls[j].position *= 1e4f;
-    const ShaftStage stage(world.geometry, mirtest::clustered(lit));
+    const ShaftStage stage(world.geometry, mirtest::clustered(mirtest::lit_beyond_reach(world)));
     CHECK(different_bits(by_blocks(stage), stage.by_segments()) == 0);
 }
 
 TEST_CASE("Scenes larger than the proofs reach give the bits of single segments") {
-    constexpr float scale = 2e18f;
-    const mirtest::World small = soup(false);
-    const mirtest::World world = soup(false, scale);
-    Lit lit = mirtest::random_lit(small.geometry, 500, 20, mirtest::test_random(24));
-    for (mir::Hit& hit : lit.luxels) hit.position *= scale;
-    for (mir::Vpl& vpl : lit.vpls) vpl.position *= scale;
-    const ShaftStage stage(world.geometry, mirtest::clustered(lit));
+    const ShaftStage stage = mirtest::stage_beyond_proofs();
     CHECK(different_bits(by_blocks(stage), stage.by_segments()) == 0);
 }
 
@@ -135,26 +114,17 @@ TEST_CASE("A luxel that is not a number changes no bit of the block around it") 
     const mirtest::World world = soup(false);
     const Lit lit =
         mirtest::clustered(mirtest::random_lit(world.geometry, 512, 30, mirtest::test_random(23)));
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (std::size_t first : {0u, 1u, 16u, 40u})
-        for (int axis = 0; axis < 3; ++axis) {
+    for (const std::size_t first : {0u, 1u, 16u, 40u})
+        for (const int axis : {0, 1, 2}) {
             CAPTURE(first, axis);
-            Lit broken = lit;
-            for (std::size_t i = first; i < broken.luxels.size(); i += 48)
-                broken.luxels[i].position[axis] = nan;
-            const ShaftStage stage(world.geometry, broken);
+            const ShaftStage stage(world.geometry, mirtest::with_nan(lit, first, 48, axis));
             CHECK(different_bits(by_blocks(stage), stage.by_segments()) == 0);
             CHECK(different_bits(by_blocks(stage, {1, 1}), stage.by_segments()) == 0);
         }
 }
 
 TEST_CASE("A block in a world without triangles sees everything it faces") {
-    const mirtest::World world{mir::Scene{}};
-    Lit lit;
-    lit.luxels.assign(40, {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}});
-    lit.vpls.push_back({{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}, {1.0f, 1.0f, 1.0f}});
-    const ShaftStage stage(world.geometry, lit);
-    CHECK(by_blocks(stage) == std::vector<std::uint32_t>{~0u, 0xFFu, 0, 0, 0, 0, 0, 0});
+    mirtest::shaft_empty_suite(by_default);
 }
 
 namespace {

@@ -5,7 +5,7 @@
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/core/morton.hpp"
 #include "mir/fill_gbuffer.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/backwards_executor.hpp"
 #include "support/catch.hpp"
 #include "support/soa_run.hpp"

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/shafts/shaft_pass.hpp"
 
-#include "shaft/shaft_stage.hpp"
-#include "support/catch.hpp"
-
-#include <limits>
+#include "conformance/shaft_suite.hpp"
 
 // Words by shafts against every triangle asked, bit for bit: docs/shafts.md.
 
@@ -17,6 +14,8 @@ using mirtest::ShaftStage;
 using mirtest::soup;
 using mirtest::stage_of;
 
+const auto by_shafts = [](const ShaftStage& stage) { return stage.by_shafts(); };
+
 /// Blocks and VPLs that a ShaftPass did not search.
 std::uint64_t unknown_blocks(const ShaftStage& stage) {
     mir::PairTally tally;
@@ -26,15 +25,7 @@ std::uint64_t unknown_blocks(const ShaftStage& stage) {
 
 }  // namespace
 
-TEST_CASE("Shafts give the bits of every triangle asked") {
-    const auto [scale, x] =
-        GENERATE(table<float, float>({{1.0f, 0.0f}, {1e-3f, 0.0f}, {1e3f, 0.0f}, {1.0f, 30.0f}}));
-    const bool needles = GENERATE(false, true);
-    INFO("scale " << scale << ", moved by " << x << (needles ? ", needles" : ""));
-    const mirtest::World world = soup(needles, scale, x);
-    const ShaftStage stage = stage_of(world, 2000, 40);
-    CHECK(different_bits(stage.by_shafts(), stage.by_brute_force()) == 0);
-}
+TEST_CASE("Shafts give the bits of every triangle asked") { mirtest::shaft_soup_suite(by_shafts); }
 
 TEST_CASE("All that may become of a pair does") {
     const mirtest::World world = mirtest::sphere_in_box();
@@ -53,7 +44,7 @@ TEST_CASE("All that may become of a pair does") {
 }
 
 TEST_CASE("No limit of a search changes a bit") {
-    const mirtest::World world = soup(GENERATE(false, true), 1.0f, 0.0f);
+    const mirtest::World world = soup(GENERATE(false, true));
     const ShaftStage stage = stage_of(world, 700, 30);
     const std::vector<std::uint32_t> truth = stage.by_brute_force();
     for (std::uint32_t nodes : {0u, 1u, 2u, 3u, 5u, 8u, 1000u})
@@ -66,7 +57,7 @@ TEST_CASE("No limit of a search changes a bit") {
 }
 
 TEST_CASE("No order of luxels changes a bit") {
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const mirtest::World world = soup(false);
     const Lit lit = mirtest::random_lit(world.geometry, 700, 30, mirtest::test_random(20));
     Lit reversed = lit;
     std::reverse(reversed.luxels.begin(), reversed.luxels.end());
@@ -80,13 +71,7 @@ TEST_CASE("No order of luxels changes a bit") {
 }
 
 TEST_CASE("Any number of luxels and of VPLs is right") {
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
-    for (std::uint32_t luxels : {0u, 1u, 31u, 32u, 33u, 256u, 511u, 513u})
-        for (std::uint32_t vpls : {0u, 1u, 31u, 33u}) {
-            CAPTURE(luxels, vpls);
-            const ShaftStage stage = stage_of(world, luxels, vpls, 21 + luxels);
-            CHECK(different_bits(stage.by_shafts(), stage.by_brute_force()) == 0);
-        }
+    mirtest::shaft_count_suite(by_shafts, {0, 1, 31, 32, 33, 256, 511, 513}, {0, 1, 31, 33});
 }
 
 TEST_CASE("Closed boxes, flat to shared edges and to the axes, give the same bits") {
@@ -96,25 +81,17 @@ TEST_CASE("Closed boxes, flat to shared edges and to the axes, give the same bit
 }
 
 TEST_CASE("Luxels and VPLs beyond reach are asked one by one") {
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
-    Lit lit = mirtest::random_lit(world.geometry, 500, 40, mirtest::test_random(22));
+    const mirtest::World world = soup(false);
+    const Lit within = mirtest::random_lit(world.geometry, 500, 40, mirtest::test_random(22));
     const std::uint64_t before =
-        unknown_blocks(ShaftStage(world.geometry, mirtest::clustered(lit)));
-    for (std::size_t i = 0; i < lit.luxels.size(); i += 5) lit.luxels[i].position *= 40.0f;
-    for (std::size_t j = 0; j < lit.vpls.size(); j += 3) lit.vpls[j].position *= 1e4f;
-    const ShaftStage stage(world.geometry, mirtest::clustered(lit));
+        unknown_blocks(ShaftStage(world.geometry, mirtest::clustered(within)));
+    const ShaftStage stage(world.geometry, mirtest::clustered(mirtest::lit_beyond_reach(world)));
     CHECK(different_bits(stage.by_shafts(), stage.by_segments()) == 0);
     CHECK(unknown_blocks(stage) > before + 10);
 }
 
 TEST_CASE("Scenes larger than the proofs reach are asked one by one") {
-    constexpr float scale = 2e18f;
-    const mirtest::World small = soup(false, 1.0f, 0.0f);
-    const mirtest::World world = soup(false, scale, 0.0f);
-    Lit lit = mirtest::random_lit(small.geometry, 500, 20, mirtest::test_random(24));
-    for (mir::Hit& hit : lit.luxels) hit.position *= scale;
-    for (mir::Vpl& vpl : lit.vpls) vpl.position *= scale;
-    const ShaftStage stage(world.geometry, mirtest::clustered(lit));
+    const ShaftStage stage = mirtest::stage_beyond_proofs();
     CHECK(different_bits(stage.by_shafts(), stage.by_segments()) == 0);
     mir::PairTally tally;
     static_cast<void>(stage.by_shafts({}, tally));
@@ -123,26 +100,15 @@ TEST_CASE("Scenes larger than the proofs reach are asked one by one") {
 }
 
 TEST_CASE("A luxel that is not a number changes no bit of its neighbours") {
-    const mirtest::World world = soup(false, 1.0f, 0.0f);
+    const mirtest::World world = soup(false);
     const Lit lit =
         mirtest::clustered(mirtest::random_lit(world.geometry, 512, 30, mirtest::test_random(23)));
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (std::size_t first : {0u, 1u, 40u})
-        for (int axis = 0; axis < 3; ++axis) {
+    for (const std::size_t first : {0u, 1u, 40u})
+        for (const int axis : {0, 1, 2}) {
             CAPTURE(first, axis);
-            Lit broken = lit;
-            for (std::size_t i = first; i < broken.luxels.size(); i += 64)
-                broken.luxels[i].position[axis] = nan;
-            const ShaftStage stage(world.geometry, broken);
+            const ShaftStage stage(world.geometry, mirtest::with_nan(lit, first, 64, axis));
             CHECK(different_bits(stage.by_shafts(), stage.by_segments()) == 0);
         }
 }
 
-TEST_CASE("A world without triangles hides nothing") {
-    const mirtest::World world{mir::Scene{}};
-    Lit lit;
-    lit.luxels.assign(40, {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}});
-    lit.vpls.push_back({{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}, {1.0f, 1.0f, 1.0f}});
-    const ShaftStage stage(world.geometry, lit);
-    CHECK(stage.by_shafts() == std::vector<std::uint32_t>{~0u, 0xFFu, 0, 0, 0, 0, 0, 0});
-}
+TEST_CASE("A world without triangles hides nothing") { mirtest::shaft_empty_suite(by_shafts); }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd/kd_ray_caster.hpp"
-#include "mir/accel/kd/kd_tree_visibility.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
 #include "mir/resident/backend_metropolis.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
-#include "mir/resident/uploaded_kd_tree.hpp"
-#include "mir/resident/uploaded_lights.hpp"
-#include "mir/resident/uploaded_surfaces.hpp"
+#include "mir/resident/uploaded_scene.hpp"
+#include "mir/resident/uploaded_trees.hpp"
 
 namespace mirtest {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/resident/backend_wide_bvh.hpp"
-#include "mir/resident/uploaded_geometry.hpp"
+#include "mir/resident/uploaded_scene.hpp"
 
 #include <vector>
 

@@ -7,7 +7,7 @@
 #include "mir/micro/surfel_direct_light.hpp"
 #include "mir/micro/surfel_tree_build.hpp"
 #include "mir/resident/backend_gather.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 
 #include <bit>

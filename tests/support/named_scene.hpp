@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/io/gltf_reader.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "support/shared_scenes.hpp"
 
 #include <optional>

@@ -5,7 +5,7 @@
 #include "mir/reconstruct.hpp"
 #include "mir/sampling/image_probe.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/vpl_shading.hpp"
 #include "support/catch.hpp"

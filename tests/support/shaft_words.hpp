@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide/wide_bvh_visibility.hpp"
+#include "mir/accel/wide/wide_rays.hpp"
 #include "mir/data/visibility_words.hpp"
 #include "mir/data/vpl_list.hpp"
-#include "mir/resident/uploaded_wide_bvh.hpp"
 #include "mir/shaft/device/backend_shafts.hpp"
+#include "support/uploaded_wide_bvh.hpp"
 
 #include <vector>
 
@@ -38,7 +38,7 @@ template <mir::Backend B>
     std::vector<std::uint32_t> words(mir::VisibilityWords<B::space>::count(in.hits.stride, count),
                                      ~0u);
     auto queue = backend.queue();
-    const mir::UploadedWideBvh<B> bvh(backend, queue, *in.bvh);
+    const UploadedWideBvh<B> bvh(backend, queue, *in.bvh);
     const mir::UploadedArray<B, std::uint32_t> hits(
         backend, queue,
         {in.hits.planes, std::size_t{mir::SoaView<mir::Hit>::words} * in.hits.stride});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "io/detail/ply_header.hpp"
+#include "io/detail/ply_values.hpp"
 #include "mir/data/vpl.hpp"
-#include "mir/io/detail/ply_header.hpp"
-#include "mir/io/detail/ply_values.hpp"
 
 #include <map>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/scene/builtin/shapes.hpp"
 #include "mir/scene/scene.hpp"
+#include "mir/scene/shapes.hpp"
 #include "support/test_sky.hpp"
 
 namespace mirtest {

@@ -3,6 +3,8 @@
 #include "tool/exr_file.hpp"
 #include "tool/mir_program.hpp"
 
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <nlohmann/json.hpp>
 
 #include <chrono>

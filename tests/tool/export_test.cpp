@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "tool/mir_program.hpp"
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 //
 // Scenes far from the origin of their file, through the program (docs/scene_files.md).
 #include "mir/io/gltf_writer.hpp"
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "tool/exr_file.hpp"
 #include "tool/mir_program.hpp"
 

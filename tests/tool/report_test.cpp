@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin.hpp"
 #include "mir/scene/projection.hpp"
+#include "mir/scenes.hpp"
 #include "support/vpl_file.hpp"
 #include "tool/exr_file.hpp"
 #include "tool/report_file.hpp"

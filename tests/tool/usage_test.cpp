@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/scene/builtin.hpp"
+#include "mir/scenes.hpp"
 #include "mir/version.hpp"
 #include "tool/mir_program.hpp"
 
@@ -210,6 +210,8 @@ TEST_CASE("unknown choices are refused with the list of known ones") {
 
 TEST_CASE("an image beyond the limit of pixels is refused") {
     check_failing_render({"builtin:sphere", "--width", "65536", "--height", "65536"}, 2, "pixels");
+    check_failing_render({"builtin:sphere", "--width", "65536", "--height", "4096"}, 2,
+                         "picture_bytes");
 }
 
 TEST_CASE("an unknown built-in scene is answered with the names of all") {

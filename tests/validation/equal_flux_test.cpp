@@ -5,7 +5,7 @@
 #include "mir/fill_gbuffer.hpp"
 #include "mir/place_vpls.hpp"
 #include "mir/sampling/metropolis_sampler.hpp"
-#include "mir/scene/builtin/cornell_box.hpp"
+#include "mir/scenes.hpp"
 #include "mir/shading/vpl_shading.hpp"
 #include "mir/validation/worlds.hpp"
 #include "support/catch.hpp"

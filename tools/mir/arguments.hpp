@@ -10,6 +10,9 @@ namespace mirtool {
 /// Declares the arguments of `mir render` but for the scene; what is given goes to `options`.
 void add_render(CLI::App& app, RenderOptions& options);
 
+/// Declares those of them that say how light is found.
+void add_light(CLI::App& app, mir::RenderSettings& settings);
+
 /// Declares the arguments that put an environment around a scene.
 void add_environment(CLI::App& app, EnvironmentOptions& options);
 

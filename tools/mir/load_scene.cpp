@@ -3,8 +3,8 @@
 
 #include "mir/io/exr.hpp"
 #include "mir/io/scene_reader.hpp"
-#include "mir/scene/builtin.hpp"
 #include "mir/scene/environment_table.hpp"
+#include "mir/scenes.hpp"
 
 #include <filesystem>
 

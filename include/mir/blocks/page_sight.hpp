@@ -81,7 +81,7 @@ class PageSight {
 
  private:
     /// How often a VPL has lit a packet in part before the page is sorted: about as much was asked
-    /// until then as sorting costs (docs/performance.md).
+    /// until then as sorting costs (docs/decisions/002).
     static constexpr std::uint32_t parted_packets_of_sort = 64;
 
     /// 256 luxels of the page, and, once one of them faces a VPL, what the visibility knows of

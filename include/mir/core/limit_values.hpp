@@ -13,6 +13,7 @@ struct Limits {
     std::uint64_t surfels = 16'000'000;            ///< discs of one scene
     std::uint64_t surfel_link_bytes = 4ull << 30;  ///< of the rays between discs
     std::uint64_t pixels = 1ull << 28;             ///< of one image
+    std::uint64_t picture_bytes = 32ull << 30;     ///< of one render's picture, see picture_bytes()
     std::uint64_t file_bytes = 4ull << 30;         ///< of one input file
     std::uint64_t visibility_bytes = 8ull << 30;   ///< of stored visibility, with its luxels
     /// Of the JSON of one glTF file, as far as something is read from it: numbers, texts and lists,

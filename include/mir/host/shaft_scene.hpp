@@ -27,7 +27,7 @@ class ShaftScene {
     /// Closest hits; the scene must outlive it and not be moved.
     [[nodiscard]] WideRayCaster<Space::host> ray_caster() const { return scene_.ray_caster(); }
     /// The hierarchy that both read.
-    [[nodiscard]] const WideBvh& bvh() const { return scene_.bvh(); }
+    [[nodiscard]] const WideBvh& bvh() const { return scene_.tree(); }
 
  private:
     /// None where triangles are masked: no shaft is traced then.

@@ -1,43 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/wide/wide_bvh_visibility.hpp"
-#include "mir/accel/wide/wide_ray_caster.hpp"
+#include "mir/accel/exact/tree_scene.hpp"
+#include "mir/accel/wide/wide_rays.hpp"
 #include "mir/host/wide_build.hpp"
 
 namespace mir {
 
-/// A scene to trace rays through by way of a wide bounding volume hierarchy: owns it, hands out the
-/// ray caster and the visibility that read it. The geometry must outlive it. Const use from any
-/// thread.
-class WideBvhScene {
- public:
+/// How a TreeScene makes a wide bounding volume hierarchy.
+struct WideBvhBuilder {
+    using Tree = WideBvh;            ///< of all triangles
+    using Options = WideBvhOptions;  ///< of its construction
+
     /// @throws Error what build_wide_bvh() throws.
     template <Executor E>
-    WideBvhScene(const WorldGeometry& geometry, E& executor, const WideBvhOptions& options = {})
-        : geometry_(&geometry), bvh_(build_wide_bvh(geometry, executor, options)) {}
-
-    /// Builds on the calling thread.
-    explicit WideBvhScene(const WorldGeometry& geometry)
-        : geometry_(&geometry), bvh_([&] {
-              InlineExecutor executor;
-              return build_wide_bvh(geometry, executor);
-          }()) {}
-
-    /// Asks single segments and packets; the scene must outlive it and not be moved.
-    [[nodiscard]] WideBvhVisibility<Space::host> visibility() const {
-        return {bvh_.view(), geometry_->alpha_masks()};
+    [[nodiscard]] static Tree build(const WorldGeometry& geometry, E& executor,
+                                    const Options& options) {
+        return build_wide_bvh(geometry, executor, options);
     }
-    /// Closest hits; the scene must outlive it and not be moved.
-    [[nodiscard]] WideRayCaster<Space::host> ray_caster() const {
-        return {*geometry_, bvh_.view(), geometry_->alpha_masks()};
-    }
-    /// The hierarchy that both read.
-    [[nodiscard]] const WideBvh& bvh() const { return bvh_; }
-
- private:
-    const WorldGeometry* geometry_;
-    WideBvh bvh_;
 };
+
+/// A scene to trace rays through by way of a wide bounding volume hierarchy.
+using WideBvhScene = TreeScene<WideBvhBuilder>;
 
 }  // namespace mir

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/error.hpp"
-#include "mir/io/detail/gltf_build.hpp"
-#include "mir/io/detail/shown_path.hpp"
-#include "mir/io/detail/write_glb_model.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <filesystem>
@@ -22,13 +18,6 @@ namespace mir {
 ///         its own rules (WorldGeometry); Error(unsupported) when it has an environment;
 ///         Error(invalid_argument) for a mesh without triangles, a texture that is sheared or a
 ///         name that is not UTF-8; Error(limit_exceeded) when it exceeds the 4 GiB of the format.
-inline void write_glb(const Scene& scene, const std::filesystem::path& path) {
-    if (scene.environment)
-        throw Error(ErrorCode::unsupported,
-                    detail::shown_path(path) +
-                        ": the scene cannot be written (glTF has no environment, and "
-                        "the scene would lose its light); take it out of the scene");
-    detail::write_glb_model(detail::GltfBuilder().build(scene), path);
-}
+void write_glb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace mir

@@ -17,7 +17,7 @@ struct BootstrapOptions {
     /// The same with the relative error that `starts` chains deserve, unless one was asked for.
     /// Starts are drawn from as many paths, in effect, as 1 / error^2, and some are drawn twice:
     /// the variance of the VPLs' light grows by 1 + starts error^2, which is kept at 1.33
-    /// (docs/convergence.md, "Time").
+    /// (docs/decisions/046).
     [[nodiscard]] BootstrapOptions for_starts(std::uint32_t starts) const {
         BootstrapOptions o = *this;
         if (o.relative_error == 0.0) o.relative_error = std::min(0.05, std::sqrt(0.33 / starts));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/load_whole.hpp"
+#include "mir/micro/detail/node_lists.hpp"
 #include "mir/micro/detail/point_group.hpp"
 #include "mir/micro/micro_buffer_space.hpp"
 
@@ -118,44 +119,6 @@ class MicroBuffers {
         detail::PointGroup group;
     };
 
-    template <std::uint32_t N>
-    using Shares = typename Workspace::template Shares<N>;
-
-    /// Calls write(place in a list, lane) for the lanes for whose `pictures` there are any, and
-    /// counts them to the list's length.
-    template <class Write>
-    MIR_HD void append(std::uint32_t& length, const LaneGroup::PerLane<std::uint32_t>& pictures,
-                       const Write& write) {
-        const std::uint32_t these =
-            group_.ballot([&](std::uint32_t lane) { return pictures[lane] != 0; });
-        group_.each([&](std::uint32_t lane) {
-            if (pictures[lane] != 0) write(length + LaneGroup::count_before(these, lane), lane);
-        });
-        length += LaneGroup::count(these);
-    }
-
-    /// Adds the node of each lane for whose `pictures` there are any to a list.
-    template <std::uint32_t N>
-    MIR_HD void append(Shares<N>& list, std::uint32_t& length,
-                       const LaneGroup::PerLane<std::uint32_t>& nodes,
-                       const LaneGroup::PerLane<std::uint32_t>& pictures) {
-        append(length, pictures, [&](std::uint32_t i, std::uint32_t lane) {
-            list.node[i] = nodes[lane];
-            list.pictures[i] = static_cast<std::uint8_t>(pictures[lane]);
-        });
-    }
-
-    /// The same of nodes whose children are to be taken.
-    MIR_HD void open(const LaneGroup::PerLane<std::uint32_t>& nodes,
-                     const LaneGroup::PerLane<std::uint32_t>& right,
-                     const LaneGroup::PerLane<std::uint32_t>& pictures) {
-        append(waiting_, pictures, [&](std::uint32_t i, std::uint32_t lane) {
-            space_.waiting.node[i] = nodes[lane];
-            space_.waiting.right[i] = right[lane];
-            space_.waiting.pictures[i] = static_cast<std::uint8_t>(pictures[lane]);
-        });
-    }
-
     /// Takes the children of up to 16 nodes that wait, one for each lane, and does what is sure
     /// for all pictures together.
     template <Space S>
@@ -181,9 +144,9 @@ class MicroBuffers {
             ended[lane] = fate == Fate::ended ? pictures : 0;
             unsure[lane] = fate == Fate::unsure ? pictures : 0;
         });
-        open(nodes, right, opened);
-        append(space_.ended, ended_, nodes, ended);
-        append(space_.unsure, unsure_, nodes, unsure);
+        waiting_ += detail::put_parents(group_, space_.waiting, waiting_, nodes, right, opened);
+        ended_ += detail::put_nodes(group_, space_.ended, ended_, nodes, ended);
+        unsure_ += detail::put_nodes(group_, space_.unsure, unsure_, nodes, unsure);
     }
 
     /// What becomes of a node in all pictures for which it is looked at.
@@ -220,8 +183,8 @@ class MicroBuffers {
                 ended[lane] |= seen == Fate::ended ? 1u << k : 0;
             }
         });
-        open(nodes, right, opened);
-        append(space_.ended, ended_, nodes, ended);
+        waiting_ += detail::put_parents(group_, space_.waiting, waiting_, nodes, right, opened);
+        ended_ += detail::put_nodes(group_, space_.ended, ended_, nodes, ended);
     }
 
     /// Finds the texels that ended nodes may cover, a node for each lane, in all pictures.

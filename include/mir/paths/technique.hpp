@@ -23,7 +23,7 @@ struct Technique {
 /// A path that runs into a lamp is drawn a quarter as often as one that ends otherwise: other
 /// techniques build the same path, and most lamps are small. One with two vertices from the light
 /// is drawn twice as often: where lamps shine at a wall it carries most of the light. What that is
-/// worth: docs/convergence.md, "Time".
+/// worth: docs/decisions/046.
 class TechniqueTable {
  public:
     /// @throws Error(invalid_argument) when the range is empty or too long.

@@ -7,7 +7,7 @@
 #include "mir/micro/gather_pass.hpp"
 #include "mir/resident/backend_gbuffer.hpp"
 #include "mir/resident/backend_layer.hpp"
-#include "mir/resident/uploaded_surfel_tree.hpp"
+#include "mir/resident/uploaded_trees.hpp"
 #include "mir/resident/wait_at_end.hpp"
 
 namespace mir {

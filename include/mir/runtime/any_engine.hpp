@@ -32,8 +32,7 @@ class RayQuestions {
 template <RayCaster R, Visibility V>
 class RayAnswers final : public RayQuestions {
  public:
-    RayAnswers(const R& caster, const V& visibility)
-        : caster_(caster), visibility_(visibility) {}
+    RayAnswers(const R& caster, const V& visibility) : caster_(caster), visibility_(visibility) {}
 
     [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const override {
         return caster_.closest_hit(ray);

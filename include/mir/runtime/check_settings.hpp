@@ -8,6 +8,8 @@
 #include "mir/metropolis/metropolis_options.hpp"
 #include "mir/micro/check_gather.hpp"
 #include "mir/paths/path.hpp"
+#include "mir/runtime/film_layer.hpp"
+#include "mir/runtime/picture_bytes.hpp"
 #include "mir/runtime/settings.hpp"
 
 #include <cmath>
@@ -92,6 +94,7 @@ inline void check_image(const RenderSettings& s) {
     check_limit(s.image.area(), s.limits.pixels, "pixels");
     expects(s.luxels_per_pixel >= 1 && s.luxels_per_pixel <= max_luxels_per_pixel,
             "luxels per pixel must be 1 to 64");
+    check_picture(s, first_bounce_layer + (s.removed_layer ? 1u : 0u));
 }
 
 /// Numbers of VPLs, of paths and of samples.

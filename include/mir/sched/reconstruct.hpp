@@ -2,10 +2,8 @@
 #pragma once
 
 #include "mir/kernels/fused.hpp"
-#include "mir/kernels/shading_pass.hpp"
 #include "mir/reconstruct.hpp"
-#include "mir/resident/uploaded_vpls.hpp"
-#include "mir/sched/detail/tile_ring.hpp"
+#include "mir/sched/detail/tile_pipeline.hpp"
 
 namespace mir::sched {
 
@@ -19,21 +17,11 @@ struct Reconstruct {
 
     /// Model of mir::Pipeline for one image; what it is given must outlive it.
     template <class In>
-    class Pipeline {
+    class Pipeline : public detail::TilePipeline<B, In> {
+        using Base = detail::TilePipeline<B, In>;
+
      public:
-        /// Takes memory of the backend for up to three tiles and starts to copy the VPLs.
-        /// @throws What the backend throws when it has no memory left.
-        Pipeline(const In& in, Image<Rgb>& image, const Reconstruct& scheduler)
-            : in_(in),
-              vpls_(scheduler.backend, in.vpls),
-              ring_(scheduler.backend, in.gbuffer, vpls_.size(),
-                    is_known ? detail::SlotVisibility::masks : detail::SlotVisibility::none, image,
-                    scheduler.monitor),
-              copy_(scheduler.backend.queue()),
-              compute_(scheduler.backend.queue()),
-              home_(scheduler.backend.queue()) {
-            vpls_.send(copy_);
-        }
+        using Base::Base;
 
         /// Starts a tile's work. Waits for the third tile before, which it writes to the image.
         /// @throws Error(cancelled) when the monitor asks to stop; what the backend throws.
@@ -44,37 +32,24 @@ struct Reconstruct {
             if constexpr (is_known) ring_.upload_known(slot, copy_, in_.visibility);
             compute_.wait(copy_.record());
             if constexpr (is_known)
-                compute_.for_each(slot.luxels,
-                                  ShadingPass{ring_.luxels(slot), vpls_.view(),
-                                              slot.known(vpls_.size()), in_.shading, slot.sums()});
+                Base::shade_known(slot);
             else
                 compute_.for_each(slot.luxels,
                                   FusedKernel{ring_.luxels(slot), vpls_.view(), in_.visibility,
                                               in_.shading, slot.sums()});
             ring_.send_back(slot, compute_, home_);
         }
-        /// Waits for the tiles that are still on their way and writes them to the image.
-        /// @throws What the backend throws when its work failed.
-        void finish() { ring_.drain(); }
 
      private:
-        using G = std::remove_cvref_t<decltype(std::declval<In>().gbuffer)>;
-        static constexpr bool is_known = KnownVisibility<decltype(In::visibility)>;
-
-        const In& in_;
-        UploadedVpls<B> vpls_;
-        detail::TileRing<B, G> ring_;
-        // Last, so that they end, and wait for their work, before the memory goes.
-        typename B::Queue copy_;
-        typename B::Queue compute_;
-        typename B::Queue home_;
+        using Base::copy_, Base::compute_, Base::home_;
+        using Base::is_known, Base::in_, Base::vpls_, Base::ring_;
     };
 
     /// A pipeline for one image, whose size is that of the G-buffer.
     template <class In>
     Pipeline<In> open(const In& in, Image<Rgb>& image) const {
         detail::check_pairing<In, B>();
-        return {in, image, *this};
+        return {in, image, backend, monitor};
     }
 };
 template <Backend B>

@@ -37,7 +37,7 @@ struct SharedSamples {
 /// Mean light of `samples` > 0 samples at a luxel: `draw(k)` is the k-th one, WordCopyable, and
 /// `shade(sample)` its LitPoint, by arithmetic without branches. Samples are added up in packets of
 /// sixteen, whether the visibility is asked about packets or about one after the other; then light
-/// first, which is up to four times as fast on a GPU (docs/performance.md).
+/// first, which is up to four times as fast on a GPU (docs/decisions/034).
 template <Visibility V, class Draw, class Shade>
 MIR_HD Rgb mean_of_samples(Vec3 origin, const V& visibility, std::uint32_t samples,
                            const Draw& draw, const Shade& shade) {

@@ -3,8 +3,8 @@
 
 #include "mir/core/number_text.hpp"
 #include "mir/data/image.hpp"
-#include "mir/scene/builtin/check_rooms.hpp"
-#include "mir/scene/builtin/shapes.hpp"
+#include "mir/scene/check_rooms.hpp"
+#include "mir/scene/shapes.hpp"
 #include "mir/validation/report.hpp"
 
 #include <cmath>

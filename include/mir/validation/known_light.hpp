@@ -3,7 +3,7 @@
 
 #include "mir/data/gbuffer.hpp"
 #include "mir/fill_gbuffer.hpp"
-#include "mir/scene/builtin/check_rooms.hpp"
+#include "mir/scene/check_rooms.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/validation/brute_force.hpp"
 #include "mir/validation/worlds.hpp"

@@ -4,7 +4,7 @@
 // Markov chains of BackendFrame.
 
 #include "mir/resident/backend_metropolis.hpp"
-#include "mir/resident/uploaded_lights.hpp"
+#include "mir/resident/uploaded_scene.hpp"
 #include "runtime/backend_frame/structures.hpp"
 
 namespace mir {

@@ -4,7 +4,7 @@
 // Direct light of BackendFrame.
 
 #include "mir/kernels/direct_light_pass.hpp"
-#include "mir/resident/uploaded_lights.hpp"
+#include "mir/resident/uploaded_scene.hpp"
 #include "runtime/backend_frame/structures.hpp"
 
 namespace mir {

@@ -5,7 +5,7 @@
 
 #include "mir/kernels/background_pass.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
-#include "mir/resident/uploaded_lights.hpp"
+#include "mir/resident/uploaded_scene.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "runtime/backend_frame/structures.hpp"
 
@@ -19,9 +19,9 @@ double BackendFrame<M, B>::visible_area() {
     std::vector<double> here(AreaRays::count);
     const WaitAtEnd wait(queue_);
     with_rays([&](const auto& rays) {
-        queue_.for_each(AreaRays::count, AreaPass{AreaRays(job_.rays.camera, job_.aspect()),
-                                                  rays.caster(geometry_there_.view()),
-                                                  areas.data()});
+        queue_.for_each(AreaRays::count,
+                        AreaPass{AreaRays(job_.rays.camera, job_.aspect()),
+                                 rays.caster(geometry_there_.view()), areas.data()});
     });
     queue_.download(areas, std::span(here));
     queue_.record().sync();
@@ -44,8 +44,8 @@ template <Backend M, Bsdf B>
 BandPtr BackendFrame<M, B>::trace(const ProbeRays& probes) {
     const Extent tile = whole_blocks(probes.cells());
     BlockedGBuffer<Params> here(probes.cells(), tile);
-    fill_gbuffer<B>(here, 0, probes, rays().ray_caster(),
-                    std::get<SurfaceTable<B>>(job_.surfaces), job_.executor);
+    fill_gbuffer<B>(here, 0, probes, rays().ray_caster(), std::get<SurfaceTable<B>>(job_.surfaces),
+                    job_.executor);
     auto band = std::make_unique<Band>(BackendGBuffer<M, Params>(machine_, here.extent(), tile));
     band->gbuffer.upload(queue_, here);
     queue_.record().sync();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cuda/segments/gpu_segment_bits.hpp"
-#include "mir/accel/kd/kd_tree_visibility.hpp"
-#include "mir/accel/wide/wide_bvh_visibility.hpp"
+#include "mir/accel/kd/kd_rays.hpp"
+#include "mir/accel/wide/wide_rays.hpp"
 #include "mir/cuda/backend.cuh"
-#include "mir/resident/uploaded_kd_tree.hpp"
-#include "mir/resident/uploaded_wide_bvh.hpp"
+#include "mir/resident/uploaded_trees.hpp"
 #include "support/fused_visibility.hpp"
 #include "support/segment_bits.hpp"
+#include "support/uploaded_wide_bvh.hpp"
 
 namespace mirtest {
 
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> gpu_segment_bits(const mir::cuda::Backend& backend,
                                             const mir::WideBvh& bvh,
                                             std::span<const SegmentEnds> segments) {
     auto queue = backend.queue();
-    const mir::UploadedWideBvh<mir::cuda::Backend> there(backend, queue, bvh);
+    const UploadedWideBvh<mir::cuda::Backend> there(backend, queue, bvh);
     queue.record().sync();
     return segment_bits(backend, mir::WideBvhVisibility<mir::Space::device>{there.view()},
                         segments);

@@ -117,7 +117,7 @@ inline Features gltf_textures() {
                     CHECK(m.textures.base_color.wrap_v == mir::Wrap::mirror);
                 }))),
         feature(
-            "the nearest texel, in place of four", "`magFilter` 9728", {[](Gltf& g) {
+            "the nearest texel instead of four", "`magFilter` 9728", {[](Gltf& g) {
                 g.surface()["baseColorTexture"] = g.texture();
                 g.file["textures"][0]["sampler"] = 0;
                 g.file["samplers"] = json::array({{{"magFilter", 9728}}});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "io/detail/data_uri.hpp"
 #include "io/features/gltf_file.hpp"
 #include "io/features/obj_statements.hpp"
-#include "mir/io/detail/data_uri.hpp"
 
 #include <string>
 #include <utility>

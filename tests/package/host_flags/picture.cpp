@@ -3,6 +3,7 @@
 
 #include <mir/mir.hpp>
 #include <mir/runtime/pass_goal.hpp>
+#include <mir/scenes.hpp>
 
 #include <bit>
 #include <cstdint>

@@ -3,6 +3,7 @@
 
 #include "mir/core/rgb.hpp"
 #include "mir/data/image.hpp"
+#include "mir/io/png.hpp"
 #include "report/render_report.hpp"
 
 #include <cstdint>

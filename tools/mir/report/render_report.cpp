@@ -7,6 +7,7 @@
 #include "mir/io/write_file.hpp"
 #include "mir/version.hpp"
 #include "read_picture.hpp"
+#include "render_output.hpp"
 #include "report/assets.hpp"
 #include "report/sections.hpp"
 

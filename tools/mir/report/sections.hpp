@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/io/png.hpp"
 #include "report/render_report.hpp"
 
 #include <cstddef>

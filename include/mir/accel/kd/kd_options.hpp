@@ -13,7 +13,7 @@ struct KdTreeOptions {
     static constexpr std::uint32_t depth_limit = 64;
 
     /// Choices for traversal on a GPU, one ray per thread: there an inner node costs less beside a
-    /// triangle than in the packets of the host (docs/performance.md has the sweep).
+    /// triangle than in the packets of the host (docs/decisions/023 has the sweep).
     [[nodiscard]] static KdTreeOptions for_gpu() {
         KdTreeOptions options;
         options.traversal_cost = 0.75f;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/exact/raw_array.hpp"
+#include "mir/accel/kd/detail/raw_array.hpp"
 #include "mir/accel/kd/kd_options.hpp"
 #include "mir/accel/kd/kd_statistics.hpp"
 #include "mir/accel/kd/kd_tree_view.hpp"

@@ -17,7 +17,7 @@ namespace mir {
 /// looks the same way: kernel for groups, a page each. Pages whose runs are compact as they are
 /// stay so. Others are split at medians, along the widest of the six keys of cluster_order(),
 /// position and weighted normal, ties by index, empty luxels last; but page by page, which is as
-/// good (docs/performance.md) and needs no more memory than a group has. It decides speed, never
+/// good (docs/decisions/017) and needs no more memory than a group has. It decides speed, never
 /// bits.
 struct PageOrder {
     /// What a group works in.

@@ -27,7 +27,7 @@ struct RunSizes {
     /// around all runs, metres. What is no number counts as compact.
     [[nodiscard]] MIR_HD bool are_compact(float diagonal) const {
         // Looser bounds find fewer edges, stricter ones move luxels for nothing
-        // (docs/performance.md).
+        // (docs/decisions/002).
         constexpr float looseness = 1.5f;
         return !(sum * inverses > looseness * count * count ||
                  sum > looseness * diagonal * sqrtf(count));

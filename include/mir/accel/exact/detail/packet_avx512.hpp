@@ -14,7 +14,7 @@
 // makes half as many instructions again: numbers that all lanes share are spread by the unit that
 // compares, where a load would spread them; limits that are constants take a comparison and a
 // selection; and truths wander between registers. By hand they save a sixteenth of `car`'s time
-// (docs/performance_cpu.md). GCC's intrinsics are products and sums that it may fuse like any
+// (docs/decisions/005). GCC's intrinsics are products and sums that it may fuse like any
 // other: -ffp-contract=off holds here, too. Only for processors that have these instructions.
 #define MIR_AVX512 [[gnu::target("avx512f,avx512dq,avx512bw,avx512vl")]]
 

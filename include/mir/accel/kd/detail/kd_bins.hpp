@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/exact/raw_array.hpp"
 #include "mir/accel/kd/detail/kd_split.hpp"
+#include "mir/accel/kd/detail/raw_array.hpp"
 
 #include <algorithm>
 

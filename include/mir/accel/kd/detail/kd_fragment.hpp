@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/accel/exact/accept_box.hpp"
-#include "mir/accel/exact/lanes.hpp"
+#include "mir/accel/kd/detail/lanes.hpp"
 
 #include <cstdint>
 #include <limits>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/exact/lane_box.hpp"
 #include "mir/accel/kd/detail/kd_bins.hpp"
 #include "mir/accel/kd/detail/kd_partition.hpp"
 #include "mir/accel/kd/detail/kd_sweep.hpp"
+#include "mir/accel/kd/detail/lane_box.hpp"
 #include "mir/accel/kd/kd_node.hpp"
 #include "mir/accel/kd/kd_statistics.hpp"
 #include "mir/core/limits.hpp"

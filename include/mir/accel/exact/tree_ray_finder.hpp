@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/exact/triangle_mask.hpp"
+#include "mir/concepts/ray_finder.hpp"
+
+namespace mir {
+
+/// Finds first triangles by a tree over them. Model of RayFinder; the same bits on host and device.
+/// `TreeView` is what traversal reads of the tree: it has first_hit() and is_hidden(). `M` as for
+/// TreeVisibility. What it reads must outlive it. Thread-safe.
+template <class TreeView, class M = UsualMask<TreeView::space>>
+struct TreeRayFinder {
+    static constexpr Space space = TreeView::space;  ///< of the tree
+    using View = TreeView;                           ///< what the tree is read by
+    using Mask = M;                                  ///< an Opaque or an AlphaMaskView
+
+    View tree;    ///< of the scene
+    Mask mask{};  ///< which points of triangles are there
+
+    /// The first triangle along the ray, t in metres: first_hit().
+    [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray) const {
+        return first_hit(tree, ray, mask);
+    }
+    /// Whether a triangle hides two points from each other, metres: is_hidden().
+    [[nodiscard]] MIR_HD bool hides(Vec3 from, Vec3 to) const {
+        return is_hidden(tree, from, to, mask);
+    }
+};
+
+}  // namespace mir
