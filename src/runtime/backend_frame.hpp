@@ -131,9 +131,6 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] AlphaMaskView<space> masks_there() const {
         return {geometry_there_.view(), masks_.data(), surfaces_.view().textures};
     }
-    [[nodiscard]] LuxelBand numbers(const FrameBand& band) const {
-        return {band.first_row, job_.rays.grid, job_.settings.seed};
-    }
     [[nodiscard]] BackendLayer<M> layer_for(const Band& band) const {
         return {machine_, band.gbuffer.grid()};
     }

@@ -24,10 +24,13 @@ struct BsdfList {
 /// this line too, for what nvcc compiles.
 using CompiledBsdfs = BsdfList<Lambert, CookTorrance>;
 
-/// Whether a model shows every material of a scene. Three parameters a luxel in place of eight.
+/// Whether a model shows every material of a scene.
+template <Bsdf B>
+bool suits(const Scene& /*scene*/, B) {
+    return true;
+}
+/// Three parameters a luxel in place of eight.
 inline bool suits(const Scene& scene, Lambert) { return is_lambertian(scene); }
-/// It knows everything that a Material says.
-inline bool suits(const Scene&, CookTorrance) { return true; }
 
 /// The materials of a scene in the parameters of the model that it gets.
 using AnySurfaces = CompiledBsdfs::Variant<SurfaceTable>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/host/host_schedulers.hpp"
+#include "runtime/host_schedulers.hpp"
 #include "runtime/render_frame.hpp"
 #include "runtime/traced_scene.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/host/host_schedulers.hpp"
 #include "runtime/disc_gather.hpp"
+#include "runtime/host_schedulers.hpp"
 #include "runtime/render_job.hpp"
 #include "runtime/traced_scene.hpp"
 

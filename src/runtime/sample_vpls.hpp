@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/runtime/sampled_vpls.hpp"
 #include "runtime/render_frame.hpp"
 
 namespace mir {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/scheduler_suite.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/host/host_schedulers.hpp"
 #include "mir/host/tbb_executor.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "support/catch.hpp"
@@ -21,17 +20,6 @@ TEMPLATE_TEST_CASE("The host schedulers keep their axioms with Embree, on one th
     mirtest::scheduler_suite(mir::sched::Cpu{threads}, stage);
     mirtest::scheduler_suite(mir::sched::CpuBlocks{threads}, stage);
     mirtest::scheduler_suite(mir::sched::CpuBlocks{one}, stage);
-}
-
-TEST_CASE("A host scheduler that is chosen by name keeps the axioms of Scheduler") {
-    const EmbreeStage<mir::Lambert> stage({100, 70}, {48, 32}, 37);
-    mir::InlineExecutor executor;
-    for (const auto& [name, kind] : mir::host_schedulers) {
-        CAPTURE(name);
-        mir::with_host_scheduler(kind, executor, nullptr, [&](const auto& scheduler) {
-            mirtest::scheduler_suite(scheduler, stage);
-        });
-    }
 }
 
 TEST_CASE("Tile sizes and instruction sets do not change a bit of an Embree image") {

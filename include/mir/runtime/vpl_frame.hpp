@@ -2,10 +2,10 @@
 #pragma once
 
 #include "mir/core/monitor.hpp"
+#include "mir/data/vpl_record.hpp"
 #include "mir/runtime/any_engine.hpp"
 #include "mir/runtime/any_executor.hpp"
 #include "mir/runtime/result.hpp"
-#include "mir/runtime/sampled_vpls.hpp"
 #include "mir/runtime/settings.hpp"
 #include "mir/scene/light_table.hpp"
 #include "mir/scene/scene.hpp"

@@ -21,7 +21,7 @@ LayerPtr BackendFrame<M, B>::direct(const FrameBand& band, DirectSamples samples
             {there.view(), geometry_there_.view(), rays.sight(), samples.emitters},
             {there.view(), rays.sight()},
             {there.view(), rays.sight(), samples.environment},
-            numbers(band),
+            {band.first_row, job_.rays.grid, job_.settings.seed},
             samples.distant_vpls};
         for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
             const auto view = gbuffer.view(t);
