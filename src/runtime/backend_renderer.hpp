@@ -104,7 +104,8 @@ class BackendRenderer final : public Renderer {
             return job.with_surfaces(
                 [&]<Bsdf B>(const SurfaceTable<B>&) -> std::unique_ptr<RenderFrame> {
                     return std::make_unique<BackendFrame<M, B>>(
-                        job, machine_.backend, [&job] { return tree_for_backends(job); }, options);
+                        job, machine_.backend,
+                        [&job] { return tree_for_backends(job.geometry, job.threads); }, options);
                 });
         }();
         if (job.monitor != nullptr) job.monitor->check();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/backend_structures.hpp"
 
-#include "mir/accel/kd/kd_build.hpp"
-
 namespace mir {
 namespace {
 
@@ -28,10 +26,6 @@ BackendStructures structures_of(bool is_masked, const RenderSettings& settings) 
             break;
     }
     return pairs(settings) < kd_tree_pays ? hierarchy : both;
-}
-
-KdTree tree_for_backends(RenderJob& job) {
-    return {job.geometry, KdTreeOptions::for_gpu(), job.threads};
 }
 
 }  // namespace mir

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/accel/kd/kd_tree.hpp"
-#include "runtime/render_job.hpp"
+#include "mir/runtime/settings.hpp"
 
 namespace mir {
 
@@ -18,8 +17,5 @@ inline constexpr BackendStructures tree_alone{"kdtree", true, false};
 
 /// As settings want it, or by what pays.
 [[nodiscard]] BackendStructures structures_of(bool is_masked, const RenderSettings& settings);
-
-/// A kd-tree for kernels, built on the host.
-[[nodiscard]] KdTree tree_for_backends(RenderJob& job);
 
 }  // namespace mir

@@ -3,7 +3,15 @@
 #include "runtime/traced_scene.hpp"
 #include "runtime/traced_scenes.hpp"
 
-mir::TracedScenePtr mir::trace_by_kd_tree(const WorldGeometry& geometry, AnyExecutor& executor) {
+namespace mir {
+
+TracedScenePtr trace_by_kd_tree(const WorldGeometry& geometry, AnyExecutor& executor) {
     return std::make_unique<TracedSceneOf<KdTreeScene>>(
         std::make_unique<KdTreeScene>(geometry, executor));
 }
+
+KdTree tree_for_backends(const WorldGeometry& geometry, AnyExecutor& executor) {
+    return {geometry, KdTreeOptions::for_gpu(), executor};
+}
+
+}  // namespace mir

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/accel/kd/kd_tree.hpp"
 #include "mir/runtime/any_executor.hpp"
 #include "mir/scene/world_geometry.hpp"
 
@@ -17,6 +18,9 @@ using TracedScenePtr = std::unique_ptr<const TracedScene>;
 /// Builds KdTreeScene.
 /// @throws Error what KdTree throws.
 [[nodiscard]] TracedScenePtr trace_by_kd_tree(const WorldGeometry& geometry, AnyExecutor& executor);
+/// A kd-tree for kernels of GPUs (KdTreeOptions::for_gpu()).
+/// @throws Error what KdTree throws.
+[[nodiscard]] KdTree tree_for_backends(const WorldGeometry& geometry, AnyExecutor& executor);
 /// Builds ShaftScene.
 /// @throws Error what build_wide_bvh() throws.
 [[nodiscard]] TracedScenePtr trace_by_shafts(const WorldGeometry& geometry, AnyExecutor& executor);
