@@ -50,7 +50,7 @@ class SamplingFrame final : public mir::RenderFrame {
     double visible_area() override { return never(0.0); }
     mir::BandPtr trace(mir::Extent, mir::Extent, std::uint32_t) override { return never(nullptr); }
     mir::BandPtr trace(const mir::ProbeRays&) override { return never(nullptr); }
-    void find_visible(mir::FrameBand&, Vpls) override { never(0); }
+    void find_visible(mir::FrameBand&, mir::VplSpan<mir::Space::host>) override { never(0); }
     mir::ResponsePtr response(mir::Extent, std::uint32_t, float) override { return never(nullptr); }
     mir::LayerPtr black(const mir::FrameBand&) override { return never(nullptr); }
     mir::LayerPtr direct(const mir::FrameBand&, mir::DirectSamples) override {
@@ -58,7 +58,8 @@ class SamplingFrame final : public mir::RenderFrame {
     }
     mir::LayerPtr emission(const mir::FrameBand&) override { return never(nullptr); }
     mir::LayerPtr coverage(const mir::FrameBand&) override { return never(nullptr); }
-    mir::LayerPtr light(const mir::FrameBand&, Vpls, mir::VplKernel, mir::Monitor*) override {
+    mir::LayerPtr light(const mir::FrameBand&, mir::VplSpan<mir::Space::host>, mir::VplKernel,
+                        mir::Monitor*) override {
         return never(nullptr);
     }
     void add(mir::FrameLayer&, const mir::FrameLayer&) override { never(0); }

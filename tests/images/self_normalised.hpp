@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/fill_visibility.hpp"
 #include "mir/normalise/normalise.hpp"
 #include "mir/runtime/vpl_frame.hpp"
 #include "mir/sampling/metropolis_sampler.hpp"

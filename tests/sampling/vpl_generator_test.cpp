@@ -71,7 +71,7 @@ std::array<Moments, 6> weights(const PathLab<B>& lab, std::uint32_t shortest, st
     constexpr std::uint64_t paths = 60'000;
     const auto w = lab.world();
     using Generator = mir::VplGenerator<std::remove_const_t<decltype(w)>, Density>;
-    const typename Generator::Probe probe({lab.scene.cameras[0], 1.0f, 64, 3}, w.caster,
+    const typename Generator::Probe probe({lab.scene.cameras[0], 1.0f, 64, 3}, w.luxels.caster,
                                           lab.surfaces, w.visibility);
     const Generator generator(w, probe, shortest, 5, 0.01);
     std::array<Moments, 6> moments;
@@ -141,7 +141,7 @@ TEST_CASE("a probe that sees nothing leaves light paths") {
     const PathLab<Lambert> lab(scene);
     const auto w = lab.world();
     using Generator = mir::VplGenerator<std::remove_const_t<decltype(w)>>;
-    const Generator::Probe probe({lab.scene.cameras[0], 1.0f, 64, 3}, w.caster, lab.surfaces,
+    const Generator::Probe probe({lab.scene.cameras[0], 1.0f, 64, 3}, w.luxels.caster, lab.surfaces,
                                  w.visibility);
     REQUIRE(probe.receivers() == 0);
     const Generator generator(w, probe, 2, 5, 1.0);
