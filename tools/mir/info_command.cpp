@@ -3,7 +3,7 @@
 #include "exit_code.hpp"
 #include "load_scene.hpp"
 #include "mir/accel/kd/kd_build.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scene/environment_table.hpp"
 #include "mir/scene/scene_hash.hpp"
 #include "text.hpp"
@@ -73,7 +73,7 @@ Json environment_of(const mir::Environment& e) {
 /// What the kd-tree of the scene looks like; takes as long as building it.
 Json kd_tree_of(const mir::Scene& scene) {
     const mir::WorldGeometry geometry(scene);
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const mir::KdTree tree(geometry, {}, executor);
     const mir::KdTreeStatistics& s = tree.statistics();
     return {{"triangles", s.triangles},
