@@ -147,6 +147,7 @@ class BackendFrame final : public RenderFrame {
     float sigma_;  ///< as shafts want it
     typename M::Queue queue_;
     UploadedGeometry<M> geometry_there_;
+    UploadedLights<M> lights_;
     UploadedSurfaces<M, B> surfaces_;
     UploadedArray<M, AlphaMask> masks_;
     std::optional<KdTree> host_tree_;

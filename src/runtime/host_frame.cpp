@@ -119,8 +119,9 @@ class HostFrame final : public RenderFrame {
                                  const Rays& camera) {
         auto band = std::make_unique<HostBand<B>>(extent, tile);
         band->first_row = first_row;
-        fill_gbuffer<B>(band->gbuffer, first_row, camera, rays().ray_caster(), surfaces_,
-                        job_.executor);
+        fill_gbuffer<B>(band->gbuffer, first_row, camera,
+                        LuxelTracer{rays().ray_caster(), surfaces_.view()},
+                        job_.lights.environment().view(), job_.executor);
         return band;
     }
     [[nodiscard]] Image<Rgb> light_of_points(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
@@ -140,14 +141,10 @@ class HostFrame final : public RenderFrame {
 template <Bsdf B>
 LayerPtr HostFrame<B>::emission(const FrameBand& band) {
     Image<Rgb> image(band.extent());
-    const EnvironmentView<Space::host> environment = job_.lights.environment().view();
-    for_each_luxel(
-        HostBand<B>::of(band).gbuffer, job_.executor,
-        [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
-            const bool escaped = !environment.empty() && is_empty(luxels.hit(i));
-            image(x, y) = escaped ? environment.radiance(job_.rays(x, band.first_row + y).direction)
-                                  : luxels.surface(i).emission;
-        });
+    for_each_luxel(HostBand<B>::of(band).gbuffer, job_.executor,
+                   [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
+                       image(x, y) = luxels.surface(i).emission;
+                   });
     return host_layer(std::move(image));
 }
 

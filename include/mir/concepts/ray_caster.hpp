@@ -42,15 +42,17 @@ concept CastsRaysFrom = (PointFinder<R> && AccessibleFrom<R, S>) ||
                         (RayCaster<R> && !PointFinder<R> && S == Space::host);
 
 /// Writes what a ray sees first to `point`; false when it leaves the scene.
-template <class R>
+template <PointFinder R>
 [[nodiscard]] MIR_HD bool find_point(const R& caster, const Ray& ray, SurfacePoint& point) {
-    if constexpr (PointFinder<R>) {
-        return caster.find_point(ray, point);
-    } else {
-        const auto found = caster.closest_hit(ray);
-        if (found) point = *found;
-        return found.has_value();
-    }
+    return caster.find_point(ray, point);
+}
+/// The same by a caster that only the host asks.
+template <RayCaster R>
+    requires(!PointFinder<R>)
+[[nodiscard]] bool find_point(const R& caster, const Ray& ray, SurfacePoint& point) {
+    const auto found = caster.closest_hit(ray);
+    if (found) point = *found;
+    return found.has_value();
 }
 
 }  // namespace mir

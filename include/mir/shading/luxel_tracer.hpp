@@ -32,11 +32,16 @@ struct LuxelTracer {
     SurfaceTableView<S, B> surfaces;  ///< materials and their textures
 
     /// What a camera ray sees.
-    [[nodiscard]] MIR_HD SeenLuxel operator()(const Ray& ray) const {
-        SeenLuxel seen;
-        seen.ray = ray;
-        seen.is_background = !find_point(caster, ray, seen.point);
-        return seen;
+    [[nodiscard]] MIR_HD SeenLuxel operator()(const Ray& ray) const requires PointFinder<R> {
+        SurfacePoint point;
+        const bool is_found = find_point(caster, ray, point);
+        return {ray, point, !is_found};
+    }
+    /// The same by a caster that only the host asks.
+    [[nodiscard]] SeenLuxel operator()(const Ray& ray) const requires(!PointFinder<R>) {
+        SurfacePoint point;
+        const bool is_found = find_point(caster, ray, point);
+        return {ray, point, !is_found};
     }
 
     /// Place of what is seen, lifted off its surface; empty where that is the background.

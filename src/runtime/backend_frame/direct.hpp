@@ -12,15 +12,14 @@ namespace mir {
 template <Backend M, Bsdf B>
 LayerPtr BackendFrame<M, B>::direct(const FrameBand& band, DirectSamples samples) {
     const auto& gbuffer = of(band).gbuffer;
-    const UploadedLights<M> there(machine_, queue_, job_.lights);
     BackendLayer<M> layer = layer_for(of(band));
     const WaitAtEnd wait(queue_);
     with_rays([&](const auto& rays) {
         using Sight = typename std::remove_cvref_t<decltype(rays)>::Sight;
         const LuxelLight<B, Sight> light{
-            {there.view(), geometry_there_.view(), rays.sight(), samples.emitters},
-            {there.view(), rays.sight()},
-            {there.view(), rays.sight(), samples.environment},
+            {lights_.view(), geometry_there_.view(), rays.sight(), samples.emitters},
+            {lights_.view(), rays.sight()},
+            {lights_.view(), rays.sight(), samples.environment},
             {band.first_row, job_.rays.grid, job_.settings.seed},
             samples.distant_vpls};
         for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {

@@ -3,7 +3,6 @@
 
 // Members of BackendFrame that find what camera rays see, and what needs no more than that.
 
-#include "mir/kernels/background_pass.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_scene.hpp"
 #include "mir/sampling/visible_area.hpp"
@@ -36,7 +35,7 @@ BandPtr BackendFrame<M, B>::trace(Extent extent, Extent tile, std::uint32_t firs
     with_rays([&](const auto& structure) {
         trace_primary_hits(queue_, band->gbuffer, first_row, job_.rays.luxel_rays(),
                            LuxelTracer{structure.caster(geometry_there_.view()), surfaces_.view()},
-                           {});
+                           lights_.view().environment);
     });
     queue_.record().sync();
     return band;
@@ -65,17 +64,11 @@ LayerPtr BackendFrame<M, B>::black(const FrameBand& band) {
 template <Backend M, Bsdf B>
 LayerPtr BackendFrame<M, B>::emission(const FrameBand& band) {
     const auto& gbuffer = of(band).gbuffer;
-    const EnvironmentTable& around = job_.lights.environment();
-    const UploadedEnvironment<M> there(machine_, queue_, around);
     BackendLayer<M> layer = layer_for(of(band));
     const WaitAtEnd wait(queue_);
     for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
         const auto view = gbuffer.view(t);
         queue_.for_each(view.size(), EmissionPass{view, layer.tile(t)});
-        if (!around.empty())
-            queue_.for_each(view.size(),
-                            BackgroundPass{view, gbuffer.tiles()[t], band.first_row,
-                                           job_.rays.luxel_rays(), there.view(), layer.tile(t)});
     }
     queue_.record().sync();
     return std::make_unique<Layer>(std::move(layer));

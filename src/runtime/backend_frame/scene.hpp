@@ -18,6 +18,7 @@ BackendFrame<M, B>::BackendFrame(RenderJob& job, const M& machine, MakeTree make
       sigma_(static_cast<float>(sigma_of(magnitude_of(job.geometry.bounds())))),
       queue_(machine.queue()),
       geometry_there_(machine, queue_, job.geometry),
+      lights_(machine, queue_, job.lights),
       surfaces_(machine, queue_, std::get<SurfaceTable<B>>(job.surfaces)),
       masks_(machine, queue_, job.geometry.masks()) {
     queue_.record().sync();
