@@ -41,9 +41,9 @@ class SceneOnBackend {
 
     /// Starts to trace all luxels on `queue`.
     void trace(typename B::Queue& queue, mir::BackendGBuffer<B, Bsdf::Params>& luxels) const {
-        mir::trace_primary_hits<B, Bsdf>(queue, luxels, 0, rays_,
-                                         mir::KdRayFinder<B::space>{tree_.view()}, geometry_.view(),
-                                         surfaces_.view());
+        const mir::KdRayCaster<B::space> caster(geometry_.view(), tree_.view());
+        mir::trace_primary_hits(queue, luxels, 0, rays_, mir::LuxelTracer{caster, surfaces_.view()},
+                                {});
     }
 
  private:

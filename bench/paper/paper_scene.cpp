@@ -52,7 +52,8 @@ PaperScene::PaperScene(const std::string& name, mir::Extent size, const mir::KdT
       surfaces_(scene_),
       luxels_(size, size) {
     fill_luxels(executor);
-    visible_area_ = mir::visible_area(scene_.cameras.front(), aspect(), caster());
+    visible_area_ = mir::visible_area(scene_.cameras.front(), aspect(),
+                                      mir::LuxelTracer{caster(), surfaces_.view()});
 }
 
 float PaperScene::sigma() const {

@@ -24,7 +24,8 @@ BenchScene::BenchScene(mir::Scene from)
       surfaces(scene) {
     const float aspect =
         static_cast<float>(paper_image.width) / static_cast<float>(paper_image.height);
-    visible_area = mir::visible_area(scene.cameras.front(), aspect, engine.ray_caster());
+    visible_area = mir::visible_area(scene.cameras.front(), aspect,
+                                     mir::LuxelTracer{engine.ray_caster(), surfaces.view()});
 }
 
 GBuffer BenchScene::gbuffer(mir::Extent image, mir::Extent tile) const {

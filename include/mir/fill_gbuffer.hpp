@@ -2,10 +2,10 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
-#include "mir/concepts/ray_caster.hpp"
 #include "mir/data/gbuffer.hpp"
 #include "mir/film/luxel_rays.hpp"
 #include "mir/scene/camera.hpp"
+#include "mir/shading/luxel_tracer.hpp"
 #include "mir/shading/surface_table.hpp"
 
 namespace mir {
@@ -27,12 +27,13 @@ struct CameraRays {
 
 /// First phase: traces the camera ray of every luxel of `gbuffer`, which holds the rows from
 /// `first_row` on of the luxel image. `rays(x, y)` is the ray of a luxel, as in CameraRays. Points
-/// are lifted.
+/// are lifted. Luxels that see nothing emit what `background` sends them.
 /// @throws Error(invalid_argument) when rays of an image's luxels are given and the G-buffer has
 ///         columns or rows that the image does not have.
-template <Bsdf B, class Rays, RayCaster R, Executor E>
+template <Bsdf B, class Rays, class R, Executor E>
 void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t first_row,
-                  const Rays& rays, const R& caster, const SurfaceTable<B>& surfaces, E& executor) {
+                  const Rays& rays, const LuxelTracer<R, Space::host, B>& tracer,
+                  const EnvironmentView<Space::host>& background, E& executor) {
     if constexpr (requires { rays.grid.luxels(); }) {
         const Extent image = rays.grid.luxels();
         const Extent band = gbuffer.extent();
@@ -54,13 +55,18 @@ void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t fir
         const Tile tile = gbuffer.tiles()[row.tile];
         const auto layout = BlockedLayout::of(tile);
         for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const Ray ray = rays(tile.x + x, first_row + tile.y + row.y);
-            const auto point = caster.closest_hit(ray);
-            if (!point) continue;
-            gbuffer.store(row.tile, layout(x, row.y), {lift(*point), point->geometric_normal},
-                          surfaces.luxel_surface(*point, -ray.direction));
+            const SeenLuxel seen = tracer(rays(tile.x + x, first_row + tile.y + row.y));
+            gbuffer.store(row.tile, layout(x, row.y), tracer.hit(seen),
+                          tracer.surface(seen, background));
         }
     });
+}
+
+/// The same before a black background.
+template <Bsdf B, class Rays, RayCaster R, Executor E>
+void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t first_row,
+                  const Rays& rays, const R& caster, const SurfaceTable<B>& surfaces, E& executor) {
+    fill_gbuffer(gbuffer, first_row, rays, LuxelTracer{caster, surfaces.view()}, {}, executor);
 }
 
 }  // namespace mir

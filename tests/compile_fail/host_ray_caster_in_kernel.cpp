@@ -1,4 +1,4 @@
-// expect: mir: paths in a kernel need a ray caster with find_point()
+// expect: mir: camera rays and paths in a kernel need a ray caster with find_point()
 // SPDX-License-Identifier: MIT
 #include "mir/accel/kd/kd_rays.hpp"
 #include "mir/paths/path_world.hpp"

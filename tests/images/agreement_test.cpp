@@ -35,8 +35,10 @@ class Trial {
         settings.max_bounce = BounceMeans::last_bounce;
         settings.bound = {
             mir::BoundPolicy::Kind::fixed,
-            mir::default_bound(visible_area(camera, aspect, studio.engine.ray_caster()),
-                               bound_vpls)};
+            mir::default_bound(
+                visible_area(camera, aspect,
+                             mir::LuxelTracer{studio.engine.ray_caster(), studio.surfaces.view()}),
+                bound_vpls)};
         mir::ReferenceOptions reference;
         reference.samples = samples;
         reference.film = mir::FilmPosition::pixel;

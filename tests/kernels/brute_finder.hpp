@@ -44,17 +44,22 @@ struct BruteFinder {
 };
 static_assert(mir::RayFinder<BruteFinder>);
 
-/// The same finder as host code asks it.
+/// What the same finder meets, as host code and kernels ask for it.
 struct BruteFinderCaster {
-    const mir::WorldGeometry* geometry = nullptr;
+    static constexpr mir::Space space = mir::Space::host;
+
+    mir::GeometryView<mir::Space::host> geometry;
     BruteFinder finder;
 
+    [[nodiscard]] bool find_point(const mir::Ray& ray, mir::SurfacePoint& point) const {
+        return find_surface(finder, geometry, ray, point);
+    }
     [[nodiscard]] std::optional<mir::SurfacePoint> closest_hit(mir::Ray ray) const {
         mir::SurfacePoint point;
-        if (!find_surface(finder, geometry->view(), ray, point)) return std::nullopt;
+        if (!find_point(ray, point)) return std::nullopt;
         return point;
     }
 };
-static_assert(mir::RayCaster<BruteFinderCaster>);
+static_assert(mir::RayCaster<BruteFinderCaster> && mir::PointFinder<BruteFinderCaster>);
 
 }  // namespace mirtest

@@ -9,6 +9,7 @@
 #include "mir/resident/uploaded_scene.hpp"
 #include "support/catch.hpp"
 #include "support/lazy_backend.hpp"
+#include "support/test_sky.hpp"
 
 namespace {
 
@@ -40,8 +41,8 @@ class Camera {
     [[nodiscard]] Host by_host(Extent extent, Extent tile, std::uint32_t first_row = 0) const {
         Host g(extent, tile);
         mir::InlineExecutor executor;
-        mir::fill_gbuffer<F>(g, first_row, rays, mirtest::BruteFinderCaster{&geometry_, finder()},
-                             surfaces_, executor);
+        const mir::LuxelTracer tracer{caster(geometry_.view()), surfaces_.view()};
+        fill_gbuffer(g, first_row, rays, tracer, sky_.view(), executor);
         return g;
     }
 
@@ -52,24 +53,28 @@ class Camera {
         auto queue = backend.queue();
         const mir::UploadedGeometry<B> geometry(backend, queue, geometry_);
         const mir::UploadedSurfaces<B, F> surfaces(backend, queue, surfaces_);
+        const mir::UploadedEnvironment<B> sky(backend, queue, sky_);
         mir::BackendGBuffer<B, typename F::Params> there(backend, extent, tile);
-        trace_primary_hits(queue, there, first_row, rays.luxel_rays(), finder(), geometry.view(),
-                           surfaces.view());
+        const mir::LuxelTracer tracer{caster(geometry.view()), surfaces.view()};
+        trace_primary_hits(queue, there, first_row, rays.luxel_rays(), tracer, sky.view());
         there.download(queue, g);
         queue.record().sync();
         return g;
     }
 
  private:
-    [[nodiscard]] mirtest::BruteFinder finder() const {
+    [[nodiscard]] mirtest::BruteFinderCaster caster(
+        const mir::GeometryView<mir::Space::host>& geometry) const {
         const float magnitude = mir::larger(mir::max_abs(geometry_.bounds().low),
                                             mir::max_abs(geometry_.bounds().high));
-        return {rows_.data(), static_cast<std::uint32_t>(rows_.size()), 1.5f * magnitude};
+        return {geometry,
+                {rows_.data(), static_cast<std::uint32_t>(rows_.size()), 1.5f * magnitude}};
     }
 
     mir::Scene scene_ = scene();
     mir::WorldGeometry geometry_{scene_};
     mir::SurfaceTable<F> surfaces_{scene_};
+    mir::EnvironmentTable sky_{mirtest::test_sky()};
     std::vector<mir::TriangleRows> rows_ = mirtest::rows_of(geometry_);
 };
 

@@ -66,7 +66,8 @@ GBuffer luxels_of(const Sphere& sphere) {
     GBuffer gbuffer({24, 20}, {16, 16});
     mir::InlineExecutor one;
     const mir::CameraRays rays{sphere.camera, {{24, 20}}};
-    mir::fill_gbuffer<Lambert>(gbuffer, 0, rays, sphere.world().caster, sphere.surfaces, one);
+    mir::fill_gbuffer<Lambert>(gbuffer, 0, rays, sphere.world().luxels.caster, sphere.surfaces,
+                               one);
     return gbuffer;
 }
 

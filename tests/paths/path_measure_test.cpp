@@ -16,7 +16,7 @@ namespace {
 
 using mir::CookTorrance;
 using mir::Lambert;
-using mir::LightEndKind;
+using mir::LightOrigin;
 using mir::Path;
 using mir::PathMeasure;
 using mir::PathTechniques;
@@ -85,7 +85,7 @@ void check_equal(const mir::WideRgb& a, const mir::WideRgb& b) {
 /// Whether a cosine is so small that single precision spoils it.
 bool is_grazing(const Path& path) {
     for (std::uint32_t i = 1; i < path.edges(); ++i) {
-        if (i + 1 == path.edges() && path.light.kind != LightEndKind::area) return false;
+        if (i + 1 == path.edges() && path.light.origin != LightOrigin::surface) return false;
         const DVec3 w = towards(path.x(i).position, path.x(i + 1).position);
         for (Vec3 n : {path.x(i).normal, path.x(i).shading_normal, path.x(i + 1).normal})
             if (std::fabs(glm::dot(w, DVec3(n))) < 0.01) return true;
@@ -156,8 +156,10 @@ TEST_CASE("light from a point, a spot and the sun arrives as I cos / d^2 or E co
             w = towards(x2.position, path.x(3).position);
             light = 1.0 / length2(DVec3(path.x(3).position) - DVec3(x2.position));
         }
-        if (lights == WedgeLights::spot)
-            light *= static_cast<double>(spot_falloff(lab.scene.spot_lights[0], Vec3(-w)));
+        if (lights == WedgeLights::spot) {
+            const mir::SpotLight& spot = lab.scene.spot_lights[0];
+            light *= static_cast<double>(source_of(spot, {}).share(spot.direction, Vec3(-w)));
+        }
         light *= glm::dot(w, DVec3(x2.shading_normal));
         if (light < 1e-3) return;
         check_equal(m.leaving, scaled(Rgb{3, 2, 1} * spread(world, path), light));
@@ -209,7 +211,7 @@ TEST_CASE("glossy vertices are drawn from their lobe, but x3 as a VPL's light is
     };
     for_each_path(world, 4, [&](const Path& path, const PathMeasure& m) {
         REQUIRE(m.from_eye[2] == Approx(lobe(path.x(1), path.eye, path.x(2))).epsilon(1e-3));
-        if (!world.surfaces.is_lambertian(path.x(2).material))
+        if (!world.luxels.surfaces.is_lambertian(path.x(2).material))
             REQUIRE(m.from_eye[3] ==
                     Approx(world.area_unit *
                            cosine_density(path.x(2), path.x(3), path.x(2).shading_normal)));

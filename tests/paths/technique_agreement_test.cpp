@@ -15,7 +15,6 @@ namespace {
 
 using mir::CookTorrance;
 using mir::Lambert;
-using mir::LightEndKind;
 using mir::Path;
 using mir::PathMeasure;
 using mir::PathTechniques;
@@ -44,7 +43,7 @@ template <class World, class Density = RightDensity>
 double agreement(const World& world, std::uint32_t shortest, std::uint64_t seed,
                  const Density& density = {}) {
     std::vector<double> p;
-    const bool delta_lights = world.lights.triangle_count == 0;
+    const bool delta_lights = world.lights.lamps.count == 0;
     for (std::uint32_t k = shortest; k <= longest; ++k) {
         const TechniqueTable all(k, k, PathTechniques::bidirectional);
         const TechniqueTable camera(k, k, PathTechniques::camera);
@@ -184,7 +183,7 @@ TEST_CASE("a two-sided lamp whose sides are each started with full density is re
 
 TEST_CASE("light paths from a sky whose disc is forgotten are rejected", "[statistical]") {
     const PathLab<Lambert> lab(Wedge(WedgeLights::environment).scene());
-    const double disc = mir::pi * lab.lights.radius() * lab.lights.radius();
+    const double disc = mir::pi * lab.lights.sphere().radius * lab.lights.sphere().radius;
     const auto wrong = [&](Technique t, const Path&, PathMeasure m) {
         m.from_light[t.edges - 1] *= disc;
         return technique_density(m, t.edges, t.from_light);

@@ -45,7 +45,7 @@ struct Sphere {
             {.max_bounce = last, .roulette_from = 255, .bound = bound, .part = part});
         std::vector<mir::RgbSum> bounces(last + 1);
         mir::Random random(1, mir::Stream::reference, 0);
-        tracer.trace(*tracer.first_vertex({{0, 0, 0}, {0.6f, 0, 0.8f}}), random, bounces);
+        tracer.trace(tracer.luxel({{0, 0, 0}, {0.6f, 0, 0.8f}}), random, bounces);
         return bounces;
     }
 };

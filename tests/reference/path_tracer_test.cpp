@@ -102,11 +102,11 @@ TEST_CASE("a path starts at the luxel that the G-buffer holds") {
         const mir::Tile tile = g.tiles()[t];
         for (std::uint32_t y = 0; y < tile.height; ++y)
             for (std::uint32_t x = 0; x < tile.width; ++x) {
-                const auto first = tracer.first_vertex(rays(tile.x + x, tile.y + y));
+                const auto luxel = tracer.luxel(rays(tile.x + x, tile.y + y));
                 const auto i = mir::BlockedLayout::of(tile)(x, y);
-                REQUIRE(first);
-                REQUIRE(first->hit.position == g.view(t).hit(i).position);
-                REQUIRE(first->surface.normal == g.view(t).surface(i).normal);
+                REQUIRE_FALSE(is_empty(luxel.hit));
+                REQUIRE(luxel.hit.position == g.view(t).hit(i).position);
+                REQUIRE(luxel.surface.normal == g.view(t).surface(i).normal);
             }
     }
 }
@@ -119,8 +119,7 @@ TEST_CASE("emission seen directly is D_0 and has no variance") {
     const mir::Image<Rgb> emission = image.bounce(0);
     for (std::uint32_t y = 0; y < 24; ++y)
         for (std::uint32_t x = 0; x < 24; ++x) {
-            const auto first = tracer.first_vertex(rays(x, y));
-            REQUIRE(emission(x, y) == (first ? first->surface.emission : Rgb{}));
+            REQUIRE(emission(x, y) == tracer.luxel(rays(x, y)).surface.emission);
         }
     CHECK_FALSE(is_black(emission));
     CHECK(is_black(image.bounce_variance(0)));
@@ -131,10 +130,10 @@ TEST_CASE("light stops after the largest bounce") {
     for (LightSearch search : {LightSearch::mis, LightSearch::lamps, LightSearch::directions}) {
         std::array<mir::RgbSum, 3> bounces{};
         const auto tracer = studio.tracer({.light = search, .max_bounce = 2});
-        const auto first = tracer.first_vertex({{0, 1, 0.9f}, {0, -1, 0}});
-        REQUIRE(first);
+        const auto first = tracer.luxel({{0, 1, 0.9f}, {0, -1, 0}});
+        REQUIRE_FALSE(is_empty(first.hit));
         mir::Random random(9, mir::Stream::reference, 0);
-        for (int i = 0; i < 2000; ++i) tracer.trace(*first, random, bounces);
+        for (int i = 0; i < 2000; ++i) tracer.trace(first, random, bounces);
         CHECK(bounces[1].channel[0] > 0.0);
         CHECK(bounces[2].channel[0] > 0.0);
     }
@@ -144,15 +143,15 @@ TEST_CASE("light stops after the largest bounce") {
 TEST_CASE("later bounces than there is room for go to the last element") {
     const Studio<Lambert> studio(box());
     const auto tracer = studio.tracer({});
-    const auto first = tracer.first_vertex({{0, 1, 0.9f}, {0, -1, 0}});
-    REQUIRE(first);
+    const auto first = tracer.luxel({{0, 1, 0.9f}, {0, -1, 0}});
+    REQUIRE_FALSE(is_empty(first.hit));
     std::array<mir::RgbSum, 3> few{};
     std::array<mir::RgbSum, 64> many{};
     mir::Random random(9, mir::Stream::reference, 0);
     mir::Random same = random;
     for (int i = 0; i < 200; ++i) {
-        tracer.trace(*first, random, few);
-        tracer.trace(*first, same, many);
+        tracer.trace(first, random, few);
+        tracer.trace(first, same, many);
     }
     double later = 0.0;
     for (std::size_t b = 2; b < many.size(); ++b) later += many[b].channel[0];

@@ -56,9 +56,9 @@ TEST_CASE("a furnace with textured walls has radiance 1", "[statistical]") {
         for (int i = 0; i < n; ++i) {
             const mir::Ray ray{{0, 0, 0}, mir::square_to_sphere(random.next_2d())};
             std::vector<mir::RgbSum> bounces(8);
-            const auto first = tracer.first_vertex(ray);
-            REQUIRE(first.has_value());
-            tracer.trace(*first, random, bounces);
+            const auto first = tracer.luxel(ray);
+            REQUIRE_FALSE(is_empty(first.hit));
+            tracer.trace(first, random, bounces);
             double radiance = 0.0;
             for (const mir::RgbSum& b : bounces) radiance += b.channel[1];
             sum += radiance;

@@ -110,12 +110,13 @@ TEST_CASE("Uploaded textures and vertex colours give the numbers of the host") {
         CHECK(found.bsdf.alpha == wanted.bsdf.alpha);
         painted += wanted.bsdf.diffuse != surfaces.params(p.material).diffuse ? 1 : 0;
         CHECK(wanted.emission != mir::Rgb{1, 2, 3});
-        const auto light = lamps.view().point_on(there.view(), t, at);
-        CHECK(light.radiance == lights.point_on(t, at).radiance);
-        CHECK(light.normal == lights.point_on(t, at).normal);
-        CHECK(light.pdf_area == lights.point_on(t, at).pdf_area);
+        const auto light = lamps.view().lamps.point_on(there.view(), t, at);
+        const auto point = lights.lamps().view().point_on(geometry.view(), t, at);
+        CHECK(light.radiance == point.radiance);
+        CHECK(light.normal == point.normal);
+        CHECK(light.pdf_area == point.pdf_area);
         const float u = random.next();
-        CHECK(lamps.view().sample_emitter(there.view(), u, at).pdf_area ==
+        CHECK(lamps.view().lamps.sample(there.view(), u, at).pdf_area ==
               lights.sample_emitter(u, at).pdf_area);
         CHECK(light.radiance != mir::Rgb{1, 2, 3});
     }

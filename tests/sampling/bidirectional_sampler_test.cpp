@@ -135,7 +135,8 @@ TEST_CASE("inside a sphere resampled VPLs send out what it reflects", "[statisti
     const auto camera = mir::Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.2f);
     const World world{geometry, lights, surfaces, {2.0f, upper, lower}, {}, camera};
     using Sampler = BidirectionalSampler<World>;
-    const Sampler::Probe probe({camera, 1.0f, 64, 5}, world.caster, surfaces, world.visibility);
+    const Sampler::Probe probe({camera, 1.0f, 64, 5}, world.luxels.caster, surfaces,
+                               world.visibility);
     std::array<mirtest::Moments, 6> sent;
     mir::InlineExecutor one;
     for (std::uint64_t seed = 1500; seed < 1756; ++seed) {

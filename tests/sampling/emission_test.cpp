@@ -158,12 +158,12 @@ TEST_CASE("the sun's rays are parallel and uniform over a disc that covers the s
     const Lit lit(sun());
     const Vec3 towards = lit.scene.directional_lights[0].direction;
     const mir::Frame frame = mir::Frame::around(towards);
-    const float radius = lit.lights.radius();
+    const float radius = lit.lights.sphere().radius;
     Histogram h(20, 16);
     for (std::uint64_t i = 0; i < draws; ++i) {
         const Emission e = lit.emission(166, i);
         CHECK(e.ray.direction == towards);
-        const Vec3 p = frame.to_local(e.ray.origin - lit.lights.centre()) / radius;
+        const Vec3 p = frame.to_local(e.ray.origin - lit.lights.sphere().centre) / radius;
         CHECK(p.z == Approx(-2.0f).epsilon(1e-5));
         const auto x = static_cast<double>(p.x);
         const auto y = static_cast<double>(p.y);
@@ -176,14 +176,15 @@ TEST_CASE("a sky's rays come by its luminance, uniform over a disc that covers t
           "[statistical]") {
     const Lit lit(sky());
     const auto around = lit.lights.environment().view();
-    const float radius = lit.lights.radius();
+    const float radius = lit.lights.sphere().radius;
     Histogram disc(20, 16);
     Histogram direction(24, 24);
     for (std::uint64_t i = 0; i < draws; ++i) {
         const Emission e = lit.emission(168, i);
         const Vec3 w = e.ray.direction;
         CHECK(e.light_group == 9);
-        const Vec3 p = mir::Frame::around(w).to_local(e.ray.origin - lit.lights.centre()) / radius;
+        const Vec3 p =
+            mir::Frame::around(w).to_local(e.ray.origin - lit.lights.sphere().centre) / radius;
         CHECK(p.z == Approx(-2.0f).epsilon(1e-5));
         const auto x = static_cast<double>(p.x);
         const auto y = static_cast<double>(p.y);
@@ -221,10 +222,9 @@ TEST_CASE("an emission from a lamp knows its place, side and density") {
         const Emission e = lit.emission(1, i);
         REQUIRE(e.emitter);
         CHECK(e.light_group == 5);
-        CHECK(std::fabs(glm::dot(e.emitter_normal, front)) == Approx(1.0f));
-        CHECK(glm::dot(e.ray.direction, e.emitter_normal) > 0.0f);
-        CHECK(glm::length(e.ray.origin - e.emitter->position -
-                          e.emitter->offset * e.emitter_normal) < 1e-6f);
+        CHECK(std::fabs(glm::dot(e.emitter->normal, front)) == Approx(1.0f));
+        CHECK(glm::dot(e.ray.direction, e.emitter->normal) > 0.0f);
+        CHECK(e.ray.origin == e.emitter->position);
         CHECK(e.pdf_point == Approx(0.5f / area));
         CHECK(e.power.r == Approx(3 * mir::pi * 2 * area));
         CHECK(e.power.b == Approx(1 * mir::pi * 2 * area));

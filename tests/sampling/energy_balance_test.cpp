@@ -44,10 +44,11 @@ std::array<double, 3> absorbed(const Scene& scene, const mir::WorldGeometry& geo
 
 std::array<double, 3> emitted(const mir::LightTable& lights, const mir::WorldGeometry& geometry) {
     std::array<double, 3> sum{};
-    for (std::uint32_t i = 0; i < lights.emissive_triangles().size(); ++i) {
-        const Rgb radiance = lights.point_on(i, {0.3f, 0.3f}).radiance;
+    for (std::uint32_t i = 0; i < lights.lamps().triangles().size(); ++i) {
+        const Rgb radiance =
+            lights.lamps().view().point_on(geometry.view(), i, {0.3f, 0.3f}).radiance;
         const double power =
-            mirtest::pi * static_cast<double>(geometry.area(lights.emissive_triangles()[i]));
+            mirtest::pi * static_cast<double>(geometry.area(lights.lamps().triangles()[i]));
         sum[0] += power * static_cast<double>(radiance.r);
         sum[1] += power * static_cast<double>(radiance.g);
         sum[2] += power * static_cast<double>(radiance.b);

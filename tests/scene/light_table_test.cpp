@@ -53,7 +53,7 @@ Scene all_kinds() {
 template <class Probability>
 double emitter_p_value(const LightTable& table, std::uint64_t seed,
                        const Probability& probability) {
-    const auto triangles = table.emissive_triangles();
+    const auto triangles = table.lamps().triangles();
     std::vector<double> observed(triangles.size() * 4);
     std::vector<double> expected;
     constexpr double draws = 50'000;
@@ -78,9 +78,9 @@ TEST_CASE("emissive triangles are listed in order, with their power as luminance
     const Scene s = lamps();
     const WorldGeometry g(s);
     const LightTable table(s, g);
-    REQUIRE(table.emissive_triangles().size() == 2 + 5);
-    CHECK(table.emissive_triangles().front() == 2);
-    CHECK(table.emissive_triangles().back() == 8);
+    REQUIRE(table.lamps().triangles().size() == 2 + 5);
+    CHECK(table.lamps().triangles().front() == 2);
+    CHECK(table.lamps().triangles().back() == 8);
     CHECK(table.has_emitters());
     const double disc = 0.25 * mirtest::pi;
     const double bright = static_cast<double>(mir::luminance(mir::Rgb{8, 2, 1}));
@@ -95,19 +95,20 @@ TEST_CASE("every kind of light counts with the power it sends into the scene") {
     const LightTable area(without_delta_lights, g);
     const auto point = static_cast<double>(mir::luminance(mir::Rgb{1, 2, 3})) * 4 * mirtest::pi;
     // The falloff over the ring, integrated numerically.
-    const double spot = 4 * mirtest::integrate(0.6, 1.0, 4000, [&](double c) {
-                            return 2 * mirtest::pi *
-                                   static_cast<double>(mir::spot_falloff(
-                                       s.spot_lights[0], mirtest::direction(-c, 0)));
-                        });
+    const double spot =
+        4 * mirtest::integrate(0.6, 1.0, 4000, [&](double c) {
+            return 2 * mirtest::pi *
+                   static_cast<double>(source_of(s.spot_lights[0], {})
+                                           .share({0, 0, -1}, mirtest::direction(-c, 0)));
+        });
     const auto radius = static_cast<double>(g.bounds().diagonal()) / 2;
     const double sun = 2 * mirtest::pi * radius * radius;
     CHECK(table.power() - area.power() == Approx(point + spot + sun).epsilon(1e-4));
     CHECK(table.light_probability(7) == Approx(point / table.power()));
     CHECK(table.light_probability(8) == Approx(spot / table.power()).epsilon(1e-3));
     CHECK(table.light_probability(9) == Approx(sun / table.power()));
-    CHECK(table.radius() == Approx(radius));
-    CHECK(table.centre() == g.bounds().centre());
+    CHECK(table.sphere().radius == Approx(radius));
+    CHECK(table.sphere().centre == g.bounds().centre());
 }
 
 TEST_CASE("densities of emitter points are one over area times the share of power") {
@@ -144,7 +145,7 @@ TEST_CASE("an emitter sample describes a point on its triangle") {
         CHECK(e.position == p);
         CHECK(std::fabs(glm::dot(p - g.corner(e.triangle, 0), e.normal)) < 1e-6f);
     }
-    const EmitterSample alone = table.point_on(6, {0.2f, 0.3f});
+    const EmitterSample alone = table.lamps().view().point_on(g.view(), 6, {0.2f, 0.3f});
     CHECK(alone.triangle == 8);
     CHECK(alone.pdf_area == Approx(1 / g.area(8)));
 }

@@ -35,7 +35,8 @@ Scene room() {
 Placements moved(const Scene& scene, DVec3 way) {
     Placements places = mir::placements_of(scene);
     for (DMat4& m : places.instances) m[3] += glm::dvec4(way, 0.0);
-    for (auto* list : {&places.point_lights, &places.spot_lights, &places.cameras})
+    for (auto* list :
+         {&places.lights<mir::PointLight>(), &places.lights<mir::SpotLight>(), &places.cameras})
         for (DVec3& place : *list) place += way;
     return places;
 }
@@ -153,7 +154,7 @@ TEST_CASE("far vertices that a turned placement brings home are not rounded far 
     scene.instances = {{0}, {1}, {0}};
     DMat4 beside = turned;
     beside[3].y += 1.0;
-    static_cast<void>(mir::recentre(scene, {{turned, DMat4(1.0), beside}, {}, {}, {}}));
+    static_cast<void>(mir::recentre(scene, {{turned, DMat4(1.0), beside}, {}, {}}));
     CHECK(scene.origin == DVec3(0.0));
     const mir::WorldGeometry world(scene);
     const auto at = [&](std::size_t i) { return DVec3(world.positions()[i]); };

@@ -111,13 +111,14 @@ TEST_CASE("No sky, a black one and no samples bring nothing") {
 
 TEST_CASE("The power of a sky is what passes the bounding sphere, and it comes last") {
     const Under under(mirtest::constant_sky({1, 1, 1}));
-    const double radius = under.lights.radius();
+    const double radius = under.lights.sphere().radius;
     CHECK(under.lights.power() ==
           Approx(4 * mirtest::pi * mirtest::pi * radius * radius).epsilon(1e-5));
-    CHECK(under.lights.view().is_environment(0));
+    const auto has_extent = [](const auto& source) { return source.has_extent; };
+    CHECK(under.lights.visit(0, has_extent));
     Scene s = under.scene;
     s.directional_lights.push_back({"sun", {0, -1, 0}, {1, 1, 1}});
     const mir::LightTable both(s, under.geometry);
-    CHECK_FALSE(both.view().is_environment(0));
-    CHECK(both.view().is_environment(1));
+    CHECK_FALSE(both.visit(0, has_extent));
+    CHECK(both.visit(1, has_extent));
 }

@@ -34,9 +34,10 @@ struct Lit {
         const mir::EmitterLight<Lambert, FreeSight> light{lights, {}, samples};
         return light({at, normal}, receiver(normal), shared, random).r;
     }
-    float from_deltas(Vec3 at, Vec3 normal) const {
-        const mir::DeltaLight<Lambert, FreeSight> light{lights, {}};
-        return light({at, normal}, receiver(normal)).r;
+    float from_listed(Vec3 at, Vec3 normal) const {
+        const mir::ListedLight<Lambert, FreeSight> light{lights, {}};
+        const auto unasked = [](std::uint32_t) -> mir::Vec2 { throw 0; };
+        return light({at, normal}, receiver(normal), unasked).r;
     }
     static mir::Surface<Lambert::Params> receiver(Vec3 normal) {
         return {normal, normal, {}, {{mir::pi, mir::pi, mir::pi}}};
@@ -167,16 +168,16 @@ TEST_CASE("light from below the surface or without samples or lamps is black") {
     CHECK(lit.from_emitters({0, 0, 0}, up, 0, random) == 0.0f);
     const Lit dark(mir::Scene{});
     CHECK(dark.from_emitters({0, 0, 0}, up, 16, random) == 0.0f);
-    CHECK(dark.from_deltas({0, 0, 0}, up) == 0.0f);
+    CHECK(dark.from_listed({0, 0, 0}, up) == 0.0f);
 }
 
 TEST_CASE("a point light's irradiance is I cos / d^2") {
     Scene s;
     s.point_lights.push_back({"bulb", {3, 4, 0}, {10, 10, 10}});
     const Lit lit(s);
-    CHECK(lit.from_deltas({0, 0, 0}, up) == Approx(10 * 0.8 / 25));
-    CHECK(lit.from_deltas({0, 0, 0}, -up) == 0.0f);
-    CHECK(lit.from_deltas({3, 2, 0}, up) == Approx(10.0 / 4));
+    CHECK(lit.from_listed({0, 0, 0}, up) == Approx(10 * 0.8 / 25));
+    CHECK(lit.from_listed({0, 0, 0}, -up) == 0.0f);
+    CHECK(lit.from_listed({3, 2, 0}, up) == Approx(10.0 / 4));
 }
 
 TEST_CASE("a spot light's falloff is glTF's: full inside, none outside, squared ramp between") {
@@ -189,30 +190,31 @@ TEST_CASE("a spot light's falloff is glTF's: full inside, none outside, squared 
     Scene s;
     s.spot_lights.push_back(spot);
     const Lit lit(s);
-    CHECK(lit.from_deltas({0, 0, 0}, up) == Approx(8.0 / 4));
+    CHECK(lit.from_listed({0, 0, 0}, up) == Approx(8.0 / 4));
     for (double cosine : {0.95, 0.8, 0.7, 0.6, 0.4}) {
         const double tangent = std::sqrt(1 / (cosine * cosine) - 1);
         const Vec3 at(static_cast<float>(2 * tangent), 0, 0);
         const double ramp = std::clamp((cosine - 0.5) / 0.4, 0.0, 1.0);
         const double d2 = 4 / (cosine * cosine);
-        CHECK(lit.from_deltas(at, up) == Approx(8 * ramp * ramp * cosine / d2).epsilon(1e-4));
+        CHECK(lit.from_listed(at, up) == Approx(8 * ramp * ramp * cosine / d2).epsilon(1e-4));
     }
 }
 
 TEST_CASE("a spot with equal angles has a hard edge") {
     mir::SpotLight spot;
     spot.cos_inner = spot.cos_outer = 0.8f;
-    CHECK(mir::spot_falloff(spot, mirtest::direction(-0.79, 0)) == 0.0f);
-    CHECK(mir::spot_falloff(spot, mirtest::direction(-0.81, 0)) == 1.0f);
+    const mir::SpotSource source = source_of(spot, {});
+    CHECK(source.share(spot.direction, mirtest::direction(-0.79, 0)) == 0.0f);
+    CHECK(source.share(spot.direction, mirtest::direction(-0.81, 0)) == 1.0f);
 }
 
 TEST_CASE("a directional light's irradiance is E cos, at any distance") {
     Scene s = square_lamp();
     s.directional_lights.push_back({"sun", glm::normalize(Vec3(0, -3, 4)), {5, 5, 5}});
     const Lit lit(s);
-    CHECK(lit.from_deltas({0, 0, 0}, up) == Approx(5 * 0.6));
-    CHECK(lit.from_deltas({1e4f, -1e4f, 0}, up) == Approx(5 * 0.6));
-    CHECK(lit.from_deltas({0, 0, 0}, -up) == 0.0f);
+    CHECK(lit.from_listed({0, 0, 0}, up) == Approx(5 * 0.6));
+    CHECK(lit.from_listed({1e4f, -1e4f, 0}, up) == Approx(5 * 0.6));
+    CHECK(lit.from_listed({0, 0, 0}, -up) == 0.0f);
 }
 
 TEST_CASE("delta lights of all kinds add up") {
@@ -220,7 +222,7 @@ TEST_CASE("delta lights of all kinds add up") {
     s.directional_lights.push_back({"sun", {0, -1, 0}, {5, 5, 5}});
     s.point_lights.push_back({"bulb", {0, 2, 0}, {4, 4, 4}});
     s.point_lights.push_back({"bulb", {0, 1, 0}, {2, 2, 2}});
-    CHECK(Lit(s).from_deltas({0, 0, 0}, up) == Approx(5.0 + 1.0 + 2.0));
+    CHECK(Lit(s).from_listed({0, 0, 0}, up) == Approx(5.0 + 1.0 + 2.0));
 }
 
 TEST_CASE("a point or spot light on the luxel, or so near that light overflows, brings nothing") {
@@ -233,7 +235,7 @@ TEST_CASE("a point or spot light on the luxel, or so near that light overflows, 
     scene.directional_lights.push_back({"sun", {0, -1, 0}, {5, 5, 5}});
     scene.spot_lights.push_back(spot);
     scene.point_lights.push_back({"bulb", lamp, {1e3f, 1e3f, 1e3f}});
-    CHECK(Lit(scene).from_deltas({0, 0, 0}, up) == Approx(5.0));
+    CHECK(Lit(scene).from_listed({0, 0, 0}, up) == Approx(5.0));
 }
 
 TEST_CASE("light that the shading or the geometric normal turns away from is not reflected") {

@@ -36,7 +36,7 @@ class SamplerLight {
         const mir::CameraRays rays{lab.scene.cameras.front(), mir::luxel_grid({luxels, luxels}, 1),
                                    77};
         mir::InlineExecutor one;
-        mir::fill_gbuffer<B>(gbuffer, 0, rays, world.caster, lab.surfaces, one);
+        mir::fill_gbuffer<B>(gbuffer, 0, rays, world.luxels.caster, lab.surfaces, one);
         std::vector<double> values(moments.size());
         for (std::uint32_t b = 1; b <= bounces; ++b)
             add_picture(picture<B>(gbuffer, world.visibility, records, b), b, values);

@@ -35,4 +35,22 @@ concept PointFinder = DeviceCopyable<R> && requires(const R r, const Ray& ray, S
     { r.find_point(ray, p) } -> std::same_as<bool>;
 };
 
+/// Finds surface points in code that reads memory of space `S`: a PointFinder that reads it too or,
+/// on the host, any RayCaster.
+template <class R, Space S>
+concept CastsRaysFrom = (PointFinder<R> && AccessibleFrom<R, S>) ||
+                        (RayCaster<R> && !PointFinder<R> && S == Space::host);
+
+/// Writes what a ray sees first to `point`; false when it leaves the scene.
+template <class R>
+[[nodiscard]] MIR_HD bool find_point(const R& caster, const Ray& ray, SurfacePoint& point) {
+    if constexpr (PointFinder<R>) {
+        return caster.find_point(ray, point);
+    } else {
+        const auto found = caster.closest_hit(ray);
+        if (found) point = *found;
+        return found.has_value();
+    }
+}
+
 }  // namespace mir

@@ -38,7 +38,7 @@ struct LuxelBand {
 template <Bsdf B, Visibility V>
 struct LuxelLight {
     EmitterLight<B, V> emitters;         ///< light of surfaces that emit
-    DeltaLight<B, V> deltas;             ///< light of points, spots and directions
+    ListedLight<B, V> listed;            ///< light of what no mesh makes
     EnvironmentLight<B, V> environment;  ///< light from outside the scene
     LuxelBand band;                      ///< where the luxels lie
     bool distant_vpls = false;           ///< DirectSamples::distant_vpls
@@ -48,7 +48,12 @@ struct LuxelLight {
                                         std::uint32_t x, std::uint32_t y) const {
         const SharedSamples shared{band.grid.per_pixel(), band.cell(x, y)};
         const Random numbers = band.pixel_numbers(x, y);
-        return emitters(hit, surface, shared, numbers) + deltas(hit, surface) +
+        // Numbers behind those of emitters and environment.
+        const auto place = [&](std::uint32_t light) {
+            return kronecker_point({numbers.at(5 + 2 * light), numbers.at(6 + 2 * light)},
+                                   shared.share);
+        };
+        return emitters(hit, surface, shared, numbers) + listed(hit, surface, place) +
                (distant_vpls ? environment(hit, surface, {}, band.image_numbers())
                              : environment(hit, surface, shared, numbers));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/frame.hpp"
+#include "mir/core/warp.hpp"
 #include "mir/paths/light_end.hpp"
 
 namespace mir {
@@ -95,29 +97,6 @@ struct LightPart {
     MIR_HD void add(const PathVertex& v) { vertex(size++) = v; }
 };
 
-namespace detail {
-
-/// First ray of a light path whose end is given.
-template <class World, class Numbers>
-MIR_HD Ray ray_from_light(const World& world, Numbers& u, const PathVertex& v,
-                          const LightEnd& end) {
-    const Vec2 uv = pair_at(u, path_dimension::light_direction);
-    const Frame frame = Frame::around(v.normal);
-    if (end.kind == LightEndKind::area)
-        return {v.position, frame.to_world(square_to_cosine_hemisphere(uv))};
-    if (end.kind == LightEndKind::point) return {v.position, square_to_sphere(uv)};
-    if (end.kind == LightEndKind::spot) {
-        const float cos_outer = world.lights.delta_source(end.light).cos_outer;
-        return {v.position, frame.to_world(square_to_cone(uv, cos_outer))};
-    }
-    const float radius = world.lights.radius;
-    const Vec2 disc = radius * square_to_disc(uv);
-    const Vec3 on_disc = disc.x * frame.tangent + disc.y * frame.bitangent;
-    return {world.lights.centre + on_disc - 2.0f * radius * v.normal, v.normal};
-}
-
-}  // namespace detail
-
 /// Extends a light's part, which holds at least x_k, to `count` vertices. False when a direction
 /// leads nowhere.
 template <class World, class Numbers>
@@ -129,11 +108,11 @@ MIR_HD bool extend_from_light(const World& world, Numbers& u, std::uint32_t coun
         const PathVertex& at = part.vertex(n - 1);
         PathVertex& next = part.vertex(n);
         if (n == 1) {
-            if (!world.hit(detail::ray_from_light(world, u, at, part.path.light), next))
-                return false;
+            const Vec2 uv = pair_at(u, path_dimension::light_direction);
+            if (!world.hit(ray_from_light(world, at, part.path.light, uv), next)) return false;
             continue;
         }
-        const bool far = n == 2 && is_from_outside(part.path.light.kind);
+        const bool far = n == 2 && part.path.light.origin == LightOrigin::outside;
         const PathVertex& before = part.vertex(n - 2);
         const Vec3 wo = far ? -before.normal : glm::normalize(before.position - at.position);
         const std::uint32_t d = path_dimension::light_vertex(n - 1);
@@ -197,8 +176,8 @@ MIR_HD bool close_path(const World& world, Numbers& u, std::uint32_t from_light,
 template <class World>
 MIR_HD bool edge_is_free(const World& world, const Path& path, std::uint32_t i) {
     Vec3 to = path.position(i + 1);
-    if (i + 1 == path.edges() && is_from_outside(path.light.kind))
-        to = path.position(i) - 4.0f * world.lights.radius * path.x(i + 1).normal;
+    if (i + 1 == path.edges() && path.light.origin == LightOrigin::outside)
+        to = world.lights.sphere.outside(path.position(i), -path.x(i + 1).normal);
     return world.visibility.visible(to, path.position(i));
 }
 

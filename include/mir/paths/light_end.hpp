@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/core/frame.hpp"
-#include "mir/core/warp.hpp"
 #include "mir/paths/path_world.hpp"
 
 namespace mir {
@@ -17,54 +15,20 @@ struct PlacedLightEnd {
 
 namespace detail {
 
+/// A point of light `light` as the end of a path.
 template <class Lights>
-MIR_HD PlacedLightEnd area_end(const Lights& lights, std::uint32_t light, const EmitterSample& s,
-                               bool back) {
-    PlacedLightEnd placed;
-    const Vec3 n = back ? -s.normal : s.normal;
-    placed.vertex = {lift(s.position, n, s.offset), n, n, s.barycentrics, s.triangle, 0};
-    const double density =
-        static_cast<double>(lights.light_probability(light)) * static_cast<double>(s.pdf_area);
-    placed.end = {LightEndKind::area, s.light_group, light,
-                  s.radiance,         density,       s.both_sides ? 0.5 * density : density};
-    return placed;
-}
-
-template <class Lights>
-MIR_HD PlacedLightEnd delta_end(const Lights& lights, std::uint32_t light) {
+MIR_HD PlacedLightEnd end_at(const Lights& lights, std::uint32_t light, LightOrigin origin,
+                             const LightPoint& p) {
     const double probability = static_cast<double>(lights.light_probability(light));
-    const DeltaSource& source = lights.delta_source(light);
     PlacedLightEnd placed;
-    placed.vertex.position = source.position;
-    placed.vertex.normal = source.direction;
-    placed.end = {source.kind,     source.light_group, light,
-                  source.emission, probability,        probability};
-    return placed;
-}
-
-/// `uv` picks the direction. Its density is that for light samples and for light paths: the place
-/// where a light path enters the scene belongs to its first ray.
-template <class Lights>
-MIR_HD PlacedLightEnd environment_end(const Lights& lights, std::uint32_t light, Vec2 uv) {
-    const EnvironmentSample s = lights.environment.sample(uv);
-    const double density =
-        static_cast<double>(lights.light_probability(light)) * static_cast<double>(s.pdf);
-    PlacedLightEnd placed;
-    placed.vertex.normal = -s.direction;
-    placed.end = {LightEndKind::environment,
-                  lights.environment.light_group,
+    placed.vertex = {p.position, p.normal, p.normal, p.barycentrics, p.triangle, 0};
+    placed.end = {origin,
+                  p.light_group,
                   light,
-                  s.radiance,
-                  density,
-                  density};
+                  p.emission,
+                  probability * static_cast<double>(p.pdf),
+                  probability * static_cast<double>(p.pdf_start())};
     return placed;
-}
-
-/// A light end that is no point of a triangle.
-template <class Lights>
-MIR_HD PlacedLightEnd other_end(const Lights& lights, std::uint32_t light, Vec2 uv) {
-    return lights.is_environment(light) ? environment_end(lights, light, uv)
-                                        : delta_end(lights, light);
 }
 
 }  // namespace detail
@@ -74,10 +38,9 @@ template <class World>
 MIR_HD PlacedLightEnd sample_light_end(const World& world, float pick, Vec2 uv, Vec3 from) {
     const auto& lights = world.lights;
     const std::uint32_t light = lights.sample_light(pick);
-    if (!lights.is_triangle(light)) return detail::other_end(lights, light, uv);
-    const EmitterSample s = lights.point_on(world.geometry, light, uv);
-    const bool back = s.both_sides && glm::dot(from - s.position, s.normal) < 0.0f;
-    return detail::area_end(lights, light, s, back);
+    return lights.visit(world.geometry, light, [&](const auto& source) {
+        return detail::end_at(lights, light, source.origin, source.sample(uv, from));
+    });
 }
 
 /// Light end for a light path, the light chosen by power. `side` picks the side of a lamp that
@@ -86,24 +49,31 @@ template <class World>
 MIR_HD PlacedLightEnd sample_light_start(const World& world, float pick, Vec2 uv, float side) {
     const auto& lights = world.lights;
     const std::uint32_t light = lights.sample_light(pick);
-    if (!lights.is_triangle(light)) return detail::other_end(lights, light, uv);
-    const EmitterSample s = lights.point_on(world.geometry, light, uv);
-    return detail::area_end(lights, light, s, s.both_sides && side >= 0.5f);
+    return lights.visit(world.geometry, light, [&](const auto& source) {
+        return detail::end_at(lights, light, source.origin, source.start(uv, side));
+    });
 }
 
 /// Writes the light end of a path that ran into the surface `at`; false when its side that was hit
 /// does not emit.
 template <class World>
 MIR_HD bool light_end_at(const World& world, const PathVertex& at, LightEnd& end) {
-    const auto& lights = world.lights;
-    const std::uint32_t light = lights.light_of(at.triangle);
-    if (light == lights.none) return false;
-    EmitterSample s = lights.point_on(world.geometry, light, {0.0f, 0.0f});
-    s.radiance = lights.radiance_at(world.geometry, at.triangle, at.barycentrics);
-    const bool back = glm::dot(at.normal, s.normal) < 0.0f;
-    if (back && !s.both_sides) return false;
-    end = detail::area_end(lights, light, s, back).end;
+    const auto& lamps = world.lights.lamps;
+    const std::uint32_t light = lamps.index_of(at.triangle);
+    if (light == lamps.none) return false;
+    const LampSource<World::space> lamp{lamps, world.geometry, light};
+    LightPoint point;
+    if (!lamp.met(at.barycentrics, at.normal, point)) return false;
+    end = detail::end_at(world.lights, light, lamp.origin, point).end;
     return true;
+}
+
+/// First ray of a light path whose end is given.
+template <class World>
+MIR_HD Ray ray_from_light(const World& world, const PathVertex& v, const LightEnd& end, Vec2 uv) {
+    return world.lights.visit(world.geometry, end.light, [&](const auto& source) {
+        return source.ray(v.position, v.normal, uv);
+    });
 }
 
 /// Light that leaves the end along the unit vector `w`, and what it becomes at a receiver with the
@@ -112,16 +82,9 @@ MIR_HD bool light_end_at(const World& world, const PathVertex& at, LightEnd& end
 template <class World>
 MIR_HD Rgb light_at_receiver(const World& world, const PathVertex& v, const LightEnd& end, Vec3 w,
                              float d2) {
-    switch (end.kind) {
-        case LightEndKind::area:
-            return end.emission * (larger(glm::dot(w, v.normal), 0.0f) / d2);
-        case LightEndKind::point:
-            return end.emission * (1.0f / d2);
-        case LightEndKind::spot:
-            return end.emission * (spot_falloff(world.lights.delta_source(end.light), w) / d2);
-        default:
-            return end.emission;
-    }
+    return world.lights.visit(world.geometry, end.light, [&](const auto& source) {
+        return end.emission * (source.share(v.normal, w) / d2);
+    });
 }
 
 /// Density per m^2 of a surface with cosine `cos_receiver` with which a light path from this end
@@ -129,18 +92,9 @@ MIR_HD Rgb light_at_receiver(const World& world, const PathVertex& v, const Ligh
 template <class World>
 MIR_HD double light_ray_density(const World& world, const PathVertex& v, const LightEnd& end,
                                 Vec3 w, float cos_receiver, float d2) {
-    const auto& lights = world.lights;
-    if (is_from_outside(end.kind))
-        return static_cast<double>(cos_receiver) /
-               (static_cast<double>(pi) * lights.radius * lights.radius);
-    const double to_area = static_cast<double>(cos_receiver) / static_cast<double>(d2);
-    if (end.kind == LightEndKind::area)
-        return to_area * static_cast<double>(cosine_hemisphere_pdf(glm::dot(w, v.normal)));
-    if (end.kind == LightEndKind::point) return to_area * static_cast<double>(sphere_pdf());
-    const DeltaSource& spot = lights.delta_source(end.light);
-    return glm::dot(w, spot.direction) > spot.cos_outer
-               ? to_area * static_cast<double>(cone_pdf(spot.cos_outer))
-               : 0.0;
+    return world.lights.visit(world.geometry, end.light, [&](const auto& source) {
+        return source.ray_density(v.normal, w, cos_receiver, d2);
+    });
 }
 
 }  // namespace mir

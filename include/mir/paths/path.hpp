@@ -2,7 +2,8 @@
 #pragma once
 
 #include "mir/core/inline_vector.hpp"
-#include "mir/scene/light_table_view.hpp"
+#include "mir/core/math.hpp"
+#include "mir/data/light_point.hpp"
 
 #include <cstdint>
 
@@ -23,13 +24,12 @@ struct PathVertex {
 
 /// What is known about the light at the end of a path besides its place.
 struct LightEnd {
-    LightEndKind kind = LightEndKind::area;  ///< says which members mean what
-    std::uint16_t light_group = 0;           ///< of the light
-    std::uint32_t light = 0;                 ///< as LightTable::sample_light() counts
-    Rgb emission;                 ///< area, environment: L_e; point, spot: intensity; directional:
-                                  ///< irradiance
-    double pdf_next_event = 0.0;  ///< of choosing this end for a given receiver: m^-2, sr^-1 for
-                                  ///< environments, or a probability for lights without extent
+    LightOrigin origin = LightOrigin::surface;  ///< of the light
+    std::uint16_t light_group = 0;              ///< of the light
+    std::uint32_t light = 0;                    ///< as LightTable::sample_light() counts
+    Rgb emission;                               ///< LightPoint::emission
+    double pdf_next_event = 0.0;  ///< of choosing this end for a given receiver: probability of the
+                                  ///< light times LightPoint::pdf
     double pdf_emission = 0.0;    ///< of starting a light path here, same units
 };
 

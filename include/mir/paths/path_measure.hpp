@@ -46,7 +46,7 @@ class PathMeasurer {
     MIR_HD PathMeasurer(const World& world, const Path& path)
         : world_(world), path_(path), k_(path.edges()) {
         for (std::uint32_t i = 2; i < k_; ++i) edges_[i] = edge(i);
-        if (is_from_outside(path.light.kind)) edges_[k_ - 1] = {-end().normal, 1.0f};
+        if (path.light.origin == LightOrigin::outside) edges_[k_ - 1] = {-end().normal, 1.0f};
     }
 
     /// x2 .. x_k alone. False when no light can leave x2, whatever is visible; `m` is unfinished
@@ -82,13 +82,16 @@ class PathMeasurer {
 
     /// What a density of x_i per m^2 is multiplied by; 1 where x_i is not measured by its area.
     [[nodiscard]] MIR_HD double unit_of(std::uint32_t i) const {
-        const bool by_area = i < k_ || path_.light.kind == LightEndKind::area;
+        const bool by_area = i < k_ || ends_on_surface();
         return i > 2 && by_area ? world_.area_unit : 1.0;
     }
 
-    /// Lights without extent and environments are no VPLs: they need a reflecting x2.
+    [[nodiscard]] MIR_HD bool ends_on_surface() const {
+        return path_.light.origin == LightOrigin::surface;
+    }
+    /// Lights that no ray meets are no VPLs: they need a reflecting x2.
     [[nodiscard]] MIR_HD bool is_representable() const {
-        return k_ > 2 || (k_ == 2 && path_.light.kind == LightEndKind::area);
+        return k_ > 2 || (k_ == 2 && ends_on_surface());
     }
     [[nodiscard]] MIR_HD PathEdge edge(std::uint32_t i) const {
         return edge_between(path_.position(i), path_.position(i + 1));
@@ -103,7 +106,7 @@ class PathMeasurer {
             if (!above(to_light(i), path_.x(i))) return false;
             if (i > 2 && !(glm::dot(to_eye(i), path_.x(i).normal) > 0.0f)) return false;
         }
-        const bool lamp_behind = k_ > 2 && path_.light.kind == LightEndKind::area;
+        const bool lamp_behind = k_ > 2 && ends_on_surface();
         return !lamp_behind || glm::dot(to_eye(k_), end().normal) > 0.0f;
     }
     [[nodiscard]] MIR_HD bool camera_sides_agree() const {
@@ -141,7 +144,7 @@ class PathMeasurer {
     [[nodiscard]] MIR_HD double density_from_eye(std::uint32_t i) const {
         const PathEdge& e = edges_[i - 1];
         const PathVertex& from = path_.x(i - 1);
-        if (i == k_ && path_.light.kind != LightEndKind::area) return 0.0;
+        if (i == k_ && !ends_on_surface()) return 0.0;
         const float cosine = larger(-glm::dot(e.w, path_.x(i).normal), 0.0f);
         const float pdf =
             i == 3 ? cosine_hemisphere_pdf(glm::dot(e.w, from.shading_normal))

@@ -10,8 +10,8 @@ namespace mir {
 /// in the order of their places are spread evenly by systematic resampling.
 template <class World>
 MIR_HD std::uint64_t place_of_vpl(const World& world, const Path& path) {
-    const Vec3 corner = world.lights.centre - world.lights.radius;
-    return morton_code((path.x(2).position - corner) / (2.0f * world.lights.radius));
+    const Vec3 corner = world.lights.sphere.centre - world.lights.sphere.radius;
+    return morton_code((path.x(2).position - corner) / (2.0f * world.lights.sphere.radius));
 }
 
 }  // namespace mir

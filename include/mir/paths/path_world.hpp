@@ -2,12 +2,12 @@
 #pragma once
 
 #include "mir/concepts/bsdf.hpp"
-#include "mir/concepts/ray_caster.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "mir/paths/path.hpp"
 #include "mir/scene/camera.hpp"
 #include "mir/scene/light_table.hpp"
 #include "mir/shading/check_bound.hpp"
+#include "mir/shading/luxel_tracer.hpp"
 #include "mir/shading/surface_table.hpp"
 
 #include <cmath>
@@ -15,21 +15,11 @@
 
 namespace mir {
 
-/// True when paths in space `S` can be traced by `R`.
-template <class R, Space S>
-consteval bool finds_points_from() {
-    if constexpr (PointFinder<R>) return AccessibleFrom<R, S>;
-    return RayCaster<R> && S == Space::host;
-}
-
 /// What full paths run through, in memory of space `S`: a value of views that may be passed to a
 /// kernel. The scene data must outlive it. On the host `R` may be any RayCaster, elsewhere it is a
 /// PointFinder. Const use from any thread.
 template <Bsdf B, class R, Visibility V, Space S = Space::host>
 struct PathWorld {
-    static_assert(finds_points_from<R, S>(),
-                  "mir: paths in a kernel need a ray caster with find_point() that reads the same "
-                  "memory, such as KdRayCaster<Space::device>");
     static_assert(AccessibleFrom<V, S>,
                   "mir: the visibility of a PathWorld lies in another memory than its scene");
 
@@ -39,8 +29,7 @@ struct PathWorld {
 
     GeometryView<S> geometry;                         ///< triangles
     LightTableView<S> lights;                         ///< what shines
-    SurfaceTableView<S, B> surfaces;                  ///< materials and their textures
-    R caster;                                         ///< what rays meet
+    LuxelTracer<R, S, B> luxels;                      ///< what rays meet, and how that reflects
     V visibility;                                     ///< whether vertices see each other
     CameraOptics camera;                              ///< what paths start from
     float aspect = 1.0f;                              ///< width / height of the film
@@ -58,8 +47,7 @@ struct PathWorld {
               float geometry_bound = std::numeric_limits<float>::max())
         : geometry(geometry_view),
           lights(light_table),
-          surfaces(surface_table),
-          caster(ray_caster),
+          luxels{ray_caster, surface_table},
           visibility(sight),
           camera(optics),
           aspect(film_aspect),
@@ -81,22 +69,22 @@ struct PathWorld {
     /// Writes the first surface along a ray as a path vertex; false when there is none.
     [[nodiscard]] MIR_HD bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
-        if (!find(ray, p)) return false;
-        vertex = vertex_at(p, surfaces.shading_normal(p));
+        if (!find_point(luxels.caster, ray, p)) return false;
+        vertex = vertex_at(p, luxels.surfaces.shading_normal(p));
         return true;
     }
     /// The same of a camera ray: the vertex is a luxel.
     [[nodiscard]] MIR_HD bool hit_luxel(const Ray& ray, PathVertex& vertex) const {
-        SurfacePoint p;
-        if (!find(ray, p)) return false;
-        vertex = vertex_at(p, surfaces.seen_normal(p, -ray.direction));
+        const SeenLuxel seen = luxels(ray);
+        if (seen.is_background) return false;
+        vertex = vertex_at(seen.point, luxels.normal(seen));
         return true;
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.
     [[nodiscard]] MIR_HD typename B::Params params(const PathVertex& v) const {
         if (geometry.texture_coordinates == nullptr && geometry.colors == nullptr)
-            return surfaces.params(v.material);
-        return surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics));
+            return luxels.surfaces.params(v.material);
+        return luxels.surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics));
     }
 
  private:
@@ -108,15 +96,6 @@ struct PathWorld {
     /// products over 64 edges of 2^-8 to 2^8 times its root, and over 33 of 2^-16 to 2^16.
     [[nodiscard]] static double unit_for(float ray_offset) {
         return ray_offset > 0.0f ? std::scalbn(1.0, 2 * (std::ilogb(ray_offset) + 12)) : 1.0;
-    }
-    [[nodiscard]] MIR_HD bool find(const Ray& ray, SurfacePoint& point) const {
-        if constexpr (PointFinder<R>) {
-            return caster.find_point(ray, point);
-        } else {
-            const auto found = caster.closest_hit(ray);
-            if (found) point = *found;
-            return found.has_value();
-        }
     }
 };
 template <Bsdf B, class R, Visibility V>

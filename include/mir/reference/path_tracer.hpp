@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/ray_caster.hpp"
 #include "mir/reference/bound_split.hpp"
 #include "mir/reference/light_search.hpp"
 #include "mir/reference/path_rules.hpp"
 #include "mir/reference/rgb_moments.hpp"
 #include "mir/shading/environment_light.hpp"
+#include "mir/shading/luxel_tracer.hpp"
 #include "mir/shading/scene_light.hpp"
 #include "mir/shading/surface_table.hpp"
 
@@ -38,8 +38,8 @@ struct PathTracerOptions {
 /// Unidirectional path tracer with next-event estimation, the reference that other estimators are
 /// compared with: radiance split by the number b of scattering events, D_0 emission seen directly,
 /// D_1 direct light, D_b what VPLs of bounce b bring. Unbiased, up to `max_bounce` if there is one.
-/// Point, spot and directional lights are summed exactly at every vertex, since no direction finds
-/// them. Rays that leave the scene see its environment.
+/// Lights that the scene lists are summed at every vertex, since no direction finds them. Rays that
+/// leave the scene see its environment.
 ///
 /// Conventions are those of docs/method.md, 4: shading normal at the receiver, geometric normal at
 /// the emitter, black where shading and geometric side disagree, points lifted by
@@ -69,18 +69,15 @@ class PathTracer {
     /// As they were given.
     [[nodiscard]] const PathTracerOptions& options() const { return options_; }
 
-    /// What `ray` sees first: the luxel that fill_gbuffer() stores.
-    [[nodiscard]] std::optional<Vertex> first_vertex(const Ray& ray) const;
-
-    /// What a camera ray along the unit vector `direction` sees behind the scene: D_0 of luxels
-    /// without first_vertex(), W m^-2 sr^-1.
-    [[nodiscard]] Rgb background(Vec3 direction) const {
-        return environment_.radiance(direction) * split_.unbounded();
+    /// What a camera ray sees: the luxel that fill_gbuffer() stores, before the environment.
+    [[nodiscard]] Vertex luxel(const Ray& ray) const {
+        const SeenLuxel seen = luxels_(ray);
+        return {luxels_.hit(seen), luxels_.surface(seen, environment_)};
     }
 
     /// Adds one estimate of the radiance that leaves `first` towards the viewer, W m^-2 sr^-1:
     /// D_b is added to element b of `bounces`, which has two elements or more. The last one takes
-    /// all later bounces too.
+    /// all later bounces too. An empty luxel has D_0 alone: its emission.
     void trace(const Vertex& first, Random& random, std::span<RgbSum> bounces) const;
 
  private:
@@ -109,9 +106,10 @@ class PathTracer {
     }
 
     World world_;
+    LuxelTracer<R, Space::host, B> luxels_;
     PathTracerOptions options_;
     BoundSplit split_;
-    DeltaLight<B, V> deltas_;
+    ListedLight<B, V> listed_;
     EnvironmentView<Space::host> environment_;
     EnvironmentLight<B, V> environment_light_;
 };
@@ -119,9 +117,10 @@ class PathTracer {
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions options)
     : world_(world),
+      luxels_{world.caster, world.surfaces.view()},
       options_(options),
       split_{options.bound, options.part, options.bound_lamps},
-      deltas_(world.lights, world.visibility),
+      listed_(world.lights, world.visibility),
       environment_(world.lights.view().environment),
       environment_light_(world.lights, world.visibility, 1) {
     expects(options.light_samples >= 1 && options.light_samples <= 65536,
@@ -141,18 +140,10 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
 }
 
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-auto PathTracer<B, R, V, Rules>::first_vertex(const Ray& ray) const -> std::optional<Vertex> {
-    const auto point = world_.caster.closest_hit(ray);
-    if (!point) return std::nullopt;
-    return Vertex{{lift(*point), point->geometric_normal},
-                  world_.surfaces.luxel_surface(*point, -ray.direction)};
-}
-
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 void PathTracer<B, R, V, Rules>::trace(const Vertex& first, Random& random,
                                        std::span<RgbSum> bounces) const {
     bounces[0] += first.surface.emission * split_.unbounded();
-    if (B::is_black(first.surface.bsdf)) return;
+    if (is_empty(first.hit) || B::is_black(first.surface.bsdf)) return;
     bounces[1] += sampled_light(first, 1, random);
     const float share = 1.0f / static_cast<float>(options_.directions);
     for (std::uint32_t i = 0; i < options_.directions; ++i) {
@@ -240,7 +231,8 @@ Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint32_t bo
     if (!environment_.empty() && is_all_wanted(bounce))
         for (std::uint32_t i = 0; i < samples; ++i) sum += environment_sample(at, bounce, random);
     if (samples > 1) sum = sum * (1.0f / static_cast<float>(samples));
-    return is_all_wanted(bounce) ? sum + deltas_(at.hit, at.surface) : sum;
+    if (!is_all_wanted(bounce)) return sum;
+    return sum + listed_(at.hit, at.surface, [&](std::uint32_t) { return random.next_2d(); });
 }
 
 /// Whether light that no bound holds for counts at a vertex: lights without extent, the
@@ -254,22 +246,20 @@ template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint32_t bounce,
                                              Random& random) const {
     const float pick = random.next();
-    const EmitterSample e = world_.lights.sample_emitter(pick, random.next_2d());
+    const EmitterSample lamp = world_.lights.sample_emitter(pick, random.next_2d());
     const Vec3 eye = at.hit.position;
-    const bool from_back = e.both_sides && glm::dot(eye - e.position, e.normal) < 0.0f;
-    const Vec3 normal = from_back ? -e.normal : e.normal;
-    const Vec3 target = lift(e.position, normal, e.offset);
-    const Vec3 d = target - eye;
+    const LightPoint e = lamp.on_side(lamp.shows_back(eye));
+    const Vec3 d = e.position - eye;
     const float d2 = length_squared(d);
     const Vec3 wi = d * (1.0f / std::sqrt(d2));
-    const float cosine = -glm::dot(wi, normal);
+    const float cosine = -glm::dot(wi, e.normal);
     if (!(cosine > 0.0f)) return {};
     const float share =
-        bounce == 1 ? split_.emitted(at.hit, at.surface.normal, {target, normal}) : 1.0f;
-    const Rgb light = reflected<B>(at.hit, at.surface, wi) * e.radiance * share;
-    if (is_black(light) || !world_.visibility.visible(eye, target)) return {};
+        bounce == 1 ? split_.emitted(at.hit, at.surface.normal, {e.position, e.normal}) : 1.0f;
+    const Rgb light = reflected<B>(at.hit, at.surface, wi) * e.emission * share;
+    if (is_black(light) || !world_.visibility.visible(eye, e.position)) return {};
 
-    const float density = Rules::per_steradian(e.pdf_area, d2, cosine);
+    const float density = Rules::per_steradian(e.pdf, d2, cosine);
     const float sampled = static_cast<float>(light_samples_at(bounce)) * density;
     const float found = static_cast<float>(directions_at(bounce)) *
                         B::pdf(at.surface.bsdf, at.surface.normal, wi, at.surface.wo);

@@ -46,11 +46,11 @@ class ReferenceRows {
         // Bounces without a layer share the last element.
         std::vector<RgbSum> bounces(std::size_t{image_.last_bounce()} + 2);
         for (std::uint32_t x = 0; x < image_.extent().width; ++x) {
-            const auto seen = tracer_.first_vertex(rays_(x, y));
+            const auto luxel = tracer_.luxel(rays_(x, y));
             for (std::uint32_t r = 0; r < options_.replicates; ++r) {
                 for (RgbSum& b : bounces) b = {};
                 for (std::uint32_t s = 0; s < options_.samples; ++s)
-                    add_sample(seen, x, y, r, s, bounces);
+                    add_sample(luxel, x, y, r, s, bounces);
                 for (RgbSum& b : bounces) b = b * (1.0 / options_.samples);
                 image_.add(x, y, r, bounces);
             }
@@ -58,24 +58,16 @@ class ReferenceRows {
     }
 
  private:
-    void add_sample(const std::optional<typename Tracer::Vertex>& seen, std::uint32_t x,
-                    std::uint32_t y, std::uint32_t replicate, std::uint32_t sample,
+    void add_sample(const typename Tracer::Vertex& seen, std::uint32_t x, std::uint32_t y,
+                    std::uint32_t replicate, std::uint32_t sample,
                     std::span<RgbSum> bounces) const {
         const std::uint64_t round =
             (std::uint64_t{options_.first_replicate} + replicate) * options_.samples + sample;
         const std::uint64_t luxel = std::uint64_t{y} * image_.extent().width + x;
         Random random(rays_.seed, Stream::reference, round * image_.extent().area() + luxel);
-        if (options_.film == FilmPosition::luxel) return add(seen, rays_(x, y), random, bounces);
+        if (options_.film == FilmPosition::luxel) return tracer_.trace(seen, random, bounces);
         const Ray ray = ray_in_pixel(rays_, x, y, random);
-        add(tracer_.first_vertex(ray), ray, random, bounces);
-    }
-
-    void add(const std::optional<typename Tracer::Vertex>& first, const Ray& ray, Random& random,
-             std::span<RgbSum> bounces) const {
-        if (first)
-            tracer_.trace(*first, random, bounces);
-        else
-            bounces[0] += tracer_.background(ray.direction);
+        tracer_.trace(tracer_.luxel(ray), random, bounces);
     }
 
     const Tracer& tracer_;

@@ -17,8 +17,6 @@ struct RayStructure {
     View tree;  ///< of the scene
     M mask{};   ///< of the same scene
 
-    /// What finds the first triangle along a ray.
-    [[nodiscard]] TreeRayFinder<View, M> finder() const { return {tree, mask}; }
     /// What says whether two points see each other.
     [[nodiscard]] Sight sight() const { return {tree, mask}; }
     /// What finds the first surface point along a ray; `geometry` is that of the tree.

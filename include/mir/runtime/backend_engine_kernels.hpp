@@ -94,9 +94,10 @@ double BackendEngine<B, F, E>::visible_area(const Camera& camera, float aspect) 
     std::vector<double> here(AreaRays::count);
     const WaitAtEnd wait(queue_);
     with_rays([&](const auto& rays) {
-        queue_.for_each(
-            AreaRays::count,
-            AreaPass{AreaRays(camera, aspect), rays.caster(geometry_there_.view()), areas.data()});
+        queue_.for_each(AreaRays::count,
+                        AreaPass{AreaRays(camera, aspect),
+                                 LuxelTracer{rays.caster(geometry_there_.view()), surfaces_.view()},
+                                 areas.data()});
     });
     queue_.download(areas, std::span(here));
     queue_.record().sync();
@@ -108,8 +109,9 @@ auto BackendEngine<B, F, E>::trace(Extent extent, Extent tile, std::uint32_t fir
                                    const CameraRays& rays) const -> Luxels {
     Luxels luxels{{backend_, extent, tile}, {}};
     with_rays([&](const auto& structure) {
-        trace_primary_hits<B, F>(queue_, luxels.gbuffer, first_row, rays.luxel_rays(),
-                                 structure.finder(), geometry_there_.view(), surfaces_.view());
+        trace_primary_hits(queue_, luxels.gbuffer, first_row, rays.luxel_rays(),
+                           LuxelTracer{structure.caster(geometry_there_.view()), surfaces_.view()},
+                           {});
     });
     queue_.record().sync();
     return luxels;

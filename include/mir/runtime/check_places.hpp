@@ -4,6 +4,7 @@
 #include "mir/core/error.hpp"
 #include "mir/core/number_text.hpp"
 #include "mir/scene/bounds.hpp"
+#include "mir/scene/light_kinds.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <string>
@@ -38,10 +39,12 @@ inline void check_places(const Scene& scene, std::uint32_t camera, const Bounds&
         detail::check_place("a mesh", bounds.low);
         detail::check_place("a mesh", bounds.high);
     }
-    for (const PointLight& l : scene.point_lights)
-        detail::check_place("light " + detail::in_quotes(l.name), l.position);
-    for (const SpotLight& l : scene.spot_lights)
-        detail::check_place("light " + detail::in_quotes(l.name), l.position);
+    for_each_listed_light(scene, [](const auto& light) {
+        const std::optional<Bounds> box = light.bounds();
+        if (!box) return;
+        detail::check_place("light " + detail::in_quotes(light.name), box->low);
+        detail::check_place("light " + detail::in_quotes(light.name), box->high);
+    });
     const Camera& c = scene.cameras[camera];
     detail::check_place("camera " + detail::in_quotes(c.name), c.position);
     detail::check_place("the lens of camera " + detail::in_quotes(c.name), c.position,

@@ -4,6 +4,7 @@
 #include "mir/core/number_text.hpp"
 #include "mir/runtime/result.hpp"
 #include "mir/runtime/settings.hpp"
+#include "mir/scene/light_kinds.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <algorithm>
@@ -34,9 +35,9 @@ bool shows_mesh(const Scene& scene, const Predicate& holds) {
 
 /// True when something in the scene could shine: a light, or a triangle that is placed.
 inline bool has_light(const Scene& scene) {
-    const bool delta = !scene.point_lights.empty() || !scene.spot_lights.empty() ||
-                       !scene.directional_lights.empty();
-    return delta || scene.environment || detail::shows_mesh(scene, [&](const Mesh& mesh) {
+    bool listed = false;
+    for_each_listed_light(scene, [&listed](const auto&) { listed = true; });
+    return listed || scene.environment || detail::shows_mesh(scene, [&](const Mesh& mesh) {
                return mesh.material < scene.materials.size() &&
                       scene.materials[mesh.material].emits();
            });

@@ -86,10 +86,10 @@ class IndirectProbes {
             const Ray ray{hit.position, frame.to_world(local)};
             if (!(local.z > 0.0f) || !(glm::dot(ray.direction, hit.normal) > 0.0f)) continue;
             const auto point = context_.engine.ray_caster().closest_hit(ray);
-            const auto next = tracer_.first_vertex(ray);
-            if (!point || !next) continue;
+            const auto next = tracer_.luxel(ray);
+            if (!point) continue;
             std::array<RgbSum, 2> bounces{};
-            tracer_.trace(*next, random, bounces);
+            tracer_.trace(next, random, bounces);
             sum += (sent(*point) - bounces[1].rgb()) *
                    B::eval(s.bsdf, s.normal, ray.direction, s.wo) *
                    (local.z / cosine_hemisphere_pdf(local.z));

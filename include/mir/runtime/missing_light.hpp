@@ -93,13 +93,13 @@ class MissingLight {
     [[nodiscard]] bool by_vpls() const { return context_.settings.direct == DirectLight::vpl; }
 
     void add_place(const Ray& ray, std::size_t place, Ledger& ledger) const {
-        const auto first = kept_.first_vertex(ray);
-        if (!first) return;
+        const auto first = kept_.luxel(ray);
+        if (is_empty(first.hit)) return;
         Random random(context_.settings.seed, Stream::missing, place);
-        const Bounces kept = trace(kept_, *first, random);
+        const Bounces kept = trace(kept_, first, random);
         ledger.kept[place] = light_of(kept);
         ledger.cut[place] = luminance_of(kept[limit_ + 1u]);
-        ledger.removed[place] = light_of(trace(removed_, *first, random));
+        ledger.removed[place] = light_of(trace(removed_, first, random));
     }
 
     /// By scattering events; the one behind the limit takes all that are more.

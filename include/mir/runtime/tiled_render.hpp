@@ -127,7 +127,8 @@ double TiledRender<B, Engine, E, MakeScheduler>::seen_area() const {
     if constexpr (BandEngine<Engine>)
         return job_.engine.visible_area(camera, aspect);
     else
-        return visible_area(camera, aspect, job_.engine.ray_caster());
+        return visible_area(camera, aspect,
+                            LuxelTracer{job_.engine.ray_caster(), job_.surfaces.view()});
 }
 
 /// Of virtual spherical lights, metres; none without.

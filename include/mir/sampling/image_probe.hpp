@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/ray_caster.hpp"
 #include "mir/core/error.hpp"
 #include "mir/core/instruction_set.hpp"
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/shading/contribution.hpp"
+#include "mir/shading/luxel_tracer.hpp"
 #include "mir/shading/surface_table.hpp"
 #include "mir/shading/vpl_shading.hpp"
 
@@ -85,12 +85,12 @@ ImageProbe<B, V>::ImageProbe(const ProbeRays& rays, const R& caster,
             "the aspect ratio of an image probe is not a positive number; pass width / height");
     const Extent cells = rays.cells();
     luxels_ = static_cast<std::uint32_t>(cells.area());
+    const LuxelTracer tracer{caster, surfaces.view()};
     for (std::uint32_t i = 0; i < luxels_; ++i) {
-        const Ray ray = rays(i % cells.width, i / cells.width);
-        const auto point = caster.closest_hit(ray);
-        if (!point) continue;
-        const auto surface = surfaces.luxel_surface(*point, -ray.direction);
-        if (shading.reflects(surface)) add({lift(*point), point->geometric_normal}, surface);
+        const SeenLuxel seen = tracer(rays(i % cells.width, i / cells.width));
+        if (seen.is_background) continue;
+        const auto surface = tracer.surface(seen);
+        if (shading.reflects(surface)) add(tracer.hit(seen), surface);
     }
 }
 

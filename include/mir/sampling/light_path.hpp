@@ -34,7 +34,7 @@ Vpl reflective_vpl(const Arrival<B>& at, Rgb weight) {
 
 /// The point on the lamp where a path starts, as a VPL: J = L_e / pdf.
 inline Vpl emitter_vpl(const Emission& e) {
-    return {e.ray.origin, e.emitter_normal, e.emitter->radiance * (1.0f / e.pdf_point)};
+    return {e.ray.origin, e.emitter->normal, e.emitter->emission * (1.0f / e.pdf_point)};
 }
 
 /// Light that leaves an arrival along `sample`, which was drawn around the normal `n`: its ray and

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/ray_caster.hpp"
 #include "mir/scene/camera.hpp"
+#include "mir/shading/luxel_tracer.hpp"
 
 #include <cmath>
 #include <limits>
@@ -35,9 +35,12 @@ struct AreaRays {
         return optics.ray(film, aspect, {0.5f, 0.5f});
     }
 
-    /// Footprint on `point` of the ray that saw it, m^2: its solid angle times d^2 / cos, the
-    /// cosine kept above 0.1 so that a few grazing rays do not decide.
-    [[nodiscard]] MIR_HD double area(const Ray& ray, const SurfacePoint& point) const {
+    /// Footprint of a ray on the point that it sees, m^2; 0 where it leaves the scene. It is the
+    /// solid angle times d^2 / cos, the cosine kept above 0.1 so that a few grazing rays do not
+    /// decide.
+    [[nodiscard]] MIR_HD double area(const SeenLuxel& seen) const {
+        if (seen.is_background) return 0.0;
+        const auto& [ray, point, is_background] = seen;
         const double axis = -static_cast<double>(glm::dot(ray.direction, back));
         const double d2 = static_cast<double>(length_squared(point.position - ray.origin));
         const double cosine = -static_cast<double>(glm::dot(ray.direction, point.geometric_normal));
@@ -46,33 +49,27 @@ struct AreaRays {
 };
 
 /// Kernel over AreaRays: what each covers, m^2; 0 where it leaves the scene.
-template <PointFinder F>
+template <class Tracer>
 struct AreaPass {
     AreaRays rays;          ///< what it looks along
-    F finder;               ///< finds what they meet, in memory that the kernel reads
+    Tracer tracer;          ///< a LuxelTracer: says what they see
     double* out = nullptr;  ///< AreaRays::count areas, m^2
 
     /// Ray i.
-    MIR_HD void operator()(std::uint32_t i) const {
-        const Ray ray = rays(i);
-        SurfacePoint point;
-        out[i] = finder.find_point(ray, point) ? rays.area(ray, point) : 0.0;
-    }
+    MIR_HD void operator()(std::uint32_t i) const { out[i] = rays.area(tracer(rays(i))); }
 };
 
-template <class F>
-AreaPass(AreaRays, F, double*) -> AreaPass<F>;
+template <class Tracer>
+AreaPass(AreaRays, Tracer, double*) -> AreaPass<Tracer>;
 
 /// Area of the surfaces that a camera sees, m^2, from a fixed grid of rays (AreaRays). 0 when
 /// nothing is seen. Deterministic.
-template <RayCaster R>
-double visible_area(const Camera& camera, float aspect, const R& caster) {
+template <class R, Bsdf B>
+double visible_area(const Camera& camera, float aspect,
+                    const LuxelTracer<R, Space::host, B>& tracer) {
     const AreaRays rays(camera, aspect);
     double area = 0.0;
-    for (std::uint32_t i = 0; i < AreaRays::count; ++i) {
-        const Ray ray = rays(i);
-        if (const auto point = caster.closest_hit(ray)) area += rays.area(ray, *point);
-    }
+    for (std::uint32_t i = 0; i < AreaRays::count; ++i) area += rays.area(tracer(rays(i)));
     return area;
 }
 

@@ -22,10 +22,12 @@ namespace mir {
 /// WorldGeometry and CameraRays are made. For one thread at a time.
 /// @throws Error(invalid_argument) when `places` has not one element for each thing.
 inline std::vector<std::string> recentre(Scene& scene, Placements places) {
-    expects(places.instances.size() == scene.instances.size() &&
-                places.point_lights.size() == scene.point_lights.size() &&
-                places.spot_lights.size() == scene.spot_lights.size() &&
-                places.cameras.size() == scene.cameras.size(),
+    bool complete = places.instances.size() == scene.instances.size() &&
+                    places.cameras.size() == scene.cameras.size();
+    for_each_placed_list(scene, [&]<class Light>(const std::vector<Light>& list) {
+        complete = complete && places.lights<Light>().size() == list.size();
+    });
+    expects(complete,
             "recentre: the scene has not as many things as places were given for; give one each");
     detail::Recentring recentring(scene, std::move(places));
     std::vector<std::string> remarks = recentring.remarks(scene);

@@ -3,7 +3,9 @@
 
 #include "mir/scene/camera.hpp"
 #include "mir/scene/environment.hpp"
-#include "mir/scene/light.hpp"
+#include "mir/scene/lights/directional_light.hpp"
+#include "mir/scene/lights/point_light.hpp"
+#include "mir/scene/lights/spot_light.hpp"
 #include "mir/scene/material.hpp"
 #include "mir/scene/mesh.hpp"
 #include "mir/scene/texture_image.hpp"

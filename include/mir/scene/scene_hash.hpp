@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/scene/scene.hpp"
+#include "mir/scene/light_kinds.hpp"
 
 #include <cstring>
 #include <span>
@@ -18,9 +18,9 @@ class SceneHash {
     /// Reads all of the scene once, which may end afterwards.
     explicit SceneHash(const Scene& scene) {
         // The sizes first: without them a light could pass for one of another kind.
-        add_each(scene.meshes.size(), scene.instances.size(), scene.materials.size(),
-                 scene.point_lights.size(), scene.spot_lights.size(),
-                 scene.directional_lights.size(), scene.cameras.size());
+        add_each(scene.meshes.size(), scene.instances.size(), scene.materials.size());
+        ListedLights::for_each_list(scene, [this](const auto& list) { add(list.size()); });
+        add(scene.cameras.size());
         for (const Mesh& m : scene.meshes) {
             add_all(m.positions);
             add_all(m.normals);
@@ -38,12 +38,9 @@ class SceneHash {
             add_each(i.width, i.height);
             add_all(i.texels);
         }
-        for (const PointLight& l : scene.point_lights)
-            add_each(l.position, l.intensity, l.light_group);
-        for (const SpotLight& l : scene.spot_lights)
-            add_each(l.position, l.direction, l.intensity, l.cos_inner, l.cos_outer, l.light_group);
-        for (const DirectionalLight& l : scene.directional_lights)
-            add_each(l.direction, l.irradiance, l.light_group);
+        for_each_listed_light(scene, [this](const auto& light) {
+            light.with_values([this](const auto&... values) { add_each(values...); });
+        });
         if (scene.environment) add_environment(*scene.environment);
         for (const Camera& c : scene.cameras)
             add_each(c.position, c.right, c.up, c.back, c.vertical_fov, c.aspect_ratio,

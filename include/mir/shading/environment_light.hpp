@@ -18,7 +18,7 @@ class EnvironmentLight {
     /// `samples` per luxel, 0 for no light. What the view reads must outlive it.
     EnvironmentLight(const LightTableView<space>& lights, V visibility, std::uint32_t samples)
         : environment_(lights.environment),
-          reach_(4.0f * lights.radius),
+          sphere_(lights.sphere),
           visibility_(visibility),
           samples_(samples) {}
     /// The environment of lights of the host, which must outlive it.
@@ -39,8 +39,8 @@ class EnvironmentLight {
                 const std::uint32_t i = k * shared.shares + shared.share;
                 return environment_.sample(kronecker_point(shift, i));
             },
-            [hit, s, reach = reach_](const EnvironmentSample& from) {
-                return LitPoint{outside(hit.position, from.direction, reach),
+            [hit, s, sphere = sphere_](const EnvironmentSample& from) {
+                return LitPoint{sphere.outside(hit.position, from.direction),
                                 unshadowed(hit, s, from)};
             });
     }
@@ -52,15 +52,11 @@ class EnvironmentLight {
     }
 
     /// A point outside the scene in the unit direction `w`.
-    [[nodiscard]] MIR_HD Vec3 outside(Vec3 from, Vec3 w) const { return outside(from, w, reach_); }
+    [[nodiscard]] MIR_HD Vec3 outside(Vec3 from, Vec3 w) const { return sphere_.outside(from, w); }
 
  private:
-    [[nodiscard]] MIR_HD static Vec3 outside(Vec3 from, Vec3 w, float reach) {
-        return from + reach * w;
-    }
-
     EnvironmentView<space> environment_;
-    float reach_;
+    BoundingSphere sphere_;
     V visibility_;
     std::uint32_t samples_;
 };

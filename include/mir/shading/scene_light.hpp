@@ -28,7 +28,7 @@ class EmitterLight {
     /// Safe to call from any thread.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
                                         SharedSamples shared, Random random) const {
-        if (!lights_.has_emitters() || samples_ == 0) return {};
+        if (lights_.lamps.by_power.empty() || samples_ == 0) return {};
         const Shift shift{random.next(), random.next_2d()};
         return mean_of_samples(
             hit.position, visibility_, samples_,
@@ -60,8 +60,7 @@ class EmitterLight {
         const std::uint32_t i = k * shared.shares + shared.share;
         const auto n = static_cast<float>(samples_ * shared.shares);
         const float lamp = wrapped(static_cast<float>(i) / n + shift.pick);
-        const EmitterSample e =
-            lights_.sample_emitter(geometry_, lamp, kronecker_point(shift.uv, i));
+        const EmitterSample e = lights_.lamps.sample(geometry_, lamp, kronecker_point(shift.uv, i));
         return {e.position, e.offset, e.normal, e.radiance, e.pdf_area, e.both_sides ? 1u : 0u};
     }
 
@@ -86,55 +85,55 @@ class EmitterLight {
     std::uint32_t samples_;
 };
 
-/// Light of point, spot and directional lights at a luxel, exact. They have no extent, so they are
-/// never VPLs (docs/method.md, 5.2). A light at the luxel itself, or so near that its radiance is
-/// no float, adds nothing: 1/d^2 has no value there, and one luxel must not spoil its neighbours.
-/// Host and device.
+/// Light of what the scene lists at a luxel: exact where it has no extent, by one sample where it
+/// has. No ray meets these lights, so they are never VPLs (docs/method.md, 5.2). A light at the
+/// luxel itself, or so near that its radiance is no float, adds nothing: 1/d^2 has no value there,
+/// and one luxel must not spoil its neighbours. Host and device.
 template <Bsdf B, Visibility V>
-class DeltaLight {
+class ListedLight {
  public:
     static constexpr Space space = space_of_lights<V>;  ///< memory that the lights lie in
 
     /// What the view reads must outlive it.
-    DeltaLight(const LightTableView<space>& lights, V visibility)
+    ListedLight(const LightTableView<space>& lights, V visibility)
         : lights_(lights), visibility_(visibility) {}
     /// The lights of the host, which must outlive it.
-    DeltaLight(const LightTable& lights, V visibility) requires(space == Space::host)
-        : DeltaLight(lights.view(), visibility) {}
+    ListedLight(const LightTable& lights, V visibility) requires(space == Space::host)
+        : ListedLight(lights.view(), visibility) {}
 
-    /// W m^-2 sr^-1 towards the viewer. Safe to call from any thread.
-    [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit,
-                                        const Surface<typename B::Params>& s) const {
+    /// W m^-2 sr^-1 towards the viewer. `place(i)` lies in the unit square; it is asked for each
+    /// light i with extent. Safe to call from any thread.
+    template <class Place>
+    [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
+                                        const Place& place) const {
         Rgb sum;
-        for (std::uint32_t i = 0; i < lights_.delta_count; ++i)
-            sum += from(hit, s, lights_.delta_sources[i]);
+        for (std::uint32_t i = 0; i < lights_.listed_count; ++i)
+            sum += lights_.listed[i].visit([&](const auto& source) {
+                Vec2 u{0};
+                if constexpr (std::remove_cvref_t<decltype(source)>::has_extent) u = place(i);
+                return from(hit, s, source, u);
+            });
         return sum;
     }
 
  private:
+    template <LightSource L>
     [[nodiscard]] MIR_HD Rgb from(const Hit& hit, const Surface<typename B::Params>& s,
-                                  const DeltaSource& l) const {
-        if (l.kind == LightEndKind::directional) return from_direction(hit, s, l);
-        if (l.kind == LightEndKind::point) return from_point(hit, s, l.position, l.emission);
-        const Vec3 w = glm::normalize(hit.position - l.position);
-        return from_point(hit, s, l.position, l.emission * spot_falloff(l, w));
-    }
-
-    [[nodiscard]] MIR_HD Rgb from_point(const Hit& hit, const Surface<typename B::Params>& s,
-                                        Vec3 position, Rgb intensity) const {
-        const Vec3 d = position - hit.position;
-        const float d2 = length_squared(d);
-        const Rgb light = reflected<B>(hit, s, d * (1.0f / std::sqrt(d2))) * intensity * (1 / d2);
+                                  const L& source, Vec2 u) const {
+        const LightPoint p = source.sample(u, hit.position);
+        Vec3 wi = -p.normal;
+        float d2 = 1.0f;
+        Vec3 end = lights_.sphere.outside(hit.position, wi);
+        if (L::origin != LightOrigin::outside) {
+            const Vec3 d = p.position - hit.position;
+            d2 = length_squared(d);
+            wi = d * (1.0f / std::sqrt(d2));
+            end = p.position;
+        }
+        const Rgb light = reflected<B>(hit, s, wi) * (p.emission * source.share(p.normal, -wi)) *
+                          (1.0f / (d2 * p.pdf));
         if (is_black(light) || !is_finite(light)) return {};
-        return visibility_.visible(position, hit.position) ? light : Rgb{};
-    }
-
-    [[nodiscard]] MIR_HD Rgb from_direction(const Hit& hit, const Surface<typename B::Params>& s,
-                                            const DeltaSource& l) const {
-        const Rgb light = reflected<B>(hit, s, -l.direction) * l.emission;
-        const Vec3 outside = hit.position - 4.0f * lights_.radius * l.direction;
-        if (is_black(light) || !visibility_.visible(outside, hit.position)) return {};
-        return light;
+        return visibility_.visible(end, hit.position) ? light : Rgb{};
     }
 
     LightTableView<space> lights_;

@@ -4,6 +4,7 @@
 #include "io/detail/gltf_build_arrays.hpp"
 #include "io/detail/gltf_build_textures.hpp"
 #include "mir/core/frame.hpp"
+#include "mir/scene/light_kinds.hpp"
 #include "mir/scene/scene.hpp"
 #include "mir/scene/texture_table.hpp"
 #include "mir/scene/world_geometry.hpp"
@@ -35,9 +36,7 @@ class GltfBuilder {
         for (const Material& material : scene.materials) add(material);
         for (const Mesh& mesh : scene.meshes) add(mesh);
         for (const Instance& instance : scene.instances) add(instance);
-        for (const PointLight& light : scene.point_lights) add(light);
-        for (const SpotLight& light : scene.spot_lights) add(light);
-        for (const DirectionalLight& light : scene.directional_lights) add(light);
+        for_each_listed_light(scene, [this](const auto& light) { add(light); });
         for (const Camera& camera : scene.cameras) add(camera);
         finish(scene.name);
         return std::move(model_);

@@ -85,13 +85,13 @@ inline void add_light(const tinygltf::Model& model, int index, const PlacedNode&
     if (light.range > 0.0) ++report.ignored["range of a light"];
     if (light.type == "point") {
         scene.point_lights.push_back({name, {}, light_strength(light, place), group});
-        places.point_lights.push_back(pose.position);
+        places.lights<PointLight>().push_back(pose.position);
     } else if (light.type == "spot") {
         SpotLight spot = spot_light(light, pose, place);
         spot.name = name;
         spot.light_group = group;
         scene.spot_lights.push_back(spot);
-        places.spot_lights.push_back(pose.position);
+        places.lights<SpotLight>().push_back(pose.position);
     } else if (light.type == "directional") {
         scene.directional_lights.push_back(
             {name, shining_direction(pose, place), light_strength(light, place), group});

@@ -77,8 +77,9 @@ class Recentring {
             for (std::size_t i = 0; i < things.size(); ++i)
                 things[i].position = Vec3(places[i] - shift_);
         };
-        settle(scene.point_lights, places_.point_lights);
-        settle(scene.spot_lights, places_.spot_lights);
+        for_each_placed_list(scene, [&]<class Light>(std::vector<Light>& list) {
+            settle(list, places_.lights<Light>());
+        });
         settle(scene.cameras, places_.cameras);
     }
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/light_source.hpp"
+#include "mir/scene/bounds.hpp"
+#include "mir/scene/lights/bounding_sphere.hpp"
+
+#include <optional>
+#include <string>
+
+namespace mir {
+
+/// Parallel light that travels along the unit vector `direction`. `irradiance` on a surface
+/// facing it, W m^-2.
+struct DirectionalLight {
+    static constexpr const char* kind = "directional light";  ///< what messages call it
+
+    std::string name;               ///< for messages and files
+    Vec3 direction{0, -1, 0};       ///< unit, along which it shines
+    Rgb irradiance;                 ///< finite, not negative, W m^-2
+    std::uint16_t light_group = 0;  ///< group that its light is counted in
+
+    /// None: it comes from outside.
+    [[nodiscard]] static std::optional<Bounds> bounds() { return std::nullopt; }
+    /// Calls f(values...) with all that its light depends on.
+    template <class F>
+    void with_values(const F& f) const {
+        f(direction, irradiance, light_group);
+    }
+};
+
+/// A DirectionalLight as it is sampled. Model of LightSource.
+struct DirectionalSource {
+    static constexpr LightOrigin origin = LightOrigin::outside;
+    static constexpr bool has_extent = false;
+
+    Vec3 direction{0, -1, 0};       ///< unit, along which it shines
+    Rgb irradiance;                 ///< W m^-2
+    std::uint16_t light_group = 0;  ///< group that its light is counted in
+    BoundingSphere scene;           ///< through which it enters
+
+    [[nodiscard]] MIR_HD LightPoint sample(Vec2 u, Vec3 /*from*/) const { return start(u, 0.0f); }
+    [[nodiscard]] MIR_HD LightPoint start(Vec2 /*u*/, float /*side*/) const {
+        LightPoint p;
+        p.normal = direction;
+        p.emission = irradiance;
+        p.light_group = light_group;
+        return p;
+    }
+    [[nodiscard]] MIR_HD Ray ray(Vec3 /*from*/, Vec3 normal, Vec2 u) const {
+        return scene.ray(normal, u);
+    }
+    [[nodiscard]] MIR_HD double ray_density(Vec3 /*normal*/, Vec3 /*w*/, float cosine,
+                                            float /*d2*/) const {
+        return scene.ray_density(cosine);
+    }
+    [[nodiscard]] MIR_HD static float share(Vec3 /*normal*/, Vec3 /*w*/) { return 1.0f; }
+    [[nodiscard]] MIR_HD Rgb flux(const LightPoint& p, Vec3 /*w*/, float probability) const {
+        return scene.flux(p, probability);
+    }
+    /// Luminance of the power that enters the scene, W.
+    [[nodiscard]] double power() const {
+        return luminance(irradiance) * pi * scene.radius * scene.radius;
+    }
+};
+
+/// The light as it is sampled.
+inline DirectionalSource source_of(const DirectionalLight& l, const BoundingSphere& scene) {
+    return {l.direction, l.irradiance, l.light_group, scene};
+}
+
+}  // namespace mir
