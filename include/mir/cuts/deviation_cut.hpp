@@ -17,7 +17,7 @@ namespace mir {
 struct DeviationCut {
     std::uint32_t picks = 256;  ///< most nodes, at least 1
     /// Share of the largest light of a node, 0..1. Measured: 1e-4 is best or near it from 16 to
-    /// 1024 picks (docs/decisions/061).
+    /// 1024 picks (docs/decisions/050).
     float floor = 1e-4f;
 
     /// A cut of at most `picks` nodes; of fewer where all are leaves that are left.
