@@ -18,7 +18,7 @@ using namespace mirbench;
 
 /// Seconds that single shadow rays take over all facing pairs.
 double time_single_rays(const BenchScene& s, const GBuffer& gbuffer, const mir::VplList& vpls,
-                        mir::cpu::TbbExecutor& executor) {
+                        mir::TbbExecutor& executor) {
     double seconds = 0.0;
     const auto visibility = s.engine.visibility();
     std::atomic<std::uint64_t> seen{0};
@@ -41,7 +41,7 @@ double time_single_rays(const BenchScene& s, const GBuffer& gbuffer, const mir::
 }
 
 double time_tuned(const BenchScene& s, const GBuffer& gbuffer, const mir::VplList& vpls,
-                  mir::cpu::TbbExecutor& executor) {
+                  mir::TbbExecutor& executor) {
     double seconds = 0.0;
     mir::Image<mir::Rgb> image;
     {
@@ -57,7 +57,7 @@ void tuned_over_occluded1(benchmark::State& state, const std::string& name) {
     const BenchScene& s = bench_scene(name);
     const GBuffer gbuffer = s.gbuffer(paper_image, {64, 64});
     const mir::VplList vpls = s.vpls(256);
-    mir::cpu::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
+    mir::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
     double tuned = 0.0;
     double single = 0.0;
     for (auto _ : state) {

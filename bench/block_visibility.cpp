@@ -33,7 +33,7 @@ enum class Blocks { squares, pages, clusters };
 class Bench {
  public:
     Bench(const BenchScene& s, Blocks blocks, InstructionSet set, std::uint32_t vpl_count,
-          mir::cpu::TbbExecutor& executor)
+          mir::TbbExecutor& executor)
         : blocks_are_(blocks),
           executor_(executor),
           set_(set),
@@ -154,7 +154,7 @@ class Bench {
     }
 
     Blocks blocks_are_;
-    mir::cpu::TbbExecutor& executor_;
+    mir::TbbExecutor& executor_;
     InstructionSet set_;
     mir::cpu::EmbreeVisibility embree_;
     mir::ShaftScene scene_;
@@ -168,7 +168,7 @@ class Bench {
 
 void visibility(benchmark::State& state, const std::string& name, Blocks order,
                 InstructionSet set) {
-    mir::cpu::TbbExecutor executor(static_cast<int>(state.range(1)));
+    mir::TbbExecutor executor(static_cast<int>(state.range(1)));
     Bench bench(bench_scene(name), order, set, static_cast<std::uint32_t>(state.range(0)),
                 executor);
     double segments = 0.0;

@@ -20,7 +20,7 @@ void contributions(benchmark::State& state, const std::string& name, MakeSchedul
     const BenchScene& s = bench_scene(name);
     const GBuffer gbuffer = s.gbuffer(image, {64, 64});
     const mir::VplList vpls = s.vpls(static_cast<std::uint32_t>(state.range(0)));
-    mir::cpu::TbbExecutor executor(static_cast<unsigned>(state.range(1)));
+    mir::TbbExecutor executor(static_cast<unsigned>(state.range(1)));
     for (auto _ : state)
         benchmark::DoNotOptimize(mir::reconstruct(make(executor), gbuffer, vpls.span(),
                                                   s.engine.visibility(), s.shading(vpls.size())));
@@ -43,7 +43,7 @@ void add(const std::string& scheduler, const std::string& scene, std::int64_t mo
 }
 
 const int registered = [] {
-    using mir::cpu::TbbExecutor;
+    using mir::TbbExecutor;
     for (const std::string& scene : scenes_of_run()) {
         add("cpu-blocks", scene, 1024, [](TbbExecutor& e) { return mir::sched::CpuBlocks{e}; });
         add("cpu", scene, 64, [](TbbExecutor& e) { return mir::sched::Cpu{e}; });

@@ -39,7 +39,7 @@ void report(benchmark::State& state, const mir::KdTreeStatistics& s) {
 
 void kd_build(benchmark::State& state, const std::string& name, const mir::KdTreeOptions& options) {
     const mir::WorldGeometry& geometry = bench_scene(name).geometry;
-    mir::cpu::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
+    mir::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
     mir::KdTreeStatistics fastest;
     double triangles = 0.0;
     for (auto _ : state) {

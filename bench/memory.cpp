@@ -23,7 +23,7 @@ using namespace mirbench;
 /// Takes the structures of a frame one after the other and notes what each adds.
 class Ledger {
  public:
-    Ledger(benchmark::State& state, mir::cpu::TbbExecutor& executor)
+    Ledger(benchmark::State& state, mir::TbbExecutor& executor)
         : state_(state),
           executor_(executor),
           backend_(executor, meter_),
@@ -73,7 +73,7 @@ class Ledger {
     }
 
     benchmark::State& state_;
-    mir::cpu::TbbExecutor& executor_;
+    mir::TbbExecutor& executor_;
     MemoryMeter meter_;
     MeteredBackend backend_;
     MeteredBackend::Queue queue_;
@@ -81,7 +81,7 @@ class Ledger {
 };
 
 void memory(benchmark::State& state, const std::string& name) {
-    mir::cpu::TbbExecutor executor(0);
+    mir::TbbExecutor executor(0);
     const BenchScene& scene = bench_scene(name);
     for (auto _ : state)
         Ledger(state, executor).add(scene, static_cast<std::uint32_t>(state.range(0)));

@@ -18,8 +18,7 @@ namespace {
 
 using namespace mirbench;
 
-mir::VplRecords time_sampling(const BenchScene& s, mir::cpu::TbbExecutor& executor,
-                              double& seconds) {
+mir::VplRecords time_sampling(const BenchScene& s, mir::TbbExecutor& executor, double& seconds) {
     constexpr std::uint32_t vpls = 256;
     const float aspect =
         static_cast<float>(paper_image.width) / static_cast<float>(paper_image.height);
@@ -39,7 +38,7 @@ mir::VplRecords time_sampling(const BenchScene& s, mir::cpu::TbbExecutor& execut
 }
 
 void time_reconstruction(const BenchScene& s, const GBuffer& gbuffer,
-                         const mir::VplRecords& records, mir::cpu::TbbExecutor& executor,
+                         const mir::VplRecords& records, mir::TbbExecutor& executor,
                          double& seconds) {
     const mir::Stopwatch watch(seconds);
     mir::VplList vpls = mir::aggregate(records);
@@ -55,7 +54,7 @@ void time_reconstruction(const BenchScene& s, const GBuffer& gbuffer,
 void sampling(benchmark::State& state, const std::string& name) {
     const BenchScene& s = bench_scene(name);
     const GBuffer gbuffer = s.gbuffer(paper_image, {64, 64});
-    mir::cpu::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
+    mir::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
     double sampled = 0.0;
     double reconstructed = 0.0;
     mir::VplRecords records;

@@ -22,7 +22,7 @@ constexpr std::uint32_t vpl_count = 256;
 
 /// Luxels, VPLs, and who sees whom.
 struct Known {
-    Known(const BenchScene& s, mir::cpu::TbbExecutor& executor)
+    Known(const BenchScene& s, mir::TbbExecutor& executor)
         : gbuffer(s.gbuffer(image, {64, 64})),
           vpls(s.vpls(vpl_count)),
           shading(s.shading(vpls.size())),
@@ -65,7 +65,7 @@ void shading(benchmark::State& state, const std::string& name, mir::InstructionS
         state.SkipWithError("this processor does not have these instructions");
         return;
     }
-    mir::cpu::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
+    mir::TbbExecutor executor(static_cast<unsigned>(state.range(0)));
     const Known known(bench_scene(name), executor);
     double blocks = 0.0;
     double plain = 0.0;

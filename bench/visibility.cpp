@@ -28,7 +28,7 @@ struct Clusters {
     std::vector<mir::ClusterRecord> blocks;
     std::vector<mir::ClusterRecord> clusters;
 
-    Clusters(const GBuffer& gbuffer, float sigma, mir::cpu::TbbExecutor& executor)
+    Clusters(const GBuffer& gbuffer, float sigma, mir::TbbExecutor& executor)
         : luxels((gbuffer.view(0).size() + mir::block_luxels - 1) / mir::block_luxels *
                  mir::block_luxels),
           planes(clustered_hits(gbuffer.view(0).hits, luxels, executor)) {
@@ -40,7 +40,7 @@ struct Clusters {
 
  private:
     void record(std::vector<mir::ClusterRecord>& records, std::uint32_t run, float sigma,
-                mir::cpu::TbbExecutor& executor) const {
+                mir::TbbExecutor& executor) const {
         records.resize(luxels / run);
         const mir::ClusterRecords kernel{hits(), run, sigma, records.data()};
         executor.for_each(records.size(),
@@ -51,7 +51,7 @@ struct Clusters {
 /// A scene, its clusters and VPLs.
 class Bench {
  public:
-    Bench(const BenchScene& s, mir::cpu::TbbExecutor& executor)
+    Bench(const BenchScene& s, mir::TbbExecutor& executor)
         : executor_(executor),
           wide_(s.geometry, executor),
           vpls_(s.vpls(vpl_count)),
@@ -102,7 +102,7 @@ class Bench {
         return word;
     }
 
-    mir::cpu::TbbExecutor& executor_;
+    mir::TbbExecutor& executor_;
     mir::WideBvhScene wide_;
     mir::VplList vpls_;
     float sigma_ = 0.0f;
@@ -120,7 +120,7 @@ void report_shares(benchmark::State& state, const std::string& of,
 }
 
 void visibility(benchmark::State& state, const std::string& name) {
-    mir::cpu::TbbExecutor executor(static_cast<int>(state.range(0)));
+    mir::TbbExecutor executor(static_cast<int>(state.range(0)));
     Bench bench(bench_scene(name), executor);
     double shafts = 0.0;
     double segments = 0.0;

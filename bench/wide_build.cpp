@@ -53,7 +53,7 @@ double segment_ns(const mir::WorldGeometry& geometry, mir::WideBvhView<mir::Spac
 
 void build(benchmark::State& state, const std::string& name) {
     const auto threads = static_cast<int>(state.range(0));
-    mir::cpu::TbbExecutor executor(threads);
+    mir::TbbExecutor executor(threads);
     tbb::task_arena arena(threads);  // in which Embree builds
     const mir::WorldGeometry& geometry = bench_scene(name).geometry;
     const mir::WideBvhOptions options = wide_options_of_run();

@@ -6,8 +6,8 @@
 // (4.6).
 #include "mir/compare/comparable.hpp"
 #include "mir/core/number_text.hpp"
-#include "mir/cpu/register.hpp"
 #include "mir/reference/rgb_moments.hpp"
+#include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "reference.hpp"
 #include "tools/mir/load_scene.hpp"
@@ -148,7 +148,7 @@ void study(const std::string& name, const BoundOptions& o) {
     const mir::Extent size{o.width, o.height};
     const Reference reference = cached_reference(scene, {size, o.samples, 0}, o.cache);
     mir::Registry registry;
-    mir::cpu::add_to(registry);
+    mir::add_cpu_to(registry);
     for (const std::uint32_t vpls : o.vpls)
         for (const Treatment& t : treatments(o)) {
             mir::RenderSettings s = settings_of(t, o);

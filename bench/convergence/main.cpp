@@ -2,9 +2,9 @@
 //
 // Error of the indirect light against the number of VPLs, for each sampler: docs/convergence.md.
 #include "image_error.hpp"
-#include "mir/cpu/register.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
+#include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/renderer.hpp"
 #include "montage.hpp"
 #include "options.hpp"
@@ -96,7 +96,7 @@ class SceneStudy {
     void compare(const Run& run) {
         std::fprintf(stderr, "%s\n", run.name().c_str());
         mir::Registry registry;
-        mir::cpu::add_to(registry);
+        mir::add_cpu_to(registry);
         const mir::RenderSettings settings = settings_of(run, options_);
         const mir::RenderResult result =
             registry.make(settings.backend, settings.scheduler)->render(scene_, settings, nullptr);

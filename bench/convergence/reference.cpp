@@ -2,7 +2,7 @@
 #include "reference.hpp"
 
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/reference/trace_reference.hpp"
 #include "mir/runtime/check_scene.hpp"
@@ -72,7 +72,7 @@ Reference trace(const mir::Scene& scene, const ReferenceSettings& settings) {
     options.samples = (settings.samples + replicates - 1) / replicates;
     options.replicates = 1;
     options.last_bounce = 1;
-    mir::cpu::TbbExecutor executor(settings.threads);
+    mir::TbbExecutor executor(settings.threads);
     ReplicateMean mean(settings.size);
     for (std::uint32_t r = 0; r < replicates; ++r) {
         std::fprintf(stderr, "%s: reference, part %u of %u\n", scene.name.c_str(), r + 1,

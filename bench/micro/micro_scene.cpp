@@ -15,7 +15,7 @@ constexpr std::uint32_t lamp_samples = 4;
 
 MicroLuxels luxels_of(const BenchScene& scene, const mir::LuxelGrid& grid) {
     MicroLuxels luxels(grid.luxels(), grid.luxels());
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const mir::SurfaceTable<mir::Lambert> surfaces(scene.scene);
     const mir::CameraRays rays{scene.scene.cameras.front(), grid, 0};
     mir::fill_gbuffer<mir::Lambert>(luxels, 0, rays, scene.engine.ray_caster(), surfaces, executor);
@@ -23,7 +23,7 @@ MicroLuxels luxels_of(const BenchScene& scene, const mir::LuxelGrid& grid) {
 }
 
 std::vector<mir::SurfelRadiance> light_of(const BenchScene& scene, const mir::SurfelTree& tree) {
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const mir::SurfaceTable<mir::Lambert> surfaces(scene.scene);
     const mir::SurfelDirectLight<mir::Lambert, mir::cpu::EmbreeRayCaster,
                                  mir::cpu::EmbreeVisibility>
@@ -37,7 +37,7 @@ std::vector<mir::SurfelRadiance> light_of(const BenchScene& scene, const mir::Su
 }  // namespace
 
 std::vector<mir::Surfel> surfels_of(const BenchScene& scene, double count) {
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     mir::SurfelOptions options;
     options.max_area = static_cast<float>(surface_area(scene.geometry) / count);
     return make_surfels(scene.geometry, options, {}, executor);
@@ -45,7 +45,7 @@ std::vector<mir::Surfel> surfels_of(const BenchScene& scene, double count) {
 
 mir::SurfelTree tree_of(const BenchScene& scene, double count,
                         const mir::SurfelTreeOptions& options) {
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const mir::SurfaceTable<mir::Lambert> surfaces(scene.scene);
     return {surfels_of(scene, count), mir::SurfelAlbedo<mir::Lambert>(surfaces, scene.geometry),
             options, executor};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/micro/gather_light.hpp"
 #include "mir/micro/make_surfels.hpp"
 #include "mir/micro/surfel_albedo.hpp"
@@ -33,7 +33,7 @@ struct SceneStudy {
     mir::LightTable lights{scene, geometry};
     mir::SurfaceTable<mir::Lambert> surfaces{scene};
     mir::cpu::EmbreeScene engine{geometry};
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     mir::CameraRays rays{scene.cameras.front(), {{side, side}}, 7};
     mir::BlockedGBuffer<mir::Lambert::Params> gbuffer{{side, side}, {side, side}};
 };

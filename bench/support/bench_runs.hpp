@@ -12,7 +12,7 @@ namespace mirbench {
 inline void time_reconstructions(benchmark::State& state, const BenchScene& s,
                                  const GBuffer& gbuffer) {
     const mir::VplList vpls = s.vpls(256);
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     for (auto _ : state)
         benchmark::DoNotOptimize(mir::reconstruct(mir::sched::CpuBlocks{executor}, gbuffer,
                                                   vpls.span(), s.engine.visibility(),

@@ -3,8 +3,8 @@
 
 #include "mir/accel/wide/wide_options.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/scene/scene_hash.hpp"
@@ -57,6 +57,6 @@ mir::WideBvhOptions wide_options_of_run();
 
 /// Number of luxel-VPL pairs that face each other, those that need a ray.
 std::uint64_t count_facing(const GBuffer& gbuffer, const mir::VplList& vpls,
-                           mir::cpu::TbbExecutor& executor);
+                           mir::TbbExecutor& executor);
 
 }  // namespace mirbench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "support/shafts/cluster_order.hpp"
 
 #include <vector>
@@ -10,8 +10,7 @@ namespace mirbench {
 
 /// Planes of `count` hits in cluster order: those of a tile, and empty ones behind them.
 inline std::vector<std::uint32_t> clustered_hits(const mir::SoaView<const mir::Hit>& hits,
-                                                 std::uint32_t count,
-                                                 mir::cpu::TbbExecutor& executor) {
+                                                 std::uint32_t count, mir::TbbExecutor& executor) {
     std::vector<std::uint32_t> unordered(std::size_t{count} * mir::SoaView<mir::Hit>::words);
     std::vector<std::uint32_t> planes(unordered.size());
     const mir::SoaView<mir::Hit> given{unordered.data(), count};

@@ -30,7 +30,7 @@ BenchScene::BenchScene(mir::Scene from)
 
 GBuffer BenchScene::gbuffer(mir::Extent image, mir::Extent tile) const {
     GBuffer gbuffer(image, tile);
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const mir::CameraRays rays{scene.cameras.front(), mir::luxel_grid(image, 1), 0};
     mir::fill_gbuffer<Bsdf>(gbuffer, 0, rays, engine.ray_caster(), surfaces, executor);
     return gbuffer;
@@ -80,7 +80,7 @@ mir::WideBvhOptions wide_options_of_run() {
 }
 
 std::uint64_t count_facing(const GBuffer& gbuffer, const mir::VplList& vpls,
-                           mir::cpu::TbbExecutor& executor) {
+                           mir::TbbExecutor& executor) {
     std::atomic<std::uint64_t> facing{0};
     executor.for_each(gbuffer.tiles().size(), [&](std::size_t t) {
         const auto view = gbuffer.view(static_cast<mir::TileIndex>(t));

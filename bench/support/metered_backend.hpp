@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/tbb_executor.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -41,10 +41,10 @@ class MeteredBackend {
     template <class T>
     using HostBuffer = mir::host::Buffer<T>;
     using Event = mir::host::Event;
-    using Queue = mir::host::Queue<mir::cpu::TbbExecutor>;
+    using Queue = mir::host::Queue<mir::TbbExecutor>;
 
     /// Both must outlive the backend and what it hands out.
-    MeteredBackend(mir::cpu::TbbExecutor& executor, MemoryMeter& meter)
+    MeteredBackend(mir::TbbExecutor& executor, MemoryMeter& meter)
         : executor_(&executor), meter_(&meter) {}
 
     [[nodiscard]] Queue queue() const { return Queue(*executor_); }
@@ -58,7 +58,7 @@ class MeteredBackend {
     }
 
  private:
-    mir::cpu::TbbExecutor* executor_;
+    mir::TbbExecutor* executor_;
     MemoryMeter* meter_;
 };
 

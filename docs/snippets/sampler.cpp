@@ -3,8 +3,10 @@
 // Quoted by docs/extending.md: a sampler of a user's own.
 #include "mir/validation/sampler.hpp"
 
+#include "mir/runtime/vpl_frame.hpp"
 #include "mir/sampling/emission.hpp"
 #include "mir/sampling/light_path.hpp"
+#include "mir/scenes.hpp"
 #include "support/catch.hpp"
 
 // region: sampler
@@ -48,6 +50,18 @@ class LampSampler {
 static_assert(mir::Sampler<LampSampler>);
 // endregion: sampler
 
+namespace {
+
+// region: frame
+mir::RenderResult draw(const mir::Scene& scene, const mir::RenderSettings& settings) {
+    mir::VplFrame frame(scene, settings);
+    const LampSampler sampler(frame.lights(), settings.vpls, settings.seed);
+    return render_vpls(frame, {sampler.sample(frame.executor()), LampSampler::normalisation});
+}
+// endregion: frame
+
+}  // namespace
+
 // H0, level and seeds: see check_sampler_light().
 TEST_CASE("The sampler of the documentation keeps the axioms of Sampler", "[statistical]") {
     // region: axioms
@@ -60,6 +74,14 @@ TEST_CASE("The sampler of the documentation keeps the axioms of Sampler", "[stat
     INFO(report.text());
     CHECK(report.passed());
     // endregion: axioms
+}
+
+TEST_CASE("The sampler of the documentation draws a picture") {
+    const mir::RenderResult result =
+        draw(mir::builtin::make("sphere"), {.image = {24, 18}, .vpls = 32});
+    CHECK(result.vpls.size() == 32);
+    CHECK(result.statistics.indirect_luminance > 0.0);
+    CHECK(result.statistics.normalisation == "none");
 }
 
 TEST_CASE("The sampler of the documentation brings a furnace its direct light, and no more") {

@@ -8,8 +8,8 @@
 #include "self_check.hpp"
 
 #include <mir/cpu/embree_visibility.hpp>
-#include <mir/cpu/tbb_executor.hpp>
 #include <mir/fill_visibility.hpp>
+#include <mir/host/tbb_executor.hpp>
 #include <mir/io/png.hpp>
 #include <mir/reshade.hpp>
 #include <mir/sched/cpu_blocks.hpp>
@@ -111,7 +111,7 @@ Picture render(const offline::World& world, std::uint32_t paths) {
     };
 
     // region: bands
-    mir::cpu::TbbExecutor cores;
+    mir::TbbExecutor cores;
     const mir::cpu::EmbreeVisibility visibility{
         world.scene()};  // reads the scene, never changes it
     mir::VisibilityMatrix bits(luxels.tiles(), three(0).size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/mir.hpp"
 #include "mir/scenes.hpp"
@@ -12,7 +12,7 @@ int main() {
     const mir::SurfaceTable<Bsdf> surfaces(scene);
     const mir::LightTable lights(scene, geometry);
     const mir::cpu::EmbreeScene embree(geometry);
-    mir::cpu::TbbExecutor cores;
+    mir::TbbExecutor cores;
 
     // What the camera sees: one luxel per pixel.
     const mir::CameraRays rays{scene.cameras[0], {{320, 240}}};

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/runtime/all_renderers.hpp"
 
-#include "mir/cpu/register.hpp"
-
 #ifdef MIR_RUNTIME_HAS_CUDA
-#include "mir/cuda/register.hpp"
+#include "runtime/cuda_renderers.hpp"
 #endif
 
 #include <thread>
@@ -13,16 +11,16 @@ namespace mir {
 
 void add_all_to(Registry& registry) {
 #ifdef MIR_RUNTIME_HAS_CUDA
-    cuda::add_to(registry);
+    add_cuda_to(registry);
 #endif
-    cpu::add_to(registry);
+    add_cpu_to(registry);
 }
 
 DeviceList list_devices() {
     DeviceList list;
-    list.devices.push_back({"cpu", cpu::description(), 0, std::thread::hardware_concurrency()});
+    list.devices.push_back({"cpu", cpu_description(), 0, std::thread::hardware_concurrency()});
 #ifdef MIR_RUNTIME_HAS_CUDA
-    cuda::append_devices(list);
+    append_cuda_devices(list);
 #else
     list.unavailable.emplace_back("cuda: this build was configured without it");
 #endif

@@ -2,8 +2,8 @@
 #include "mir/host/backend.hpp"
 
 #include "conformance/backend_suite.hpp"
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/data/soa.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "support/catch.hpp"
 #include "support/lazy_backend.hpp"
 
@@ -21,7 +21,7 @@ void check_all(const std::vector<mirtest::Finding>& findings) {
 
 TEST_CASE("The host keeps the axioms of Backend, on one thread and on many") {
     mir::InlineExecutor one;
-    mir::cpu::TbbExecutor many(3);
+    mir::TbbExecutor many(3);
     check_all(mirtest::examine_backend(mir::host::Backend(one)));
     check_all(mirtest::examine_backend(mir::host::Backend(many)));
 }

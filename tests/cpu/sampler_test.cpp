@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/sampler_suite.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 #include "mir/scenes.hpp"
 #include "support/catch.hpp"
@@ -21,7 +21,7 @@ TEMPLATE_TEST_CASE("InstantRadiositySampler with Embree yields the same records 
         options.seed = seed;
         return Sampler({geometry, lights, surfaces, embree.ray_caster()}, options);
     };
-    mir::cpu::TbbExecutor threads(4);
-    mir::cpu::TbbExecutor all;
+    mir::TbbExecutor threads(4);
+    mir::TbbExecutor all;
     mirtest::sampler_suite(make, threads, all);
 }

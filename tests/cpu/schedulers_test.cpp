@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/scheduler_suite.hpp"
-#include "mir/cpu/any_scheduler.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "support/catch.hpp"
 
@@ -16,20 +15,11 @@ using EmbreeStage = mirtest::Stage<B, mir::cpu::EmbreeScene>;
 TEMPLATE_TEST_CASE("The host schedulers keep their axioms with Embree, on one thread and on many",
                    "", mir::Lambert, mir::CookTorrance) {
     const EmbreeStage<TestType> stage({100, 70}, {48, 32}, 37);
-    mir::cpu::TbbExecutor threads(4);
+    mir::TbbExecutor threads(4);
     mir::InlineExecutor one;
     mirtest::scheduler_suite(mir::sched::Cpu{threads}, stage);
     mirtest::scheduler_suite(mir::sched::CpuBlocks{threads}, stage);
     mirtest::scheduler_suite(mir::sched::CpuBlocks{one}, stage);
-}
-
-TEST_CASE("A host scheduler that is chosen by name keeps the axioms of Scheduler") {
-    const EmbreeStage<mir::Lambert> stage({100, 70}, {48, 32}, 37);
-    mir::InlineExecutor executor;
-    for (const auto& [name, kind] : mir::cpu::host_schedulers) {
-        CAPTURE(name);
-        mirtest::scheduler_suite(mir::cpu::AnyScheduler{kind, executor}, stage);
-    }
 }
 
 TEST_CASE("Tile sizes and instruction sets do not change a bit of an Embree image") {
@@ -38,7 +28,7 @@ TEST_CASE("Tile sizes and instruction sets do not change a bit of an Embree imag
         mirtest::oracle(EmbreeStage<mir::CookTorrance>({100, 70}, {48, 32}, 37), shading);
     const std::uint32_t side = GENERATE(16u, 64u, 256u);
     const EmbreeStage<mir::CookTorrance> stage({100, 70}, {side, side}, 37);
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     for (auto set : {mir::InstructionSet::baseline, mir::best_instruction_set()}) {
         const auto found =
             mir::reconstruct(mir::sched::CpuBlocks{executor, nullptr, set}, stage.gbuffer(),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/accel/kd/kd_tree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/host/shaft_scene.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 #include "mir/scene/light_table.hpp"
@@ -87,7 +87,7 @@ TEST_CASE("renders at the same time share scene and structures, and keep their b
 #ifndef MIRTEST_NO_SHARED_ARENA
 TEST_CASE("renders at the same time share an executor, and keep their bits") {
     const World world;
-    mir::cpu::TbbExecutor executor(3);
+    mir::TbbExecutor executor(3);
     const auto together = render_together(
         world, [&](const World& w, std::uint64_t seed) { return render(w, executor, seed); });
     mir::InlineExecutor one;

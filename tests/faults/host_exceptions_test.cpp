@@ -6,12 +6,12 @@
 #include "faults/failing_host.hpp"
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/compare/flip.hpp"
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"
 #include "mir/film/film.hpp"
 #include "mir/film/guides.hpp"
 #include "mir/host/backend.hpp"
 #include "mir/host/shaft_scene.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/place_vpls.hpp"
 #include "mir/reference/path_tracer.hpp"
 #include "mir/reference/trace_reference.hpp"
@@ -36,7 +36,7 @@ using mirtest::HostFailure;
 namespace {
 
 using Bsdf = mirtest::FailingLambert;
-using Executor = mirtest::FailingExecutor<mir::cpu::TbbExecutor>;
+using Executor = mirtest::FailingExecutor<mir::TbbExecutor>;
 using Caster = mirtest::FailingRayCaster<mir::KdRayCaster<mir::Space::host>>;
 using Sight = mirtest::FailingVisibility<mir::KdTreeVisibility<mir::Space::host>>;
 using Luxels = mir::BlockedGBuffer<Bsdf::Params>;
@@ -63,7 +63,7 @@ class Stages {
     void reconstruct_with_each(std::vector<Picture>& pictures, const Luxels& luxels,
                                const mir::VplList& vpls, const Sight& visibility);
 
-    mir::cpu::TbbExecutor threads_{3};
+    mir::TbbExecutor threads_{3};
     mir::Scene scene_ = mir::builtin::make("cornell-box");
     mir::VplShading<Bsdf> shading_{.bound = 20.0f};
 };

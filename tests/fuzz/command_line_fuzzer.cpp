@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 #include "fuzz/input_file.hpp"
-#include "mir/cpu/register.hpp"
+#include "mir/runtime/all_renderers.hpp"
 
 #include <string>
 #include <vector>
 
 // The renderers are left out of this program; --version asks for this sentence alone.
-std::string mir::cpu::description() { return "no renderer"; }
+std::string mir::cpu_description() { return "no renderer"; }
 
 /// Words between line ends are arguments. Parsing either gives a command or an exit code.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

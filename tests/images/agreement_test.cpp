@@ -214,7 +214,7 @@ namespace {
 using Render = mir::RenderResult (*)(const Trial&, const mir::RenderSettings&);
 
 mir::VplRecords sampled(const Trial& trial, const mir::RenderSettings& s, float bound) {
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     return chains(trial.studio, s, bound).sample(executor);
 }
 

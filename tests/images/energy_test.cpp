@@ -158,7 +158,7 @@ namespace {
 template <class Change>
 mir::RenderResult render_changed(const Studio<mir::Lambert>& studio, const mir::RenderSettings& s,
                                  const Change& change) {
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const mir::VplRecords records = chains(studio, s, s.bound.value).sample(executor);
     mir::VplList list = aggregate(records);
     auto t = responses(studio, s, list, s.bound.value, studio.engine.visibility());

@@ -4,8 +4,8 @@
 // (tests/cuda/pictures). docs/validation.md, "Pictures by different engines", has the bound.
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_gbuffer.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/reconstruct.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 #include "mir/sched/cpu.hpp"
@@ -48,7 +48,7 @@ struct Stage {
                                 Shading{});
     }
 
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     mir::WorldGeometry geometry;
     mir::LightTable lights;
     mir::SurfaceTable<Bsdf> surfaces;

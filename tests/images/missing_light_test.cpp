@@ -46,7 +46,7 @@ double traced(const Studio<mir::CookTorrance>& studio, mir::BoundPart part, floa
     options.replicates = 1;
     options.film = mir::FilmPosition::pixel;
     options.last_bounce = 1;
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const auto image = trace_reference(studio.tracer({.bound = bound, .part = part}),
                                        studio.rays(32, 71), options, executor);
     return mean_luminance(image.beauty()) - mean_luminance(image.up_to(1));

@@ -25,7 +25,7 @@ mir::RenderSettings tiny(mir::SamplerKind sampler = mir::SamplerKind::instant_ra
 mir::RenderResult passes(const mir::Scene& scene, const mir::RenderSettings& settings,
                          std::uint32_t count) {
     mir::Registry registry;
-    mir::cpu::add_to(registry);
+    mir::add_cpu_to(registry);
     const auto renderer = registry.make(settings.backend, settings.scheduler);
     mir::ProgressiveRender render(*renderer, scene, settings, {.passes = count});
     while (!render.is_complete()) render.next_pass();

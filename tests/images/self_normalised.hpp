@@ -2,11 +2,11 @@
 #pragma once
 
 #include "mir/normalise/normalise.hpp"
-#include "mir/runtime/tiled_render.hpp"
+#include "mir/runtime/vpl_frame.hpp"
 #include "mir/sampling/metropolis_sampler.hpp"
-#include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/lambert.hpp"
 #include "reference/studio.hpp"
+#include "runtime/sample_vpls.hpp"
 #include "support/free_sight.hpp"
 
 namespace mirtest {
@@ -38,7 +38,7 @@ std::vector<mir::ImageResponse> responses(const Studio<B>& studio,
                                settings.seed};
     const mir::Extent luxels = rays.grid.luxels();
     mir::BlockedGBuffer<typename B::Params> gbuffer(luxels, luxels);
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     mir::fill_gbuffer<B>(gbuffer, 0, rays, studio.engine.ray_caster(), studio.surfaces, executor);
     mir::VisibilityMatrix matrix(gbuffer.tiles(), vpls.size());
     mir::fill_visibility(matrix, gbuffer, vpls.span(), visibility, executor);
@@ -82,13 +82,10 @@ inline FinalRecords relit(mir::VplRecords records, const mir::VplList& list) {
 template <mir::Sampler S>
 mir::RenderResult render(const Studio<mir::Lambert>& studio, const mir::RenderSettings& settings,
                          const S& sampler) {
-    mir::cpu::TbbExecutor executor;
-    mir::StageClock clock;
-    const auto make = [](auto& e, mir::Monitor* m) { return mir::sched::CpuBlocks{e, m}; };
-    return mir::TiledRender<mir::Lambert, mir::cpu::EmbreeScene, mir::cpu::TbbExecutor,
-                            decltype(make)>(studio.scene, settings, studio.geometry, studio.engine,
-                                            executor, nullptr, clock, make)
-        .run(sampler);
+    mir::RenderSettings by_embree = settings;
+    by_embree.acceleration = mir::Acceleration::embree;
+    mir::VplFrame frame(studio.scene, by_embree);
+    return render_vpls(frame, {sampler.sample(frame.executor()), S::normalisation});
 }
 
 }  // namespace mirtest

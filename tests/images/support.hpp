@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cpu/register.hpp"
+#include "mir/runtime/all_renderers.hpp"
 #include "mir/scenes.hpp"
 
 #include <array>
@@ -14,7 +14,7 @@ namespace mirtest {
 inline mir::RenderResult render(const mir::Scene& scene, const mir::RenderSettings& settings,
                                 mir::Monitor* monitor = nullptr) {
     mir::Registry registry;
-    mir::cpu::add_to(registry);
+    mir::add_cpu_to(registry);
     return registry.make(settings.backend, settings.scheduler)->render(scene, settings, monitor);
 }
 

@@ -111,7 +111,7 @@ TEST_CASE("spheres shrink from pass to pass") {
     const mir::Scene scene = mir::builtin::make("corner");
     mir::RenderSettings s = spheres(2.0f);
     mir::Registry registry;
-    mir::cpu::add_to(registry);
+    mir::add_cpu_to(registry);
     const auto renderer = registry.make(s.backend, s.scheduler);
     mir::ProgressiveRender passes(*renderer, scene, s, {.passes = 3});
     mir::Image<mir::Rgb> mean(s.image);

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -101,8 +102,8 @@ TEST_CASE("every readable shared file has the triangles, emitters and lights it 
         CHECK(report.emitting_triangles == expected.emitting);
         CHECK(report.instances == expected.instances);
         CHECK(loaded.scene.cameras.size() == expected.cameras);
-        CHECK(report.point_lights + report.spot_lights + report.directional_lights ==
-              expected.lights);
+        CHECK(std::accumulate(report.listed_lights.begin(), report.listed_lights.end(),
+                              std::uint64_t{0}) == expected.lights);
     }
 }
 

@@ -3,8 +3,8 @@
 
 #include "conformance/stage.hpp"
 #include "kernels/brute_finder.hpp"
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/resident/trace_primary_hits.hpp"
 #include "mir/resident/uploaded_scene.hpp"
 #include "support/catch.hpp"
@@ -101,7 +101,7 @@ TEMPLATE_TEST_CASE("Primary hits by kernels have the words of those on the host"
                    mir::CookTorrance) {
     const Extent image{100, 70};
     const Camera<TestType> camera(image);
-    mir::cpu::TbbExecutor executor(2);
+    mir::TbbExecutor executor(2);
     const mir::host::Backend backend(executor);
     const Extent tile = GENERATE(Extent{48, 32}, Extent{16, 16}, Extent{20, 13}, Extent{256, 512});
     const auto wanted = camera.by_host(image, tile);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/kernels/response.hpp"
 
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/normalise/response.hpp"
 #include "mir/resident/backend_response.hpp"
 #include "mir/shading/vpl_shading.hpp"
@@ -52,7 +52,7 @@ TEMPLATE_TEST_CASE("Responses on a backend are those of the host", "", mir::Lamb
                    mir::CookTorrance) {
     const Extent image{90, 70};
     const mirtest::LitBox<TestType> box(image);
-    mir::cpu::TbbExecutor executor(2);
+    mir::TbbExecutor executor(2);
     const mir::VplShading<TestType> shading{3.0f};
     const Responses wanted = on_host(box, shading);
     const Responses found = on_backend(mir::host::Backend(executor), box, image, {48, 32}, shading);

@@ -38,7 +38,7 @@ planted tools/mir/main.cpp '#include "mir/film/detail/tap_view.hpp"' 'which is f
 planted src/scenes/corner.cpp '#include "mir/io/png.hpp"' 'scenes.hpp may not include io'
 planted src/io/png.cpp '#include "mir/sched/cpu.hpp"' 'io may not include sched'
 planted src/io/png.cpp '#include "mir/scene/detail/far_box.hpp"' 'which is for its own folder'
-planted backends/cpu/src/register_cpu.cpp '#include "mir/cuda/register.hpp"' 'cpu may not include cuda'
+planted backends/cpu/src/trace_embree.cpp '#include "mir/cuda/register.hpp"' 'cpu may not include cuda'
 mkdir include/mir/furniture
 echo '#include "mir/core/error.hpp"' >include/mir/furniture/chair.hpp
 planted include/mir/furniture/chair.hpp '' 'furniture has no row'

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/metropolis/bootstrap.hpp"
 
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
@@ -122,7 +122,7 @@ TEST_CASE("a bootstrap has the same bits for any executor") {
     const PathLab<Lambert> lab(mir::builtin::make("furnace"));
     const Generator generator(lab.world(), table);
     const Bootstrap wanted = run(generator, {0.02, 3000, 1u << 20});
-    mir::cpu::TbbExecutor threads(3);
+    mir::TbbExecutor threads(3);
     const Bootstrap got = mir::bootstrap(generator, {0.02, 3000, 1u << 20}, 1, threads);
     CHECK(got.weights == wanted.weights);
     CHECK(std::bit_cast<std::uint64_t>(got.luminance.mean) ==

@@ -22,7 +22,7 @@ TEST_CASE("recorded suffixes are as long as the states they refresh", "[statisti
     o.max_bounce = last;
     o.bootstrap = {1.0, 400'000, 400'000};
     o.seed = 720;
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const auto records = mir::MetropolisSampler(lab.world(), o).sample(executor).records;
     REQUIRE(records.size() == 5u * o.states);
     std::vector<double> first(last + 1);

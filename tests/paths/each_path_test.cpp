@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/paths/each_path.hpp"
 
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "support/catch.hpp"
 
 #include <numeric>
@@ -18,7 +18,7 @@ struct FirstNumber {
 }  // namespace
 
 TEST_CASE("each path of a range is built once, from numbers that bear its index") {
-    mir::cpu::TbbExecutor threads(4);
+    mir::TbbExecutor threads(4);
     std::vector<int> calls(1500);
     std::vector<double> weights(1500);
     mir::each_path(FirstNumber{}, {9, mir::Stream::test, 300, 1500}, threads,

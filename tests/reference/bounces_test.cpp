@@ -80,7 +80,7 @@ class Luxels {
     const Studio<Lambert>& studio_;
     mir::CameraRays rays_;
     mir::BlockedGBuffer<Lambert::Params> gbuffer_;
-    mir::cpu::TbbExecutor executor_;
+    mir::TbbExecutor executor_;
 };
 
 template <class Rules = mir::BalanceRules>

@@ -2,7 +2,7 @@
 //
 // Quoted by docs/reference.md: a reference image from a scene.
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/reference/trace_reference.hpp"
 #include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
@@ -15,7 +15,7 @@ TEST_CASE("a reference image takes a scene, an engine and an executor") {
     const mir::LightTable lights(scene, geometry);
     const mir::SurfaceTable<mir::CookTorrance> surfaces(scene);
     const mir::cpu::EmbreeScene engine(geometry);
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
 
     mir::PathTracerOptions paths;
     paths.max_bounce = 3;  // L_3

@@ -35,7 +35,7 @@ TEST_CASE("the path tracer finds the mean of the published Cornell box", "[stati
     const mir::RgbSum expected =
         mean_of(mir::read_exr(*scenes / "cornell-box/reference.exr").image);
     const auto tracer = studio.tracer({});
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     mir::ReferenceOptions options;
     options.samples = options.replicates = 1;
     std::array<Moments, 3> moments;

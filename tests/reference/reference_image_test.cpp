@@ -81,8 +81,8 @@ TEST_CASE("layers are bounces, prefixes their sums, and the beauty has all of th
 
 TEST_CASE("a reference has the same bits on any number of threads") {
     mir::InlineExecutor one;
-    mir::cpu::TbbExecutor two(2);
-    mir::cpu::TbbExecutor three(3);
+    mir::TbbExecutor two(2);
+    mir::TbbExecutor three(3);
     const auto image = traced(one, 3);
     CHECK(same_bits(image, traced(two, 3)));
     CHECK(same_bits(image, traced(three, 3)));
@@ -90,7 +90,7 @@ TEST_CASE("a reference has the same bits on any number of threads") {
 }
 
 TEST_CASE("single replicates are those that the whole is made of") {
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const auto whole = traced(executor, 3);
     mir::ReferenceImage put_together(whole.extent(), whole.last_bounce(), 3);
     for (std::uint32_t r = 0; r < 3; ++r) {
@@ -106,7 +106,7 @@ TEST_CASE("single replicates are those that the whole is made of") {
 // H0: the squared distance of two disjoint references over the sum of their stated variances has
 // mean 1. Student's t over the luxels of an image, seed 21, level 1 %.
 TEST_CASE("the stated variance is the spread between independent references", "[statistical]") {
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const auto a = traced(executor, 64, 0);
     const auto b = traced(executor, 64, 64);
     Moments ratio;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/reference/trace_reference.hpp"
 #include "support/statistics.hpp"
 #include "support/traced_scene.hpp"
@@ -32,7 +32,7 @@ struct Studio : TracedScene<B> {
 template <class Tracer>
 std::vector<mir::ReferenceImage> replicates(const Tracer& tracer, const mir::CameraRays& rays,
                                             mir::ReferenceOptions options, std::uint32_t count) {
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     std::vector<mir::ReferenceImage> images;
     options.replicates = 1;
     for (std::uint32_t r = 0; r < count; ++r, ++options.first_replicate)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/resident/backend_metropolis.hpp"
 
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
@@ -33,7 +33,7 @@ template <mir::Bsdf B>
 void check_on_cpu(const mir::Scene& scene, const MetropolisOptions& options) {
     const ChainScene<B> stage(scene);
     const VplRecords wanted = stage.sampled_on_host(options);
-    mir::cpu::TbbExecutor threads(3);
+    mir::TbbExecutor threads(3);
     const VplRecords found = chains_on(mir::host::Backend(threads), stage.parts(), options);
     REQUIRE(!wanted.records.empty());
     CHECK(same_records(found, wanted));

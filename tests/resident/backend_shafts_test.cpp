@@ -2,8 +2,8 @@
 #include "mir/shaft/device/backend_shafts.hpp"
 
 #include "conformance/shaft_suite.hpp"
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "support/lazy_backend.hpp"
 #include "support/shaft_words.hpp"
 
@@ -182,7 +182,7 @@ TEST_CASE("Shafts of a backend that runs late, or on many threads, give the same
     const mirtest::World world = mirtest::sphere_in_box();
     const ShaftStage stage = stage_of(world, 5000, 30);
     const auto truth = words(stage);
-    mir::cpu::TbbExecutor many(4);
+    mir::TbbExecutor many(4);
     CHECK(mirtest::shaft_words(mir::host::Backend(many), input(stage), {}) == truth);
     mirtest::PutOff work(0);
     CHECK(mirtest::shaft_words(mirtest::LazyBackend(work), input(stage), {}) == truth);

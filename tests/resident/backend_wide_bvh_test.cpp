@@ -2,7 +2,7 @@
 #include "mir/resident/backend_wide_bvh.hpp"
 
 #include "conformance/wide_builder_suite.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "support/watched_backend.hpp"
 
 namespace {

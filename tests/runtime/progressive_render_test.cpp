@@ -53,7 +53,7 @@ TEST_CASE("passes have seeds of their own, the first that of the render") {
 }
 
 TEST_CASE("each pass begins with nothing done and nothing planned") {
-    // What a MicroRender leaves behind.
+    // What a render from discs leaves behind.
     const NoiseRenderer renderer;
     mir::Monitor monitor;
     mir::ProgressiveRender render(renderer, scene, settings(), {.passes = 2}, &monitor);

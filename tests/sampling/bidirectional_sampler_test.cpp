@@ -2,7 +2,7 @@
 #include "mir/sampling/bidirectional_sampler.hpp"
 
 #include "conformance/sampler_suite.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scene/shapes.hpp"
 #include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
@@ -42,7 +42,7 @@ template <class Rules, mir::Bsdf B>
 SamplerLight resampled(const PathLab<B>& lab, const ProbeOf<B>& probe, std::uint64_t seed,
                        mir::TargetFloor floor = {}) {
     using World = typename PathLab<B>::World;
-    mir::cpu::TbbExecutor threads(2);
+    mir::TbbExecutor threads(2);
     return light_of_seeds(lab, seed, [&](std::uint64_t s) {
         BidirectionalOptions o = small_options(s);
         o.floor = floor;
@@ -163,7 +163,7 @@ TEMPLATE_TEST_CASE("BidirectionalSampler is a Sampler whose records are the same
         return BidirectionalSampler<typename PathLab<TestType>::World>(lab.world(), probe,
                                                                        small_options(seed));
     };
-    mir::cpu::TbbExecutor threads(4);
+    mir::TbbExecutor threads(4);
     mirtest::sampler_suite(make, threads);
 }
 

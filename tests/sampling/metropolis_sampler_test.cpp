@@ -2,7 +2,7 @@
 #include "mir/sampling/metropolis_sampler.hpp"
 
 #include "conformance/sampler_suite.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
@@ -73,8 +73,8 @@ TEST_CASE("MetropolisSampler keeps the axioms of Sampler") {
     const auto techniques = GENERATE(PathTechniques::camera, PathTechniques::bidirectional);
     const PathLab<Lambert> lab(Wedge(WedgeLights::two_sided).scene());
     using World = PathLab<Lambert>::World;
-    mir::cpu::TbbExecutor two(2);
-    mir::cpu::TbbExecutor five(5);
+    mir::TbbExecutor two(2);
+    mir::TbbExecutor five(5);
     mirtest::sampler_suite(
         [&](std::uint64_t seed) {
             MetropolisOptions o = small(mutation, seed);

@@ -2,7 +2,7 @@
 #include "mir/sampling/proposal_sampler.hpp"
 
 #include "conformance/sampler_suite.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scenes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
@@ -40,7 +40,7 @@ MetropolisOptions small_options(std::uint64_t seed) {
 template <mir::Bsdf B, class Change>
 SamplerLight light_of(const PathLab<B>& lab, const ProbeOf<B>& probe, std::uint64_t seed,
                       TargetFloor floor, const Change& change) {
-    mir::cpu::TbbExecutor threads(2);
+    mir::TbbExecutor threads(2);
     return light_of_seeds(lab, seed, [&](std::uint64_t s) {
         VplRecords records =
             ProposalSampler(lab.world(), probe, small_options(s), floor).sample(threads);
@@ -135,7 +135,7 @@ TEMPLATE_TEST_CASE("ProposalSampler is a Sampler whose records are the same on a
     const auto make = [&](std::uint64_t seed) {
         return ProposalSampler(lab.world(), probe, small_options(seed));
     };
-    mir::cpu::TbbExecutor threads(4);
+    mir::TbbExecutor threads(4);
     mirtest::sampler_suite(make, threads);
 }
 

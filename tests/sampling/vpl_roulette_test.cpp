@@ -2,7 +2,7 @@
 #include "mir/sampling/vpl_roulette.hpp"
 
 #include "conformance/sampler_suite.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scenes.hpp"
 #include "sampling/roulette_stage.hpp"
 
@@ -68,7 +68,7 @@ TEST_CASE("odds follow the flux: floor, share of the mean, one. Intensities are 
 TEST_CASE("the sampler keeps the axioms of Sampler") {
     const Stage stage(mir::builtin::make("door-ajar"));
     const Probe probe = stage.probe(1);
-    mir::cpu::TbbExecutor two(2);
+    mir::TbbExecutor two(2);
     mirtest::sampler_suite(
         [&](std::uint64_t seed) {
             mir::InstantRadiosityOptions options;

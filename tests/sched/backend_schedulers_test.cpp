@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/brute_force.hpp"
 #include "conformance/scheduler_suite.hpp"
-#include "mir/cpu/tbb_executor.hpp"
 #include "mir/fill_visibility.hpp"
 #include "mir/host/backend.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/reshade.hpp"
 #include "mir/sched/reconstruct.hpp"
 #include "mir/sched/reconstruct_visibility_parallel.hpp"
@@ -32,7 +32,7 @@ TEMPLATE_TEST_CASE("OS, RC and RCVP on the host keep the axioms of Scheduler", "
                    mir::CookTorrance) {
     const Stage<TestType> stage({100, 70}, {48, 32}, 37);
     mir::InlineExecutor one;
-    mir::cpu::TbbExecutor many(3);
+    mir::TbbExecutor many(3);
     with_each(mir::host::Backend(one), one, nullptr,
               [&](const auto& scheduler) { mirtest::scheduler_suite(scheduler, stage); });
     with_each(mir::host::Backend(many), many, nullptr,

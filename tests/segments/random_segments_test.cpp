@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cpu/embree_scene.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "segments/compare_engines.hpp"
 #include "support/catch.hpp"
 #include "support/segment_scenes.hpp"
@@ -49,7 +49,7 @@ void check(const mirtest::SegmentScene& scene, std::uint64_t segments) {
         WARN("skipped: " << scene.file << " is not on this machine");
         return;
     }
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const mir::KdTreeScene tree(world->geometry, executor);
     const mir::cpu::EmbreeScene embree(world->geometry);
     const Comparison c = mirtest::compare_engines(world->geometry, tree.visibility(),

@@ -3,7 +3,7 @@
 
 #include "arguments.hpp"
 #include "exit_code.hpp"
-#include "mir/cpu/register.hpp"
+#include "mir/runtime/all_renderers.hpp"
 #include "mir/version.hpp"
 #include "nearest.hpp"
 #include "text.hpp"
@@ -57,7 +57,7 @@ Parsed parse(int argc, char** argv) {
 
     CLI::App app{"Metropolis Instant Radiosity: renders a scene with virtual point lights", "mir"};
     app.set_version_flag("--version", [] {
-        return std::string("mir ") + mir::version + " (" + mir::cpu::description() + ")";
+        return std::string("mir ") + mir::version + " (" + mir::cpu_description() + ")";
     });
     app.require_subcommand(1);
     const std::string scene = "file (.gltf, .glb, .obj, .ply) or builtin:NAME";

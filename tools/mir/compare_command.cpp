@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "compare_output.hpp"
 #include "exit_code.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/io/png.hpp"
 #include "mir/runtime/cancellable_executor.hpp"
 #include "progress.hpp"
@@ -60,7 +60,7 @@ Comparison compare(const CompareOptions& o, mir::Monitor& monitor) {
     c.metrics = mir::compare_images(c.image, c.reference, o.epsilon);
     c.exposure = o.exposure ? *o.exposure : mir::auto_exposure(c.reference);
     c.flip_exposures = mir::flip_exposures(c.reference);
-    mir::cpu::TbbExecutor threads;
+    mir::TbbExecutor threads;
     mir::CancellableExecutor executor(threads, &monitor);
     c.flip_map = mir::hdr_flip(c.image, c.reference, o.pixels_per_degree, executor);
     c.flip = mir::mean_of(c.flip_map);

@@ -3,7 +3,7 @@
 #include "exit_code.hpp"
 #include "load_scene.hpp"
 #include "mir/accel/kd/kd_build.hpp"
-#include "mir/cpu/tbb_executor.hpp"
+#include "mir/host/tbb_executor.hpp"
 #include "mir/scene/environment_table.hpp"
 #include "mir/scene/scene_hash.hpp"
 #include "text.hpp"
@@ -19,19 +19,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// "point_lights" of "point light".
+std::string plural_key(std::string kind) {
+    std::replace(kind.begin(), kind.end(), ' ', '_');
+    return kind + "s";
+}
+
 Json counts_of(const mir::SceneReport& r) {
-    return {{"triangles", r.triangles},
-            {"stored_triangles", r.stored_triangles},
-            {"vertices", r.vertices},
-            {"meshes", r.meshes},
-            {"instances", r.instances},
-            {"materials", r.materials},
-            {"emitting_materials", r.emitting_materials},
-            {"emitting_triangles", r.emitting_triangles},
-            {"point_lights", r.point_lights},
-            {"spot_lights", r.spot_lights},
-            {"directional_lights", r.directional_lights},
-            {"environments", r.environments}};
+    Json counts{{"triangles", r.triangles},
+                {"stored_triangles", r.stored_triangles},
+                {"vertices", r.vertices},
+                {"meshes", r.meshes},
+                {"instances", r.instances},
+                {"materials", r.materials},
+                {"emitting_materials", r.emitting_materials},
+                {"emitting_triangles", r.emitting_triangles}};
+    for (std::size_t i = 0; i < r.listed_lights.size(); ++i)
+        counts[plural_key(mir::ListedLights::names[i])] = r.listed_lights[i];
+    counts["environments"] = r.environments;
+    return counts;
 }
 
 Json cameras_of(const mir::SceneReport& r) {
@@ -67,7 +73,7 @@ Json environment_of(const mir::Environment& e) {
 /// What the kd-tree of the scene looks like; takes as long as building it.
 Json kd_tree_of(const mir::Scene& scene) {
     const mir::WorldGeometry geometry(scene);
-    mir::cpu::TbbExecutor executor;
+    mir::TbbExecutor executor;
     const mir::KdTree tree(geometry, {}, executor);
     const mir::KdTreeStatistics& s = tree.statistics();
     return {{"triangles", s.triangles},

@@ -14,7 +14,7 @@ struct Monitor {
     std::atomic<std::uint64_t> contributions{0};          ///< luxel-VPL pairs done
     std::atomic<std::uint64_t> planned_contributions{0};  ///< 0 until known
     std::atomic<std::uint64_t> looping_contributions{0};  ///< of the present loop, done as it is
-    std::atomic<std::uint64_t> gathers{0};                ///< of a MicroRender: luxels done
+    std::atomic<std::uint64_t> gathers{0};                ///< of render_discs(): luxels done
     std::atomic<std::uint64_t> planned_gathers{0};        ///< times bounces; 0 until known
     std::atomic<std::uint32_t> bands{0};                  ///< of the image: begun
     std::atomic<std::uint32_t> planned_bands{0};          ///< 0 until known

@@ -69,6 +69,12 @@ struct VplRecords {
     double bootstrap_seconds = 0.0;     ///< wall time that they took until chains started
 };
 
+/// What a sampler recorded, and what is left to do to it.
+struct SampledVpls {
+    VplRecords records;                                 ///< as they come from the sampler
+    Normalisation normalisation = Normalisation::none;  ///< none: intensities are final
+};
+
 /// Algorithm 2's aggregation: consecutive records of one point become one geometric VPL. Where
 /// light keeps the direction that it came from, every record becomes one.
 inline VplList aggregate(const VplRecords& from) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "mir/core/printable.hpp"
-#include "mir/scene/scene.hpp"
+#include "mir/scene/light_kinds.hpp"
 #include "mir/scene/world_geometry.hpp"
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,12 +35,10 @@ struct SceneReport {
     std::uint64_t instances = 0;           ///< placed meshes
     std::uint64_t materials = 0;           ///< used by a mesh or not
     std::uint64_t emitting_materials = 0;  ///< those of them whose emission is not black
-    std::uint64_t point_lights = 0;        ///< of Scene::point_lights
-    std::uint64_t spot_lights = 0;         ///< of Scene::spot_lights
-    std::uint64_t directional_lights = 0;  ///< of Scene::directional_lights
-    std::uint64_t environments = 0;        ///< 0 or 1
-    std::vector<CameraReport> cameras;     ///< usable or not, as the reader met them
-    Bounds bounds;                         ///< of all instances, metres, from Scene::origin on
+    std::array<std::uint64_t, ListedLights::size> listed_lights{};  ///< by kind of light
+    std::uint64_t environments = 0;                                 ///< 0 or 1
+    std::vector<CameraReport> cameras;  ///< usable or not, as the reader met them
+    Bounds bounds;                      ///< of all instances, metres, from Scene::origin on
 
     /// Features that change the picture and are not supported, with the number of their uses.
     /// Nothing is dropped without an entry here.
@@ -50,9 +50,8 @@ struct SceneReport {
 
     /// True when nothing in the scene shines.
     [[nodiscard]] bool is_dark() const {
-        return emitting_triangles + point_lights + spot_lights + directional_lights +
-                   environments ==
-               0;
+        return std::accumulate(listed_lights.begin(), listed_lights.end(),
+                               emitting_triangles + environments) == 0;
     }
 };
 
@@ -99,9 +98,9 @@ inline void count_scene(const Scene& scene, SceneReport& report) {
     report.meshes = scene.meshes.size();
     report.instances = scene.instances.size();
     report.materials = scene.materials.size();
-    report.point_lights = scene.point_lights.size();
-    report.spot_lights = scene.spot_lights.size();
-    report.directional_lights = scene.directional_lights.size();
+    ListedLights::for_each_list(scene, [&report]<class Light>(const std::vector<Light>& list) {
+        report.listed_lights[ListedLights::index_of<Light>()] = list.size();
+    });
     report.environments = scene.environment ? 1 : 0;
     for (const Mesh& mesh : scene.meshes) report.stored_triangles += mesh.triangles.size();
     for (const Material& material : scene.materials)

@@ -13,6 +13,14 @@ namespace mir {
 /// be there.
 void add_all_to(Registry& registry);
 
+/// Adds those of the processor: "cpu-blocks", the tuned path (default), "cpu", the plain loop that
+/// is the oracle, and "os", "rc" and "rcvp", the paper's. They trace with what
+/// RenderSettings::acceleration says.
+void add_cpu_to(Registry& registry);
+
+/// "Embree 3.13.5" or the like, and the vector instructions that loops will use.
+std::string cpu_description();
+
 /// A machine that this build could render on.
 struct DeviceReport {
     std::string name;           ///< "cpu", "cuda:0", "cuda:1"

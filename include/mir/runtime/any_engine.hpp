@@ -14,12 +14,12 @@ namespace mir {
 namespace detail {
 
 /// What a ray engine is asked, one virtual call a question.
-class EngineCalls {
+class RayQuestions {
  public:
-    EngineCalls() = default;
-    EngineCalls(const EngineCalls&) = delete;
-    EngineCalls& operator=(const EngineCalls&) = delete;
-    virtual ~EngineCalls() = default;
+    RayQuestions() = default;
+    RayQuestions(const RayQuestions&) = delete;
+    RayQuestions& operator=(const RayQuestions&) = delete;
+    virtual ~RayQuestions() = default;
 
     [[nodiscard]] virtual std::optional<SurfacePoint> closest_hit(Ray ray) const = 0;
     [[nodiscard]] virtual std::optional<SurfacePoint> closest_hit(Ray ray, float reach) const = 0;
@@ -30,10 +30,9 @@ class EngineCalls {
 
 /// The calls, answered by a ray caster and a visibility.
 template <RayCaster R, Visibility V>
-class EngineAnswers final : public EngineCalls {
+class RayAnswers final : public RayQuestions {
  public:
-    EngineAnswers(const R& caster, const V& visibility)
-        : caster_(caster), visibility_(visibility) {}
+    RayAnswers(const R& caster, const V& visibility) : caster_(caster), visibility_(visibility) {}
 
     [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const override {
         return caster_.closest_hit(ray);
@@ -69,7 +68,7 @@ class EngineAnswers final : public EngineCalls {
 /// Asks an AnyEngine what a ray sees first. Model of ShortRayCaster; thread-safe. The AnyEngine
 /// must outlive it.
 struct AnyRayCaster {
-    const detail::EngineCalls* calls;  ///< of the AnyEngine, never null
+    const detail::RayQuestions* calls;  ///< of the AnyEngine, never null
 
     /// The answer of the engine's own ray caster.
     [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const {
@@ -86,7 +85,7 @@ struct AnyRayCaster {
 struct AnyVisibility {
     static constexpr Space space = Space::host;  ///< called on the host
 
-    const detail::EngineCalls* calls;  ///< of the AnyEngine, never null
+    const detail::RayQuestions* calls;  ///< of the AnyEngine, never null
 
     /// The answer of the engine's own visibility.
     [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return calls->visible(a, b); }
@@ -112,11 +111,6 @@ class AnyEngine {
     explicit AnyEngine(const Engine& engine)
         : AnyEngine(engine.ray_caster(), engine.visibility()) {}
 
-    /// `engine` has an AnyEngine of its own, any().
-    template <class Engine>
-        requires requires(const Engine& e) { e.any(); }
-    explicit AnyEngine(const Engine& engine) : AnyEngine(engine.any()) {}
-
     /// Valid as long as this or a copy of it.
     [[nodiscard]] AnyRayCaster ray_caster() const { return {calls_.get()}; }
     /// Valid as long as this or a copy of it.
@@ -125,9 +119,9 @@ class AnyEngine {
  private:
     template <RayCaster R, Visibility V>
     AnyEngine(const R& caster, const V& visibility)
-        : calls_(std::make_shared<detail::EngineAnswers<R, V>>(caster, visibility)) {}
+        : calls_(std::make_shared<detail::RayAnswers<R, V>>(caster, visibility)) {}
 
-    std::shared_ptr<const detail::EngineCalls> calls_;
+    std::shared_ptr<const detail::RayQuestions> calls_;
 };
 
 }  // namespace mir

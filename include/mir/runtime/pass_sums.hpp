@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/runtime/add_up_layers.hpp"
 #include "mir/runtime/check_scene.hpp"
-#include "mir/runtime/film_layers.hpp"
 #include "mir/runtime/layer_sum.hpp"
 #include "mir/runtime/luminance_spread.hpp"
 #include "mir/runtime/pass_statistics.hpp"

@@ -43,9 +43,9 @@ struct RenderStatistics {
     double vsl_radius = 0.0;            ///< mean radius of spherical lights, m; 0: points
     std::uint64_t residual_paths = 0;   ///< that traced back what the bound removed
     double residual_luminance = 0.0;    ///< mean over luxels of what they found
-    std::optional<ShareEstimate> removed;  ///< MissingShares::removed, where it was measured
-    std::optional<ShareEstimate> cut;      ///< MissingShares::cut, likewise
-    std::optional<double> direct_noise;    ///< DirectNoise::measure(), where it was measured
+    std::optional<ShareEstimate> removed;  ///< by the bound, by paths, where measured
+    std::optional<ShareEstimate> cut;      ///< by the largest bounce, likewise
+    std::optional<double> direct_noise;    ///< of a pixel, relative, where measured
     /// Light of discs against that of paths, before any correction, where it was measured.
     std::optional<LightDifference> gather_difference;
     bool gather_corrected = false;  ///< by what of it is no noise (LightCorrection)

@@ -163,8 +163,8 @@ struct RenderSettings {
     std::optional<Extent> tile{};
     bool bounce_layers = false;  ///< one image per bounce besides the sum
     bool removed_layer = false;  ///< an image of the light that the bound removed
-    /// Paths measure what the bound removes and the largest bounce cuts (MissingShares), and two
-    /// estimates how noisy direct light is (DirectNoise), for 2048 places however small the
+    /// Paths measure what the bound removes and the largest bounce cuts, and two
+    /// estimates how noisy direct light is, for 2048 places however small the
     /// image; else the VPLs tell what the bound removes.
     bool measure_missing = true;
     bool allow_no_light = false;  ///< a scene without light gives black, not an error

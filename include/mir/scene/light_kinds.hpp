@@ -4,11 +4,17 @@
 #include "mir/scene/lights/any_source.hpp"
 #include "mir/scene/scene.hpp"
 
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
 namespace mir {
 
-/// A kind of light that a Scene lists: what samples it, and where the scene holds it.
-template <LightSource S, auto List>
+/// A kind of light that a Scene lists: what it is there, what samples it, and where it is held.
+template <class L, LightSource S, std::vector<L> Scene::*List>
 struct LightKind {
+    using Light = L;                    ///< as a Scene has it
     using Source = S;                   ///< as it is sampled
     static constexpr auto list = List;  ///< member of Scene
 };
@@ -18,6 +24,8 @@ template <class... Kinds>
 struct LightKindList {
     using Source = AnySource<typename Kinds::Source...>;   ///< a light of any kind
     static constexpr std::size_t size = sizeof...(Kinds);  ///< number of kinds
+    /// What messages call a light of each kind.
+    static constexpr std::array<const char*, size> names{Kinds::Light::kind...};
 
     /// Calls f(list) with each list of `scene`, in the order of the kinds.
     template <class S, class F>
@@ -28,22 +36,18 @@ struct LightKindList {
     template <class Light>
     static constexpr std::size_t index_of() {
         std::size_t index = 0;
-        static_cast<void>((... || (is_kind_of<Light, Kinds>() || (++index, false))));
+        static_cast<void>(
+            (... || (std::is_same_v<Light, typename Kinds::Light> || (++index, false))));
         return index;
-    }
-
- private:
-    template <class Light, class Kind>
-    static constexpr bool is_kind_of() {
-        return std::is_same_v<decltype(Kind::list), std::vector<Light> Scene::*const>;
     }
 };
 
 /// Lights that a Scene lists, because no mesh makes them. Another kind is one more line; a
 /// LightTable counts them in this order.
-using ListedLights = LightKindList<LightKind<PointSource, &Scene::point_lights>,
-                                   LightKind<SpotSource, &Scene::spot_lights>,
-                                   LightKind<DirectionalSource, &Scene::directional_lights>>;
+using ListedLights =
+    LightKindList<LightKind<PointLight, PointSource, &Scene::point_lights>,
+                  LightKind<SpotLight, SpotSource, &Scene::spot_lights>,
+                  LightKind<DirectionalLight, DirectionalSource, &Scene::directional_lights>>;
 
 /// One of them, as kernels read it.
 using ListedSource = ListedLights::Source;

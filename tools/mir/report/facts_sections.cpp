@@ -80,6 +80,15 @@ std::string machine_text(const mir::RenderStatistics& s) {
     return s.backend + (s.device.empty() ? "" : " (" + s.device + ")");
 }
 
+/// "2 point lights, 0 spot lights, ..."
+std::string listed_lights(const mir::SceneReport& r) {
+    std::string text;
+    for (std::size_t i = 0; i < r.listed_lights.size(); ++i)
+        text += (i == 0 ? "" : ", ") + std::to_string(r.listed_lights[i]) + " " +
+                mir::ListedLights::names[i] + "s";
+    return text;
+}
+
 }  // namespace
 
 std::string settings_section(const ReportInput& in) {
@@ -122,11 +131,9 @@ std::string scene_section(const ReportInput& in) {
         {"meshes", std::to_string(r.meshes) + ", placed " + std::to_string(r.instances) + " times"},
         {"materials", std::to_string(r.materials) + ", " + std::to_string(r.emitting_materials) +
                           " of them emit"},
-        {"lights", std::to_string(r.point_lights) + " points, " + std::to_string(r.spot_lights) +
-                       " spots, " + std::to_string(r.directional_lights) + " directional" +
-                       (in.options.environment.file.empty()
-                            ? ""
-                            : ", around them " + in.options.environment.file)},
+        {"lights", listed_lights(r) + (in.options.environment.file.empty()
+                                           ? ""
+                                           : ", around them " + in.options.environment.file)},
         {"emitted power", number(s.emitted_power) + " W (luminance)"}};
     const mir::DVec3 origin = in.loaded.scene.origin;
     if (origin != mir::DVec3(0.0)) rows.push_back({"origin of positions", place(origin) + " m"});

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd/kd_rays.hpp"
+#include "mir/accel/kd/kd_tree.hpp"
+#include "mir/resident/backend_film.hpp"
+#include "mir/resident/backend_guides.hpp"
+#include "mir/resident/backend_response.hpp"
+#include "mir/resident/backend_wide_bvh.hpp"
+#include "mir/resident/quantised_bvh.hpp"
+#include "mir/resident/uploaded_scene.hpp"
+#include "mir/resident/uploaded_trees.hpp"
+#include "runtime/render_frame.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace mir {
+
+/// How contributions are arranged in time.
+enum class BackendScheduler { os, rc, rcvp };
+
+/// What a BackendFrame is to build and how it is to work. Pictures are the same for all of them,
+/// bit for bit. Shafts are decided by whole triangles: where some are masked, every ray is a single
+/// one through a wide hierarchy, whatever the options say.
+struct BackendFrameOptions {
+    /// How VPLs light luxels whose visibility is not stored.
+    BackendScheduler scheduler = BackendScheduler::rcvp;
+    bool kd_tree = false;  ///< single rays by a kd-tree that the host builds; else by a wide
+                           ///< hierarchy that the backend builds
+    bool shafts = true;    ///< whole tiles by shafts through a wide hierarchy
+    std::uint64_t chain_bytes = std::uint64_t{1} << 29;  ///< see ChainPortions
+
+    /// True when a wide hierarchy is to be built.
+    [[nodiscard]] bool needs_bvh() const { return shafts || !kd_tree; }
+    /// The same for a scene with masks.
+    [[nodiscard]] BackendFrameOptions masked() const {
+        return {scheduler, false, false, chain_bytes};
+    }
+};
+
+/// Features of every BackendFrame. One that learns another overrides what RenderFrame refuses.
+inline constexpr FrameFeatures backend_features{};
+
+/// A frame that stays in a backend's memory, from uploaded triangles to developed pixels, each of
+/// which comes home when no later band reaches it. What asks for rays on the host gets them from a
+/// kd-tree with the same answers in every bit, built when it is asked for first. Members are
+/// defined in runtime/backend_frame/, by what the backend's compiler takes long for.
+template <Backend M, Bsdf B>
+class BackendFrame final : public RenderFrame {
+ public:
+    /// Makes the kd-tree of a job's geometry.
+    using MakeTree = std::function<KdTree()>;
+
+    /// Copies the scene to the backend and builds there. The surfaces of the job must be of this
+    /// model. `make_tree` is called at most once.
+    BackendFrame(RenderJob& job, const M& machine, MakeTree make_tree,
+                 const BackendFrameOptions& options);
+
+    [[nodiscard]] const AnyEngine& rays() override;
+    [[nodiscard]] double visible_area() override;
+    [[nodiscard]] VplRecords sample_chains(const MetropolisOptions& options, float bound) override;
+
+    /// No work is under way when it returns, as with all members that take bands or layers.
+    /// @throws Error(limit_exceeded) for 2^32 luxels and more.
+    [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override;
+    [[nodiscard]] BandPtr trace(const ProbeRays& probes) override;
+    void find_visible(FrameBand& band, VplSpan<Space::host> vpls) override;
+    [[nodiscard]] ResponsePtr response(Extent luxels, std::uint32_t vpls, float bound) override;
+
+    [[nodiscard]] LayerPtr black(const FrameBand& band) override;
+    [[nodiscard]] LayerPtr direct(const FrameBand& band, DirectSamples samples) override;
+    [[nodiscard]] LayerPtr emission(const FrameBand& band) override;
+    [[nodiscard]] LayerPtr coverage(const FrameBand& band) override;
+    [[nodiscard]] LayerPtr light(const FrameBand& band, VplSpan<Space::host> vpls, VplKernel kernel,
+                                 Monitor* monitor) override;
+    void add(FrameLayer& sum, const FrameLayer& layer) override;
+    [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
+
+    void put(const FrameBand& band, std::vector<LayerPtr> layers) override;
+    [[nodiscard]] std::vector<Image<Rgb>> develop() override;
+
+ private:
+    using Params = typename B::Params;
+    using Vpls = VplSpan<Space::host>;
+    static constexpr Space space = M::space;
+
+    /// Luxels and, once found, which VPLs they see.
+    struct Band final : FrameBand {
+        explicit Band(BackendGBuffer<M, Params> luxels) : gbuffer(std::move(luxels)) {}
+        [[nodiscard]] Extent extent() const override { return gbuffer.extent(); }
+        [[nodiscard]] bool knows_visibility() const override { return visibility.has_value(); }
+
+        BackendGBuffer<M, Params> gbuffer;
+        std::optional<BackendVisibility<M>> visibility;
+    };
+    struct Layer final : FrameLayer {
+        explicit Layer(BackendLayer<M> light) : words(std::move(light)) {}
+
+        BackendLayer<M> words;
+    };
+    /// Pixels on their way home.
+    struct Picture {
+        BackendFilm<M> film;      ///< pixels of every layer
+        BackendGuides<M> guides;  ///< those of the last band that are not at home yet
+    };
+    class Response;
+
+    [[nodiscard]] static const Band& of(const FrameBand& band) {
+        return static_cast<const Band&>(band);
+    }
+    [[nodiscard]] static BackendLayer<M>& of(FrameLayer& layer) {
+        return static_cast<Layer&>(layer).words;
+    }
+    [[nodiscard]] static const BackendLayer<M>& of(const FrameLayer& layer) {
+        return static_cast<const Layer&>(layer).words;
+    }
+
+    /// Calls use(rays) with what single rays are traced by: KdRays or one of WideRays.
+    template <class Use>
+    auto with_rays(const Use& use) const;
+    /// Calls use(visibility) with the best that there is for whole tiles.
+    template <class Use>
+    auto with_tile_visibility(const Use& use) const;
+
+    void build_bvh();
+    [[nodiscard]] const KdTree& host_tree();
+    [[nodiscard]] AlphaMaskView<space> masks_there() const {
+        return {geometry_there_.view(), masks_.data(), surfaces_.view().textures};
+    }
+    [[nodiscard]] BackendLayer<M> layer_for(const Band& band) const {
+        return {machine_, band.gbuffer.grid()};
+    }
+    [[nodiscard]] LayerPtr light_known(const Band& band, Vpls vpls, VplKernel kernel,
+                                       Monitor* monitor);
+    [[nodiscard]] Image<Rgb> light_traced(const Band& band, Vpls vpls, VplKernel kernel,
+                                          Monitor* monitor);
+    [[nodiscard]] LayerPtr upload(const Band& band, const Image<Rgb>& image);
+
+    RenderJob& job_;
+    M machine_;
+    MakeTree make_tree_;
+    BackendFrameOptions options_;
+    float sigma_;  ///< as shafts want it
+    typename M::Queue queue_;
+    UploadedGeometry<M> geometry_there_;
+    UploadedSurfaces<M, B> surfaces_;
+    UploadedArray<M, AlphaMask> masks_;
+    std::optional<KdTree> host_tree_;
+    std::optional<AnyEngine> rays_;
+    std::optional<UploadedKdTree<M>> tree_;
+    std::optional<BackendWideBvh<M>> bvh_;
+    std::optional<QuantisedBvh<M>> short_bvh_;
+    std::optional<Picture> picture_;
+};
+
+}  // namespace mir

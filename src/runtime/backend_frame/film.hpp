@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Members of BackendFrame that make pixels of luxels.
+
+#include "mir/resident/wait_at_end.hpp"
+#include "runtime/backend_frame.hpp"
+
+namespace mir {
+
+template <Backend M, Bsdf B>
+void BackendFrame<M, B>::add(FrameLayer& sum, const FrameLayer& layer) {
+    const auto luxels = static_cast<std::uint32_t>(of(sum).grid().size());
+    queue_.for_each(luxels,
+                    AddLayer{{of(sum).words().data(), luxels}, {of(layer).view().words, luxels}});
+    queue_.record().sync();
+}
+
+template <Backend M, Bsdf B>
+std::vector<double> BackendFrame<M, B>::row_luminances(const FrameLayer& layer) {
+    const std::uint32_t rows = of(layer).grid().image.height;
+    auto sums = machine_.template buffer<double>(rows);
+    std::vector<double> here(rows);
+    const WaitAtEnd wait(queue_);
+    queue_.for_each(rows, RowLuminance{of(layer).view(), sums.data()});
+    queue_.download(sums, std::span(here));
+    queue_.record().sync();
+    return here;
+}
+
+template <Backend M, Bsdf B>
+void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers) {
+    std::vector<BackendLayer<M>> images;
+    for (const LayerPtr& layer : layers) images.push_back(std::move(of(*layer)));
+    {
+        const auto stage = job_.clock.measure(&StageSeconds::film);
+        if (!picture_)
+            picture_.emplace(
+                Picture{{machine_, queue_, job_.rays.grid, job_.settings.filter, job_.rays.seed,
+                         static_cast<std::uint32_t>(images.size()), band.extent().height},
+                        {machine_, job_.rays.grid, job_.rays.camera}});
+        picture_->film.add_rows(queue_, band.first_row, images);
+    }
+    {
+        const auto stage = job_.clock.measure(&StageSeconds::guides);
+        picture_->guides.template add<B>(queue_, of(band).gbuffer);
+    }
+    const auto stage = job_.clock.measure(&StageSeconds::download);
+    picture_->film.bring_home(queue_, job_.threads);
+    picture_->guides.bring_home(queue_, job_.threads, job_.result.guides);
+}
+
+template <Backend M, Bsdf B>
+std::vector<Image<Rgb>> BackendFrame<M, B>::develop() {
+    return picture_->film.take_images();
+}
+
+}  // namespace mir

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Members of BackendFrame that find what camera rays see, and what needs no more than that.
+
+#include "mir/kernels/background_pass.hpp"
+#include "mir/resident/trace_primary_hits.hpp"
+#include "mir/resident/uploaded_scene.hpp"
+#include "mir/sampling/visible_area.hpp"
+#include "runtime/backend_frame/structures.hpp"
+
+#include <numeric>
+
+namespace mir {
+
+template <Backend M, Bsdf B>
+double BackendFrame<M, B>::visible_area() {
+    auto areas = machine_.template buffer<double>(AreaRays::count);
+    std::vector<double> here(AreaRays::count);
+    const WaitAtEnd wait(queue_);
+    with_rays([&](const auto& rays) {
+        queue_.for_each(AreaRays::count,
+                        AreaPass{AreaRays(job_.rays.camera, job_.aspect()),
+                                 LuxelTracer{rays.caster(geometry_there_.view()), surfaces_.view()},
+                                 areas.data()});
+    });
+    queue_.download(areas, std::span(here));
+    queue_.record().sync();
+    return std::accumulate(here.begin(), here.end(), 0.0);
+}
+
+template <Backend M, Bsdf B>
+BandPtr BackendFrame<M, B>::trace(Extent extent, Extent tile, std::uint32_t first_row) {
+    auto band = std::make_unique<Band>(BackendGBuffer<M, Params>(machine_, extent, tile));
+    band->first_row = first_row;
+    with_rays([&](const auto& structure) {
+        trace_primary_hits(queue_, band->gbuffer, first_row, job_.rays.luxel_rays(),
+                           LuxelTracer{structure.caster(geometry_there_.view()), surfaces_.view()},
+                           {});
+    });
+    queue_.record().sync();
+    return band;
+}
+
+template <Backend M, Bsdf B>
+BandPtr BackendFrame<M, B>::trace(const ProbeRays& probes) {
+    const Extent tile = whole_blocks(probes.cells());
+    BlockedGBuffer<Params> here(probes.cells(), tile);
+    fill_gbuffer<B>(here, 0, probes, rays().ray_caster(), std::get<SurfaceTable<B>>(job_.surfaces),
+                    job_.executor);
+    auto band = std::make_unique<Band>(BackendGBuffer<M, Params>(machine_, here.extent(), tile));
+    band->gbuffer.upload(queue_, here);
+    queue_.record().sync();
+    return band;
+}
+
+template <Backend M, Bsdf B>
+LayerPtr BackendFrame<M, B>::black(const FrameBand& band) {
+    BackendLayer<M> layer = layer_for(of(band));
+    queue_.clear(layer.words());
+    queue_.record().sync();
+    return std::make_unique<Layer>(std::move(layer));
+}
+
+template <Backend M, Bsdf B>
+LayerPtr BackendFrame<M, B>::emission(const FrameBand& band) {
+    const auto& gbuffer = of(band).gbuffer;
+    const EnvironmentTable& around = job_.lights.environment();
+    const UploadedEnvironment<M> there(machine_, queue_, around);
+    BackendLayer<M> layer = layer_for(of(band));
+    const WaitAtEnd wait(queue_);
+    for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
+        const auto view = gbuffer.view(t);
+        queue_.for_each(view.size(), EmissionPass{view, layer.tile(t)});
+        if (!around.empty())
+            queue_.for_each(view.size(),
+                            BackgroundPass{view, gbuffer.tiles()[t], band.first_row,
+                                           job_.rays.luxel_rays(), there.view(), layer.tile(t)});
+    }
+    queue_.record().sync();
+    return std::make_unique<Layer>(std::move(layer));
+}
+
+template <Backend M, Bsdf B>
+LayerPtr BackendFrame<M, B>::coverage(const FrameBand& band) {
+    const auto& gbuffer = of(band).gbuffer;
+    BackendLayer<M> layer = layer_for(of(band));
+    const WaitAtEnd wait(queue_);
+    for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
+        const auto view = gbuffer.view(t);
+        queue_.for_each(view.size(), CoveragePass{view, layer.tile(t)});
+    }
+    queue_.record().sync();
+    return std::make_unique<Layer>(std::move(layer));
+}
+
+}  // namespace mir

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/backend_structures.hpp"
+
+namespace mir {
+namespace {
+
+/// Luxels times VPLs from which a kd-tree, which single rays walk faster, is worth the time that
+/// the host takes to build it (docs/decisions/031). Bits are the same.
+constexpr double kd_tree_pays = 13e9;
+
+constexpr BackendStructures both{"kdtree+shafts", true, true};
+constexpr BackendStructures hierarchy{"bvh", false, true};
+constexpr BackendStructures for_masks{"bvh", false, false};
+
+}  // namespace
+
+BackendStructures structures_of(bool is_masked, const RenderSettings& settings) {
+    if (is_masked) return for_masks;
+    switch (settings.acceleration) {
+        case Acceleration::kd_tree:
+            return tree_alone;
+        case Acceleration::bvh:
+            return hierarchy;
+        case Acceleration::automatic:
+        case Acceleration::embree:  // refused before
+            break;
+    }
+    return pairs(settings) < kd_tree_pays ? hierarchy : both;
+}
+
+}  // namespace mir

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/host_frame.hpp"
+
+#include "mir/direct_light.hpp"
+#include "mir/film/film.hpp"
+#include "mir/film/guides.hpp"
+#include "mir/glossy_light.hpp"
+#include "mir/normalise/response.hpp"
+#include "mir/reshade.hpp"
+#include "mir/sampling/visible_area.hpp"
+#include "mir/shading/glossy_shading.hpp"
+#include "mir/shading/vsl_shading.hpp"
+#include "mir/vsl_light.hpp"
+#include "runtime/film_layers.hpp"
+#include "runtime/host_band.hpp"
+#include "runtime/luxel_coverage.hpp"
+#include "runtime/residual_light.hpp"
+#include "runtime/sample_vpls.hpp"
+
+#include <optional>
+#include <type_traits>
+
+namespace mir {
+namespace {
+
+using Vpls = VplSpan<Space::host>;
+
+/// ResponseSum over bands of the host.
+template <Bsdf B>
+class HostResponse final : public FrameResponse {
+ public:
+    HostResponse(Extent luxels, std::uint32_t vpls, float bound, AnyExecutor executor)
+        : sum_(luxels, vpls), shading_{bound}, executor_(executor) {}
+
+    void add(const FrameBand& band, Vpls vpls) override {
+        const auto& here = HostBand<B>::of(band);
+        sum_.add_band(here.gbuffer, vpls, here.visibility->view(), shading_, executor_);
+    }
+    [[nodiscard]] std::vector<ImageResponse> mean() override { return sum_.mean(); }
+
+ private:
+    ResponseSum sum_;
+    VplShading<B> shading_;
+    AnyExecutor executor_;
+};
+
+/// The stages of a render on the host, by the model of its surfaces.
+template <Bsdf B>
+class HostFrame final : public RenderFrame {
+ public:
+    HostFrame(RenderJob& job, const TracedScene& traced, HostScheduler scheduler)
+        : RenderFrame(job, {sizeof(Hit) + sizeof(Surface<typename B::Params>), true}),
+          job_(job),
+          surfaces_(std::get<SurfaceTable<B>>(job.surfaces)),
+          traced_(traced),
+          scheduler_(scheduler) {}
+
+    [[nodiscard]] const AnyEngine& rays() override { return traced_.rays(); }
+    [[nodiscard]] double visible_area() override {
+        return mir::visible_area(job_.rays.camera, job_.aspect(),
+                                 LuxelTracer{rays().ray_caster(), surfaces_.view()});
+    }
+    [[nodiscard]] VplRecords sample_chains(const MetropolisOptions& options, float bound) override {
+        return sample_chains_on_host(*this, options, bound);
+    }
+
+    [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override {
+        return traced(extent, tile, first_row, job_.rays);
+    }
+    [[nodiscard]] BandPtr trace(const ProbeRays& probes) override {
+        return traced(probes.cells(), whole_blocks(probes.cells()), 0, probes);
+    }
+    void find_visible(FrameBand& band, Vpls vpls) override {
+        auto& here = HostBand<B>::of(band);
+        here.visibility.emplace(here.gbuffer.tiles(), vpls.size(), job_.settings.limits);
+        traced_.fill_visibility(*here.visibility, LuxelsOf<B>{here.gbuffer}, vpls, job_.executor);
+    }
+    [[nodiscard]] ResponsePtr response(Extent luxels, std::uint32_t vpls, float bound) override {
+        return std::make_unique<HostResponse<B>>(luxels, vpls, bound, job_.executor);
+    }
+
+    [[nodiscard]] LayerPtr black(const FrameBand& band) override {
+        return host_layer(Image<Rgb>(band.extent()));
+    }
+    [[nodiscard]] LayerPtr direct(const FrameBand& band, DirectSamples samples) override {
+        return host_layer(direct_light<B>(
+            HostBand<B>::of(band).gbuffer, job_.lights, rays().visibility(),
+            {band.first_row, job_.rays.grid, job_.settings.seed}, samples, job_.executor));
+    }
+    [[nodiscard]] LayerPtr emission(const FrameBand& band) override;
+    [[nodiscard]] LayerPtr coverage(const FrameBand& band) override {
+        return host_layer(luxel_coverage(HostBand<B>::of(band).gbuffer, job_.executor));
+    }
+    [[nodiscard]] LayerPtr light(const FrameBand& band, Vpls vpls, VplKernel kernel,
+                                 Monitor* monitor) override;
+    void add(FrameLayer& sum, const FrameLayer& layer) override;
+    [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
+
+    void keep_radii(std::vector<float> radii) override { radii_ = std::move(radii); }
+    float keep_lobes(const VplRecords& records) override {
+        VplLobes<B> kept(records, surfaces_, job_.settings.glossy.least_alpha());
+        lobes_ = std::move(kept.lobes);
+        return kept.widened_share;
+    }
+    [[nodiscard]] LayerPtr add_residual(const FrameBand& band, float bound,
+                                        std::vector<LayerPtr>& layers) override {
+        std::vector<Image<Rgb>*> images;
+        for (const LayerPtr& layer : layers) images.push_back(&HostLayer::of(*layer));
+        return host_layer(add_residual_light(*this, LuxelsOf<B>{HostBand<B>::of(band).gbuffer},
+                                             band.first_row, bound, images));
+    }
+
+    void put(const FrameBand& band, std::vector<LayerPtr> layers) override;
+    [[nodiscard]] std::vector<Image<Rgb>> develop() override;
+
+ private:
+    template <class Rays>
+    [[nodiscard]] BandPtr traced(Extent extent, Extent tile, std::uint32_t first_row,
+                                 const Rays& camera) {
+        auto band = std::make_unique<HostBand<B>>(extent, tile);
+        band->first_row = first_row;
+        fill_gbuffer<B>(band->gbuffer, first_row, camera, rays().ray_caster(), surfaces_,
+                        job_.executor);
+        return band;
+    }
+    [[nodiscard]] Image<Rgb> light_of_points(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
+                                             Monitor* monitor);
+    [[nodiscard]] Image<Rgb> light_of_shapes(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
+                                             Monitor* monitor);
+
+    RenderJob& job_;
+    const SurfaceTable<B>& surfaces_;
+    const TracedScene& traced_;
+    HostScheduler scheduler_;
+    std::vector<float> radii_;
+    std::vector<VplLobe<B>> lobes_;
+    std::optional<Film> film_;
+};
+
+template <Bsdf B>
+LayerPtr HostFrame<B>::emission(const FrameBand& band) {
+    Image<Rgb> image(band.extent());
+    const EnvironmentView<Space::host> environment = job_.lights.environment().view();
+    for_each_luxel(
+        HostBand<B>::of(band).gbuffer, job_.executor,
+        [&](std::uint32_t x, std::uint32_t y, const auto& luxels, LuxelIndex i) {
+            const bool escaped = !environment.empty() && is_empty(luxels.hit(i));
+            image(x, y) = escaped ? environment.radiance(job_.rays(x, band.first_row + y).direction)
+                                  : luxels.surface(i).emission;
+        });
+    return host_layer(std::move(image));
+}
+
+template <Bsdf B>
+LayerPtr HostFrame<B>::light(const FrameBand& band, Vpls vpls, VplKernel kernel, Monitor* monitor) {
+    const auto& here = HostBand<B>::of(band);
+    const bool by_points =
+        kernel.kind == VplKernel::Kind::points || kernel.kind == VplKernel::Kind::removed;
+    return host_layer(by_points ? light_of_points(here, vpls, kernel, monitor)
+                                : light_of_shapes(here, vpls, kernel, monitor));
+}
+
+template <Bsdf B>
+Image<Rgb> HostFrame<B>::light_of_points(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
+                                         Monitor* monitor) {
+    if (band.visibility)
+        return with_host_scheduler(scheduler_, job_.executor, monitor, [&](const auto& scheduler) {
+            return with_shading<B>(kernel, [&](const auto& shading) {
+                return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
+            });
+        });
+    return with_host_scheduler(
+        scheduler_, job_.executor, monitor, [&]<class S>(const S& scheduler) {
+            if constexpr (std::is_same_v<S, sched::CpuBlocks<AnyExecutor>>)
+                return traced_.reconstruct(scheduler, LuxelsOf<B>{band.gbuffer}, vpls, kernel);
+            else
+                return with_shading<B>(kernel, [&](const auto& shading) {
+                    return reconstruct(scheduler, band.gbuffer, vpls, rays().visibility(), shading);
+                });
+        });
+}
+
+/// From the band's visibility.
+template <Bsdf B>
+Image<Rgb> HostFrame<B>::light_of_shapes(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
+                                         Monitor* monitor) {
+    const VslSettings& vsl = job_.settings.vsl;
+    Image<Rgb> light =
+        kernel.kind == VplKernel::Kind::spheres
+            ? vsl_light(band.gbuffer, *band.visibility, vpls, radii_,
+                        VslShading<B>{0.0f, vsl.samples, job_.settings.seed}, job_.executor)
+            : glossy_light<B>(band.gbuffer, *band.visibility, vpls, lobes_,
+                              {kernel.bound, kernel.kind == VplKernel::Kind::removed_of_lobes},
+                              job_.executor);
+    if (monitor != nullptr) monitor->contributions += band.extent().area() * vpls.size();
+    return light;
+}
+
+template <Bsdf B>
+void HostFrame<B>::add(FrameLayer& sum, const FrameLayer& layer) {
+    Image<Rgb>& all = HostLayer::of(sum);
+    const Image<Rgb>& more = HostLayer::of(layer);
+    job_.executor.for_each(all.height(), [&](std::size_t row) {
+        const auto y = static_cast<std::uint32_t>(row);
+        for (std::uint32_t x = 0; x < all.width(); ++x) all(x, y) += more(x, y);
+    });
+}
+
+template <Bsdf B>
+std::vector<double> HostFrame<B>::row_luminances(const FrameLayer& layer) {
+    const Image<Rgb>& image = HostLayer::of(layer);
+    std::vector<double> rows(image.height());
+    job_.executor.for_each(rows.size(), [&](std::size_t row) {
+        for (std::uint32_t x = 0; x < image.width(); ++x)
+            rows[row] += static_cast<double>(luminance(image(x, static_cast<std::uint32_t>(row))));
+    });
+    return rows;
+}
+
+template <Bsdf B>
+void HostFrame<B>::put(const FrameBand& band, std::vector<LayerPtr> layers) {
+    {
+        const auto stage = job_.clock.measure(&StageSeconds::film);
+        if (!film_)
+            film_.emplace(job_.rays.grid, job_.settings.filter, job_.settings.seed, layers.size());
+        std::vector<const Image<Rgb>*> images;
+        for (const LayerPtr& layer : layers) images.push_back(&HostLayer::of(*layer));
+        film_->add_rows(job_.executor, band.first_row, std::span<const Image<Rgb>* const>(images));
+    }
+    const auto stage = job_.clock.measure(&StageSeconds::guides);
+    add_guides<B>(job_.result.guides, HostBand<B>::of(band).gbuffer, band.first_row, job_.rays.grid,
+                  job_.rays.camera, job_.executor);
+}
+
+template <Bsdf B>
+std::vector<Image<Rgb>> HostFrame<B>::develop() {
+    std::vector<Image<Rgb>> layers;
+    for (std::size_t l = 0; l < film_->layers(); ++l)
+        layers.push_back(film_->develop(job_.executor, l));
+    film_.reset();
+    return layers;
+}
+
+}  // namespace
+
+std::unique_ptr<RenderFrame> host_frame(RenderJob& job, const TracedScene& traced,
+                                        HostScheduler scheduler) {
+    return job.with_surfaces([&]<Bsdf B>(const SurfaceTable<B>&) -> std::unique_ptr<RenderFrame> {
+        return std::make_unique<HostFrame<B>>(job, traced, scheduler);
+    });
+}
+
+}  // namespace mir

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/image_bands.hpp"
+
+#include "mir/core/limits.hpp"
+#include "mir/data/blocked_layout.hpp"
+#include "mir/data/visibility_matrix.hpp"
+
+#include <algorithm>
+
+namespace mir {
+namespace {
+
+/// Luxels scheduled together unless the settings say.
+constexpr Extent default_tile{256, 256};
+
+}  // namespace
+
+ImageBands::ImageBands(RenderFrame& frame, std::uint32_t vpls)
+    : frame_(frame),
+      tile_(whole_blocks(frame.job().settings.tile.value_or(default_tile))),
+      rows_(choose_rows(vpls)) {}
+
+std::uint32_t ImageBands::choose_rows(std::uint32_t vpls) const {
+    // Some 2 million luxels at a time; whole pixels, and whole tiles unless those are huge.
+    constexpr std::uint64_t luxels_per_band = 1u << 21;
+    const std::uint64_t pixel = frame_.job().rays.grid.per_pixel_y;
+    const std::uint64_t grain = pixel * std::min<std::uint64_t>(tile_.height, 256);
+    const std::uint64_t rows =
+        std::max<std::uint64_t>(luxels_per_band / luxels().width / grain, 1) * grain;
+    const std::uint64_t least = pixel * BlockedLayout::side;
+    const std::uint64_t least_bytes = saturating_mul(
+        VisibilityMatrix::bytes_for({{0, 0, luxels().width, BlockedLayout::side}}, vpls), pixel);
+    const std::uint64_t fitting = matrix_bytes(vpls) / std::max<std::uint64_t>(least_bytes, 1);
+    const std::uint64_t fitting_rows = saturating_mul(std::max<std::uint64_t>(fitting, 1), least);
+    return static_cast<std::uint32_t>(
+        std::min({rows, fitting_rows, std::uint64_t{luxels().height}}));
+}
+
+/// Of the matrix of one band. The host gains nothing by larger ones when bands are not kept.
+std::uint64_t ImageBands::matrix_bytes(std::uint32_t vpls) const {
+    const std::uint64_t limit = frame_.job().settings.limits.visibility_bytes;
+    if (!frame_.traits().on_host || fit_together(vpls)) return limit;
+    return std::min(limit, std::uint64_t{1} << 30);
+}
+
+BandPtr ImageBands::make(std::uint32_t i) const {
+    const auto stage = frame_.job().clock.measure(&StageSeconds::gbuffer);
+    const std::uint32_t first_row = i * rows_;
+    return frame_.trace({luxels().width, std::min(rows_, luxels().height - first_row)}, tile_,
+                        first_row);
+}
+
+void ImageBands::find_visible(FrameBand& band, VplSpan<Space::host> vpls) const {
+    const auto stage = frame_.job().clock.measure(&StageSeconds::visibility);
+    const std::uint64_t pairs = band.extent().area() * vpls.size();
+    Monitor* const monitor = frame_.job().monitor;
+    if (monitor != nullptr) {
+        monitor->begin_loop(0);  // what the loop before has done is none of these
+        monitor->looping_contributions = pairs;
+    }
+    frame_.find_visible(band, vpls);
+    if (monitor == nullptr) return;
+    monitor->looping_contributions = 0;
+    monitor->contributions += pairs;
+}
+
+bool ImageBands::fit_together(std::uint32_t vpls) const {
+    const std::uint64_t padded = whole_blocks(luxels()).area();
+    const std::uint64_t limit = frame_.job().settings.limits.visibility_bytes;
+    return saturating_mul(padded, 8 * frame_.traits().luxel_bytes + vpls) / 8 <= limit;
+}
+
+}  // namespace mir

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/data/image.hpp"
+#include "mir/data/image_response.hpp"
+#include "mir/data/vpl_record.hpp"
+#include "mir/metropolis/metropolis_options.hpp"
+#include "mir/runtime/any_engine.hpp"
+#include "mir/sampling/probe_rays.hpp"
+#include "mir/shading/direct_samples.hpp"
+#include "runtime/frame_features.hpp"
+#include "runtime/render_job.hpp"
+#include "runtime/vpl_kernel.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace mir {
+
+/// Rows of luxels, where their frame keeps them.
+class FrameBand {
+ public:
+    FrameBand() = default;
+    FrameBand(const FrameBand&) = delete;
+    FrameBand& operator=(const FrameBand&) = delete;
+    virtual ~FrameBand() = default;
+
+    /// Luxels of the band, without padding.
+    [[nodiscard]] virtual Extent extent() const = 0;
+    /// True after RenderFrame::find_visible().
+    [[nodiscard]] virtual bool knows_visibility() const = 0;
+
+    std::uint32_t first_row = 0;  ///< of luxels, in the whole image
+};
+
+/// Radiance towards the viewer of the luxels of a band, W m^-2 sr^-1.
+class FrameLayer {
+ public:
+    FrameLayer() = default;
+    FrameLayer(const FrameLayer&) = delete;
+    FrameLayer& operator=(const FrameLayer&) = delete;
+    virtual ~FrameLayer() = default;
+};
+
+/// A sum over luxels of what each VPL does to them: ResponseSum, where their frame keeps them.
+class FrameResponse {
+ public:
+    FrameResponse() = default;
+    FrameResponse(const FrameResponse&) = delete;
+    FrameResponse& operator=(const FrameResponse&) = delete;
+    virtual ~FrameResponse() = default;
+
+    /// Adds the rows below those added before, which know the visibility of these VPLs.
+    virtual void add(const FrameBand& band, VplSpan<Space::host> vpls) = 0;
+    /// Responses in the order of the VPLs, once all rows were added.
+    [[nodiscard]] virtual std::vector<ImageResponse> mean() = 0;
+};
+
+using BandPtr = std::unique_ptr<FrameBand>;          ///< never null
+using LayerPtr = std::unique_ptr<FrameLayer>;        ///< never null
+using ResponsePtr = std::unique_ptr<FrameResponse>;  ///< never null
+
+/// What a render needs to know of a kind of frame.
+struct FrameTraits {
+    std::size_t luxel_bytes;  ///< of a luxel with its surface
+    bool on_host;             ///< rays() and luxels cost the host nothing beyond their use
+};
+
+/// The machine that makes a picture, asked band by band: a virtual call costs nothing where it is
+/// for a million luxels. HostFrame works in the host's memory, BackendFrame in that of a Backend.
+/// Bands and layers go back to the frame that made them. Sums and their order are those of the
+/// free functions of the same names, so that frames give the same bits. One thread at a time; the
+/// job must outlive it.
+class RenderFrame {
+ public:
+    RenderFrame(RenderJob& job, FrameTraits traits) : job_(job), traits_(traits) {}
+    RenderFrame(const RenderFrame&) = delete;
+    RenderFrame& operator=(const RenderFrame&) = delete;
+    virtual ~RenderFrame() = default;
+
+    /// What is rendered, and the result as it grows.
+    [[nodiscard]] RenderJob& job() const { return job_; }
+    /// Of its kind.
+    [[nodiscard]] const FrameTraits& traits() const { return traits_; }
+
+    /// Rays of the host; valid as long as the frame. May build what they go through.
+    [[nodiscard]] virtual const AnyEngine& rays() = 0;
+    /// Area of the surfaces that the camera sees, m^2.
+    [[nodiscard]] virtual double visible_area() = 0;
+    /// The records of MetropolisSampler under `bound` (PathWorld::bound).
+    /// @throws Error(invalid_argument) for options out of range; Error(cancelled).
+    [[nodiscard]] virtual VplRecords sample_chains(const MetropolisOptions& options,
+                                                   float bound) = 0;
+
+    /// Traces the camera rays of a band of `extent` luxels in tiles of `tile`.
+    [[nodiscard]] virtual BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) = 0;
+    /// The luxels of some probes, as a band.
+    [[nodiscard]] virtual BandPtr trace(const ProbeRays& probes) = 0;
+    /// Keeps with a band which luxels and VPLs see each other.
+    /// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
+    virtual void find_visible(FrameBand& band, VplSpan<Space::host> vpls) = 0;
+    /// An empty sum over an image of `luxels`, for points under `bound`.
+    [[nodiscard]] virtual ResponsePtr response(Extent luxels, std::uint32_t vpls, float bound) = 0;
+
+    /// No light.
+    [[nodiscard]] virtual LayerPtr black(const FrameBand& band) = 0;
+    /// Next-event light from lamps and environment, and light without extent.
+    [[nodiscard]] virtual LayerPtr direct(const FrameBand& band, DirectSamples samples) = 0;
+    /// What the luxels themselves emit, and the environment where they see nothing else.
+    [[nodiscard]] virtual LayerPtr emission(const FrameBand& band) = 0;
+    /// White where luxels see a surface.
+    [[nodiscard]] virtual LayerPtr coverage(const FrameBand& band) = 0;
+    /// Light of VPLs: from the band's visibility where it is known, by tracing otherwise.
+    /// `monitor`, which may be null, counts pairs of luxel and VPL.
+    [[nodiscard]] virtual LayerPtr light(const FrameBand& band, VplSpan<Space::host> vpls,
+                                         VplKernel kernel, Monitor* monitor) = 0;
+    /// sum += layer.
+    virtual void add(FrameLayer& sum, const FrameLayer& layer) = 0;
+    /// Sum of the luminance of each row's luxels, from left to right, W m^-2 sr^-1.
+    [[nodiscard]] virtual std::vector<double> row_luminances(const FrameLayer& layer) = 0;
+
+    /// Keeps the radii of the spheres around the VPLs to come, metres, by their index.
+    /// @throws Error(unsupported) of frames without FrameFeature::spheres.
+    virtual void keep_radii(std::vector<float> /*radii*/) { throw without(FrameFeature::spheres); }
+    /// Keeps the lobes of the VPLs that aggregate() makes of records; returns
+    /// VplLobes::widened_share.
+    /// @throws Error(unsupported) of frames without FrameFeature::lobes.
+    virtual float keep_lobes(const VplRecords& /*records*/) { throw without(FrameFeature::lobes); }
+    /// Adds what `bound` removed, traced back, to the layers of a band (FilmLayer), and returns it.
+    /// @throws Error(unsupported) of frames without FrameFeature::residual.
+    [[nodiscard]] virtual LayerPtr add_residual(const FrameBand& /*band*/, float /*bound*/,
+                                                std::vector<LayerPtr>& /*layers*/) {
+        throw without(FrameFeature::residual);
+    }
+
+    /// Puts the layers of a band on the film, in the order of FilmLayer, and its guides into the
+    /// result. Bands come from top to bottom, none higher than the first.
+    virtual void put(const FrameBand& band, std::vector<LayerPtr> layers) = 0;
+    /// The images of the layers, once every band was put there; leaves the frame without.
+    [[nodiscard]] virtual std::vector<Image<Rgb>> develop() = 0;
+
+ private:
+    RenderJob& job_;
+    FrameTraits traits_;
+};
+
+}  // namespace mir

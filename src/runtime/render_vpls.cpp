@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/render_vpls.hpp"
+
+#include "mir/runtime/picture_bytes.hpp"
+#include "mir/sampling/visible_area.hpp"
+#include "mir/sampling/vsl_radii.hpp"
+#include "runtime/direct_noise.hpp"
+#include "runtime/film_layers.hpp"
+#include "runtime/missing_light.hpp"
+#include "runtime/normalisation_pass.hpp"
+#include "runtime/sample_vpls.hpp"
+#include "runtime/vpl_light.hpp"
+
+#include <limits>
+
+namespace mir {
+namespace {
+
+constexpr float no_bound = std::numeric_limits<float>::max();
+
+/// What brings direct light to one luxel: its samples, or as many VPLs at infinity as there are to
+/// be others.
+DirectSamples direct_samples_of_luxel(const RenderSettings& settings) {
+    return settings.direct == DirectLight::separate
+               ? DirectSamples(settings.direct_samples_per_luxel())
+               : DirectSamples::vpls(settings.vpls);
+}
+
+void keep_statistics(RenderJob& job, const SampledVpls& sampled) {
+    const VplRecords& records = sampled.records;
+    RenderStatistics& s = job.result.statistics;
+    s.light_paths = records.paths;
+    s.emitted_power = records.emitted_power;
+    s.non_lambertian_share = records.non_lambertian_share;
+    s.path_luminance = records.path_luminance;
+    s.states = records.states;
+    s.health = records.health;
+    const bool by_sampler = sampled.normalisation == Normalisation::none && !records.health;
+    s.normalisation =
+        to_string(by_sampler ? NormalisationPolicy::none : job.settings.normalisation);
+    s.vpls = job.result.vpls.size();
+    s.luxels = job.rays.grid.luxels().area();
+    s.contributions = saturating_mul(s.luxels, s.vpls);
+}
+
+bool must_normalise(const RenderSettings& settings, Normalisation normalisation) {
+    return normalisation == Normalisation::image_response &&
+           (settings.normalisation == NormalisationPolicy::full ||
+            settings.normalisation == NormalisationPolicy::prepass);
+}
+
+/// Every VPL meets every luxel once per layer, and once more each time that bits are found.
+void plan_progress(RenderJob& job, bool stored, bool kept) {
+    if (job.monitor == nullptr) return;
+    const std::uint64_t layers =
+        job.settings.bounce_layers ? std::max<std::uint64_t>(job.result.vpls.max_bounce(), 1) : 1;
+    const std::uint64_t passes = !stored ? 0 : kept ? 1 : 2;
+    job.monitor->planned_contributions =
+        saturating_mul(job.result.statistics.contributions, layers + passes);
+}
+
+std::vector<BandPtr> normalise_vpls(RenderFrame& frame, const ImageBands& bands, float bound,
+                                    const VplRecords& records) {
+    RenderJob& job = frame.job();
+    NormalisationPass pass(frame, bands, bound);
+    const NormalisationReport report =
+        pass.run(job.result.vpls, records.path_luminance, records.states);
+    job.result.statistics.dropped_share = report.dropped_share;
+    return pass.take_bands();
+}
+
+/// Spheres around VPLs, where the settings want them.
+void keep_radii(RenderFrame& frame) {
+    RenderJob& job = frame.job();
+    const VslSettings& vsl = job.settings.vsl;
+    if (!vsl.enabled) return;
+    const auto stage = job.clock.measure(&StageSeconds::bound);
+    std::vector<float> radii =
+        vsl_radii(job.result.vpls.vpls(), frame.visible_area(), vsl.scale, job.executor);
+    double& mean = job.result.statistics.vsl_radius;
+    for (const float r : radii) mean += static_cast<double>(r) / static_cast<double>(radii.size());
+    frame.keep_radii(std::move(radii));
+}
+
+/// Lobes of VPLs, where the settings want them.
+void keep_lobes(RenderFrame& frame, const VplRecords& records, bool normalised) {
+    RenderJob& job = frame.job();
+    if (!job.settings.glossy.enabled) return;
+    expects(!normalised,
+            "VPLs that keep lobes were normalised by the image (lobes would keep the power of "
+            "before); use a sampler whose intensities are final");
+    job.result.statistics.non_lambertian_share = 0.0f;
+    job.result.statistics.widened_share = frame.keep_lobes(records);
+}
+
+/// Only where rays of the host are at hand: others would have to build for them.
+void measure_what_is_missing(RenderFrame& frame, float bound) {
+    RenderJob& job = frame.job();
+    if (!job.settings.measure_missing || !frame.traits().on_host) return;
+    const auto stage = job.clock.measure(&StageSeconds::ledger);
+    job.result.statistics.direct_noise = direct_noise(frame, direct_samples_of_luxel(job.settings));
+    const bool bounded =
+        job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
+    const MissingShares missing = missing_light(frame, bounded ? bound : no_bound);
+    job.result.statistics.cut = missing.cut;
+    job.result.statistics.removed = missing.removed;
+}
+
+/// Adds what a band brings to a mean luminance over the image: row by row, so that bands change
+/// nothing.
+void add_mean(RenderFrame& frame, const FrameLayer& layer, double RenderStatistics::*mean) {
+    RenderStatistics& s = frame.job().result.statistics;
+    const double share = 1.0 / static_cast<double>(s.luxels);
+    for (const double row : frame.row_luminances(layer)) s.*mean += row * share;
+}
+
+/// The light that the bound removed from a band, by the VPLs.
+LayerPtr removed_light(RenderFrame& frame, const FrameBand& band, const VplLight& light) {
+    const RenderJob& job = frame.job();
+    const auto stage = job.clock.measure(&StageSeconds::ledger);
+    if (job.settings.bound.kind == BoundPolicy::Kind::none || job.settings.vsl.enabled)
+        return frame.black(band);
+    LayerPtr removed = light.removed(frame, band);
+    add_mean(frame, *removed, &RenderStatistics::removed_luminance);
+    return removed;
+}
+
+void add_residual(RenderFrame& frame, const FrameBand& band, float bound,
+                  std::vector<LayerPtr>& layers) {
+    RenderJob& job = frame.job();
+    if (job.settings.compensate == 0) return;
+    const auto stage = job.clock.measure(&StageSeconds::residual);
+    add_mean(frame, *frame.add_residual(band, bound, layers),
+             &RenderStatistics::residual_luminance);
+    job.result.statistics.residual_paths +=
+        band.extent().area() * job.settings.compensate_per_luxel();
+}
+
+void render_band(RenderFrame& frame, const FrameBand& band, float bound, const VplLight& light) {
+    RenderJob& job = frame.job();
+    std::vector<LayerPtr> layers;
+    {
+        const auto stage = job.clock.measure(&StageSeconds::direct);
+        layers.push_back(frame.direct(band, direct_samples_of_luxel(job.settings)));
+        layers.push_back(frame.emission(band));
+        layers.push_back(frame.coverage(band));
+    }
+    {
+        const auto stage = job.clock.measure(&StageSeconds::reconstruction);
+        light.append_layers(frame, band, job.monitor, layers);
+    }
+    {
+        const auto stage = job.clock.measure(&StageSeconds::ledger);
+        add_mean(frame, *layers[indirect_layer], &RenderStatistics::indirect_luminance);
+    }
+    LayerPtr removed = removed_light(frame, band, light);
+    add_residual(frame, band, bound, layers);
+    if (job.settings.removed_layer) layers.push_back(std::move(removed));
+    frame.put(band, std::move(layers));
+}
+
+void develop(RenderFrame& frame) {
+    RenderJob& job = frame.job();
+    const auto stage = job.clock.measure(&StageSeconds::film);
+    take_layers(frame.develop(), job.settings.removed_layer, job.result, job.executor);
+}
+
+/// Goes on from VPLs that lie in the result.
+RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float bound) {
+    RenderJob& job = frame.job();
+    const RenderSettings& s = job.settings;
+    const VplList& vpls = job.result.vpls;
+    keep_statistics(job, sampled);
+    const bool normalises = must_normalise(s, sampled.normalisation);
+    const bool over_image = normalises && s.normalisation == NormalisationPolicy::full;
+    const bool stores = over_image || s.vsl.enabled || s.glossy.enabled;
+    const ImageBands bands(frame, normalises || stores ? vpls.size() : 0);
+    plan_progress(job, stores, !over_image || bands.fit_together(vpls.size()));
+    std::vector<BandPtr> kept;
+    if (normalises) kept = normalise_vpls(frame, bands, bound, sampled.records);
+    keep_radii(frame);
+    keep_lobes(frame, sampled.records, normalises);
+    const VplLight light(s, bound, vpls);
+    check_picture(s, std::size_t{first_bounce_layer} + light.bounces() + (s.removed_layer ? 1 : 0));
+    measure_what_is_missing(frame, bound);
+    for (std::uint32_t i = 0; i < bands.count(); ++i) {
+        job.begin_band(i, bands.count());
+        const BandPtr band = kept.empty() ? bands.make(i) : std::move(kept[i]);
+        if (stores && !band->knows_visibility()) bands.find_visible(*band, vpls.span());
+        render_band(frame, *band, bound, light);
+    }
+    develop(frame);
+    return job.take_result();
+}
+
+}  // namespace
+
+float choose_bound(RenderFrame& frame) {
+    RenderJob& job = frame.job();
+    const BoundPolicy& policy = job.settings.bound;
+    if (policy.kind == BoundPolicy::Kind::none) return no_bound;
+    const auto stage = job.clock.measure(&StageSeconds::bound);
+    const float bound = policy.kind == BoundPolicy::Kind::fixed
+                            ? policy.value
+                            : default_bound(frame.visible_area(), job.settings.vpls);
+    job.result.statistics.bound = bound;
+    return bound;
+}
+
+RenderResult render_vpls(RenderFrame& frame) {
+    RenderJob& job = frame.job();
+    const float bound = choose_bound(frame);
+    SampledVpls sampled;
+    {
+        const auto stage = job.clock.measure(&StageSeconds::sampling);
+        sampled = sample_vpls(frame, bound);
+        job.result.vpls = aggregate(sampled.records);
+        job.clock.reassign(sampled.records.bootstrap_seconds, &StageSeconds::sampling,
+                           &StageSeconds::bootstrap);
+    }
+    return render_from(frame, sampled, bound);
+}
+
+RenderResult render_vpls(RenderFrame& frame, const SampledVpls& sampled, float bound) {
+    RenderJob& job = frame.job();
+    {
+        const auto stage = job.clock.measure(&StageSeconds::sampling);
+        job.result.vpls = aggregate(sampled.records);
+    }
+    return render_from(frame, sampled, bound);
+}
+
+}  // namespace mir

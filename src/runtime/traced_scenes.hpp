@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/accel/kd/kd_tree.hpp"
+#include "mir/runtime/any_executor.hpp"
+#include "mir/scene/world_geometry.hpp"
+
+#include <memory>
+#include <string>
+
+namespace mir {
+
+class TracedScene;
+
+/// What the host traces through; never null. The geometry must outlive it.
+using TracedScenePtr = std::unique_ptr<const TracedScene>;
+
+/// Builds KdTreeScene.
+/// @throws Error what KdTree throws.
+[[nodiscard]] TracedScenePtr trace_by_kd_tree(const WorldGeometry& geometry, AnyExecutor& executor);
+/// A kd-tree for kernels of GPUs (KdTreeOptions::for_gpu()).
+/// @throws Error what KdTree throws.
+[[nodiscard]] KdTree tree_for_backends(const WorldGeometry& geometry, AnyExecutor& executor);
+/// Builds ShaftScene.
+/// @throws Error what build_wide_bvh() throws.
+[[nodiscard]] TracedScenePtr trace_by_shafts(const WorldGeometry& geometry, AnyExecutor& executor);
+
+/// Embree, where the build has it.
+struct EmbreeTracing {
+    std::string version;                            ///< "Embree 3.13.5" or the like
+    TracedScenePtr (*trace)(const WorldGeometry&);  ///< builds cpu::EmbreeScene
+};
+/// Null in a build without.
+[[nodiscard]] const EmbreeTracing* embree_tracing();
+
+}  // namespace mir

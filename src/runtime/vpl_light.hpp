@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/data/vpl_list.hpp"
+#include "runtime/render_frame.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace mir {
+
+/// Light that the VPLs of a render send through the luxels of a band. `vpls` must outlive it.
+class VplLight {
+ public:
+    /// Under `bound`, m^-2, as points, spheres or with lobes, as the settings say.
+    VplLight(const RenderSettings& settings, float bound, const VplList& vpls);
+
+    /// Bounces that get a layer of their own.
+    [[nodiscard]] std::size_t bounces() const { return layers_; }
+
+    /// Appends the light of all VPLs, W m^-2 sr^-1, and that of each bounce behind it. `monitor`
+    /// may be null.
+    void append_layers(RenderFrame& frame, const FrameBand& band, Monitor* monitor,
+                       std::vector<LayerPtr>& layers) const;
+
+    /// The light that the bound keeps from the image.
+    [[nodiscard]] LayerPtr removed(RenderFrame& frame, const FrameBand& band) const {
+        return frame.light(band, vpls_.span(), removed_, nullptr);
+    }
+
+ private:
+    const VplList& vpls_;
+    VplKernel lit_;
+    VplKernel removed_;
+    std::size_t layers_ = 0;
+    std::vector<std::vector<Vpl>> bounces_;
+};
+
+}  // namespace mir

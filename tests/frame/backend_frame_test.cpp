@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+//
+// Whole pictures by a frame that keeps everything in a backend's memory, the host's here, against
+// those of the host's own stages: the same bits.
+#include "conformance/stage.hpp"
+#include "mir/accel/kd/kd_tree_scene.hpp"
+#include "mir/host/backend.hpp"
+#include "runtime/backend_frame/chains.hpp"
+#include "runtime/backend_frame/direct.hpp"
+#include "runtime/backend_frame/film.hpp"
+#include "runtime/backend_frame/light.hpp"
+#include "runtime/backend_frame/luxels.hpp"
+#include "runtime/backend_frame/response.hpp"
+#include "runtime/backend_frame/scene.hpp"
+#include "runtime/backend_frame/visibility.hpp"
+#include "runtime/host_frame.hpp"
+#include "runtime/render_vpls.hpp"
+#include "support/catch.hpp"
+#include "support/masked_scene.hpp"
+#include "support/test_sky.hpp"
+
+#include <cstring>
+
+namespace {
+
+using mir::BackendFrameOptions;
+using mir::BackendScheduler;
+using mir::CookTorrance;
+using mir::InlineExecutor;
+using mir::RenderResult;
+using mir::RenderSettings;
+using mir::Scene;
+using Host = mir::host::Backend<InlineExecutor>;
+using Frame = mir::BackendFrame<Host, CookTorrance>;
+
+RenderResult draw_on_host(const Scene& scene, const RenderSettings& settings) {
+    const mir::WorldGeometry geometry(scene);
+    InlineExecutor executor;
+    mir::StageClock clock;
+    mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
+    const mir::TracedSceneOf<mir::KdTreeScene> traced(std::make_unique<mir::KdTreeScene>(geometry));
+    return mir::render_vpls(*mir::host_frame(job, traced, mir::HostScheduler::cpu));
+}
+
+RenderResult draw_on_backend(const Scene& scene, const RenderSettings& settings,
+                             const BackendFrameOptions& options) {
+    const mir::WorldGeometry geometry(scene);
+    InlineExecutor executor;
+    mir::StageClock clock;
+    mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
+    int trees = 0;
+    const auto make_tree = [&] {
+        ++trees;
+        return mir::KdTree(geometry, {}, executor);
+    };
+    Frame frame(job, Host(executor), make_tree, options);
+    RenderResult result = mir::render_vpls(frame);
+    // Chains and all that follows need no rays of the host.
+    const bool on_host = options.scheduler == BackendScheduler::os ||
+                         settings.sampler != mir::SamplerKind::metropolis;
+    CHECK(trees == (options.kd_tree || on_host ? 1 : 0));
+    return result;
+}
+
+template <class T>
+bool same_bits(const mir::Image<T>& a, const mir::Image<T>& b) {
+    return a.extent() == b.extent() &&
+           (a.pixels().empty() ||
+            std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0);
+}
+
+void check_same(const RenderResult& a, const RenderResult& b) {
+    CHECK(same_bits(a.beauty, b.beauty));
+    CHECK(same_bits(a.emission, b.emission));
+    CHECK(same_bits(a.direct, b.direct));
+    CHECK(same_bits(a.indirect, b.indirect));
+    CHECK(same_bits(a.removed, b.removed));
+    CHECK(same_bits(a.coverage, b.coverage));
+    REQUIRE(a.bounces.size() == b.bounces.size());
+    for (std::size_t i = 0; i < a.bounces.size(); ++i) CHECK(same_bits(a.bounces[i], b.bounces[i]));
+    CHECK(same_bits(a.guides.albedo, b.guides.albedo));
+    CHECK(same_bits(a.guides.normal, b.guides.normal));
+    CHECK(same_bits(a.guides.position, b.guides.position));
+    CHECK(same_bits(a.guides.depth, b.guides.depth));
+    REQUIRE(a.vpls.size() == b.vpls.size());
+    for (std::size_t j = 0; j < a.vpls.size(); ++j) {
+        CHECK(a.vpls.vpls()[j].position == b.vpls.vpls()[j].position);
+        CHECK(a.vpls.vpls()[j].intensity == b.vpls.vpls()[j].intensity);
+    }
+    CHECK(a.statistics.bound == b.statistics.bound);
+    CHECK(a.statistics.indirect_luminance == b.statistics.indirect_luminance);
+    CHECK(a.statistics.removed_luminance == b.statistics.removed_luminance);
+}
+
+/// A room with lamps of every kind.
+Scene lit_room() {
+    Scene scene = mirtest::glossy_box();
+    scene.point_lights.push_back({"point", {0.1f, 0.6f, 0.2f}, {0.3f, 0.2f, 0.1f}});
+    mir::SpotLight spot;
+    spot.position = {-0.3f, 0.7f, 0.1f};
+    spot.direction = {0.0f, -1.0f, 0.0f};
+    spot.intensity = {1.0f, 2.0f, 3.0f};
+    scene.spot_lights.push_back(spot);
+    scene.directional_lights.push_back({"sun", {0.0f, 0.0f, -1.0f}, {0.5f, 0.5f, 0.5f}});
+    return scene;
+}
+
+RenderSettings small_picture() {
+    RenderSettings s;
+    s.image = {45, 35};
+    s.luxels_per_pixel = 1;
+    s.vpls = 24;
+    s.tile = {32, 16};
+    s.metropolis.bootstrap.min_paths = s.metropolis.bootstrap.max_paths = 4096;
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("A frame in a backend's memory has the bits of the host's, whatever its structures") {
+    const Scene scene = lit_room();
+    RenderSettings settings = small_picture();
+    settings.bounce_layers = GENERATE(false, true);
+    settings.removed_layer = true;
+    const RenderResult host = draw_on_host(scene, settings);
+    CHECK(host.statistics.removed_luminance > 0.0);
+    CHECK(host.statistics.indirect_luminance > 0.0);
+    CHECK(host.removed.extent() == settings.image);
+    for (const BackendFrameOptions& options :
+         {BackendFrameOptions{BackendScheduler::rcvp, true, false},
+          BackendFrameOptions{BackendScheduler::rcvp, true, true},
+          BackendFrameOptions{BackendScheduler::rcvp, false, true}}) {
+        INFO(options.kd_tree << options.shafts);
+        check_same(host, draw_on_backend(scene, settings, options));
+    }
+}
+
+TEST_CASE("Bands and luxels per pixel change nothing between backend and host") {
+    const Scene scene = lit_room();
+    RenderSettings settings = small_picture();
+    settings.luxels_per_pixel = 6;
+    settings.filter = mir::default_filter(mir::FilterKind::mitchell);
+    // Visibility of one row of blocks: several bands.
+    settings.limits.visibility_bytes = std::uint64_t{2400} * settings.luxels_per_pixel;
+    check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
+}
+
+TEST_CASE("A sky has the same bits in a backend's memory, behind the scene and in its light") {
+    Scene scene = lit_room();
+    scene.environment = mirtest::test_sky();
+    scene.environment->rotation = 10.0f;  // no black texel ahead
+    // From outside, where the walls do not fill the picture.
+    scene.cameras[0].position += 3.0f * scene.cameras[0].back;
+    RenderSettings settings = small_picture();
+    const RenderResult host = draw_on_host(scene, settings);
+    CHECK(host.emission(0, 0).g > 0.0f);
+    check_same(host, draw_on_backend(scene, settings, {}));
+    settings.direct = mir::DirectLight::vpl;
+    check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
+}
+
+TEST_CASE("Light of VPLs that are no states is traced by every scheduler, with the same bits") {
+    const Scene scene = lit_room();
+    RenderSettings settings = small_picture();
+    settings.sampler = mir::SamplerKind::instant_radiosity;
+    const RenderResult host = draw_on_host(scene, settings);
+    for (const BackendScheduler scheduler :
+         {BackendScheduler::os, BackendScheduler::rc, BackendScheduler::rcvp}) {
+        INFO(static_cast<int>(scheduler));
+        check_same(host, draw_on_backend(scene, settings, {scheduler, false, true}));
+    }
+}
+
+TEST_CASE("A frame with alpha masks has the bits of the host's, by every scheduler") {
+    Scene scene = lit_room();
+    mirtest::hang_curtain(scene, mir::lambertian("curtain", {0.7f, 0.6f, 0.5f}), 6,
+                          {-0.6f, 1.3f, -0.5f}, {1.2f, 0.1f, 0.0f}, {0.0f, -0.1f, 1.1f});
+    RenderSettings settings = small_picture();
+    check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
+    settings.sampler = mir::SamplerKind::instant_radiosity;
+    const RenderResult host = draw_on_host(scene, settings);
+    for (const BackendScheduler scheduler :
+         {BackendScheduler::os, BackendScheduler::rc, BackendScheduler::rcvp}) {
+        INFO(static_cast<int>(scheduler));
+        check_same(host, draw_on_backend(scene, settings, {scheduler, false, true}));
+    }
+    scene.materials.back().alpha_cutoff = 0.0f;
+    const RenderResult whole = draw_on_host(scene, settings);
+    CHECK_FALSE(same_bits(whole.direct, host.direct));
+    CHECK_FALSE(same_bits(whole.indirect, host.indirect));
+}
+
+TEST_CASE("What the bound removed is not traced back in a backend's memory, and says so") {
+    RenderSettings settings = small_picture();
+    settings.compensate = 1;
+    try {
+        draw_on_backend(lit_room(), settings, {});
+        FAIL("no error");
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::unsupported);
+        CHECK(std::string(e.what()).find("--backend cpu") != std::string::npos);
+    }
+}
+
+TEST_CASE("Spheres and lobes do not light luxels in a backend's memory, and it says so") {
+    RenderSettings settings = small_picture();
+    settings.sampler = mir::SamplerKind::instant_radiosity;
+    settings.vsl.enabled = GENERATE(true, false);
+    settings.glossy.enabled = !settings.vsl.enabled;
+    try {
+        draw_on_backend(lit_room(), settings, {});
+        FAIL("no error");
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::unsupported);
+        CHECK(std::string(e.what()).find("--backend cpu") != std::string::npos);
+    }
+}
+
+TEST_CASE("A frame on a backend says how long its stages took") {
+    const RenderResult frame = draw_on_backend(lit_room(), small_picture(), {});
+    const mir::StageSeconds& s = frame.statistics.seconds;
+    for (const double seconds :
+         {s.build, s.bound, s.bootstrap, s.sampling, s.gbuffer, s.visibility, s.response, s.direct,
+          s.reconstruction, s.ledger, s.film, s.guides, s.download, s.other})
+        CHECK(seconds > 0.0);
+    double sum = 0.0;
+    for (const mir::RenderStage& stage : mir::render_stages) sum += s.*stage.seconds;
+    CHECK(s.total == sum);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/sample_vpls.hpp"
+
+#include "conformance/brute_force.hpp"
+#include "conformance/stage.hpp"
+#include "runtime/host_frame.hpp"
+#include "support/catch.hpp"
+
+#include <utility>
+
+// Which sampler settings get, and what a frame that samples itself is told.
+
+namespace {
+
+using mir::DirectLight;
+using mir::MetropolisOptions;
+using mir::NormalisationPolicy;
+using mir::RenderSettings;
+using mir::SamplerKind;
+using mirtest::BruteForceScene;
+
+constexpr float bound = 3.5f;
+
+/// What a frame was asked for.
+struct Asked {
+    int times = 0;
+    MetropolisOptions options;
+    float bound = 0.0f;
+};
+
+/// A frame that has one answer to the question for chains, and remembers it; it can do nothing
+/// else but trace rays.
+class SamplingFrame final : public mir::RenderFrame {
+ public:
+    static constexpr std::uint64_t answer = 4711;  ///< VplRecords::paths
+
+    SamplingFrame(mir::RenderJob& job, const mir::AnyEngine& rays)
+        : RenderFrame(job, {1, false}), rays_(rays) {}
+
+    const mir::AnyEngine& rays() override {
+        ++rays_wanted;
+        return rays_;
+    }
+    mir::VplRecords sample_chains(const MetropolisOptions& options, float bound) override {
+        asked = {asked.times + 1, options, bound};
+        mir::VplRecords records;
+        records.paths = answer;
+        return records;
+    }
+    double visible_area() override { return never(0.0); }
+    mir::BandPtr trace(mir::Extent, mir::Extent, std::uint32_t) override { return never(nullptr); }
+    mir::BandPtr trace(const mir::ProbeRays&) override { return never(nullptr); }
+    void find_visible(mir::FrameBand&, Vpls) override { never(0); }
+    mir::ResponsePtr response(mir::Extent, std::uint32_t, float) override { return never(nullptr); }
+    mir::LayerPtr black(const mir::FrameBand&) override { return never(nullptr); }
+    mir::LayerPtr direct(const mir::FrameBand&, mir::DirectSamples) override {
+        return never(nullptr);
+    }
+    mir::LayerPtr emission(const mir::FrameBand&) override { return never(nullptr); }
+    mir::LayerPtr coverage(const mir::FrameBand&) override { return never(nullptr); }
+    mir::LayerPtr light(const mir::FrameBand&, Vpls, mir::VplKernel, mir::Monitor*) override {
+        return never(nullptr);
+    }
+    void add(mir::FrameLayer&, const mir::FrameLayer&) override { never(0); }
+    std::vector<double> row_luminances(const mir::FrameLayer&) override {
+        return never(std::vector<double>{});
+    }
+    void put(const mir::FrameBand&, std::vector<mir::LayerPtr>) override { never(0); }
+    std::vector<mir::Image<mir::Rgb>> develop() override {
+        return never(std::vector<mir::Image<mir::Rgb>>{});
+    }
+
+    Asked asked;
+    int rays_wanted = 0;
+
+ private:
+    using Vpls = mir::VplSpan<mir::Space::host>;
+
+    template <class T>
+    static T never(T value) {
+        FAIL("a sampler asked for luxels");
+        return value;
+    }
+
+    const mir::AnyEngine& rays_;
+};
+
+RenderSettings settings() {
+    RenderSettings s;
+    s.image = {40, 30};
+    s.luxels_per_pixel = 1;
+    s.vpls = 9;
+    s.max_bounce = 5;
+    s.seed = 77;
+    s.metropolis.chains = 3;
+    return s;
+}
+
+struct Render {
+    mirtest::World world{mirtest::glossy_box()};
+    mir::TracedSceneOf<BruteForceScene> traced{std::make_unique<BruteForceScene>(world.geometry)};
+    RenderSettings settings;
+    mir::InlineExecutor executor;
+    mir::StageClock clock;
+    mir::RenderJob job;
+    SamplingFrame frame{job, traced.rays()};
+
+    explicit Render(RenderSettings s)
+        : settings(std::move(s)),
+          job({world.scene, world.geometry, mir::AnyExecutor(executor), nullptr, clock}, settings) {
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A frame is asked for Metropolis' records, with all there is to know") {
+    RenderSettings s = settings();
+    s.direct = GENERATE(DirectLight::separate, DirectLight::vpl);
+    Render render(s);
+    const mir::SampledVpls sampled = sample_vpls(render.frame, bound);
+    CHECK(sampled.records.paths == SamplingFrame::answer);
+    CHECK(sampled.normalisation == mir::Normalisation::image_response);
+    const Asked& asked = render.frame.asked;
+    CHECK(asked.times == 1);
+    CHECK(render.frame.rays_wanted == 0);
+    CHECK(asked.bound == bound);
+    CHECK(asked.options.states == 9);
+    CHECK(asked.options.chains == 3);
+    CHECK(asked.options.max_bounce == 5);
+    CHECK(asked.options.seed == 77);
+    CHECK(asked.options.emitter_vpls == (s.direct == DirectLight::vpl));
+}
+
+TEST_CASE("Other samplers stay with the executor, whatever the frame can do") {
+    RenderSettings s = settings();
+    SECTION("instant radiosity") { s.sampler = SamplerKind::instant_radiosity; }
+    SECTION("resampled paths") { s.sampler = SamplerKind::bidirectional; }
+    SECTION("the proposal's normalisation") { s.normalisation = NormalisationPolicy::proposal; }
+    SECTION("nothing to sample") { s.max_bounce = 1; }
+    Render render(s);
+    CHECK(sample_vpls(render.frame, bound).normalisation == mir::Normalisation::none);
+    CHECK(render.frame.asked.times == 0);
+    CHECK(render.frame.rays_wanted > 0);
+}
+
+TEST_CASE("A frame on the host runs chains on the executor") {
+    Render render(settings());
+    const auto frame = mir::host_frame(render.job, render.traced, mir::HostScheduler::cpu_blocks);
+    const mir::SampledVpls sampled = sample_vpls(*frame, bound);
+    CHECK(sampled.normalisation == mir::Normalisation::image_response);
+    CHECK(sampled.records.health);
+}
