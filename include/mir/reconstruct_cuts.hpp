@@ -85,11 +85,11 @@ class CutGather {
 /// of each node, picked by its weight. The mean over seeds is the image of reconstruct() with all
 /// VPLs of the tree, for any policy; sixteen neighbours pick other VPLs, so that what is left is
 /// noise that averages out. Emission is not included. `monitor` may be null; it counts pairs of
-/// luxel and picked VPL. The same bytes for any number of threads, any tiles of whole blocks and any
-/// `instructions`.
+/// luxel and picked VPL. The same bytes for any number of threads, any tiles of whole blocks and
+/// any `instructions`.
 /// @throws Error(invalid_argument) when the shading has a bound that is none (check_bound()), or
 ///         bands begin within a block; Error(cancelled).
-/// Source: Yuksel, "Stochastic Lightcuts", HPG 2019; docs/method.md, 12.
+/// Source: Yuksel, "Stochastic Lightcuts", HPG 2019; docs/method.md, 14.
 template <TiledGBuffer G, PacketVisibility V, Shading F, CutPolicy<F> P, Executor E>
 Image<Rgb> reconstruct_cuts(const G& gbuffer, const VplTree& tree, const V& visibility,
                             const F& shading, const P& policy, const CutPlace& place, E& executor,
@@ -109,8 +109,7 @@ Image<Rgb> reconstruct_cuts(const G& gbuffer, const VplTree& tree, const V& visi
     executor.for_each(all.size(), [&](std::size_t i) {
         if (monitor != nullptr) monitor->check();
         std::uint64_t picked = 0;
-        run_with(instructions,
-                 [&](auto set) { picked = gather.template run<set()>(all[i]); });
+        run_with(instructions, [&](auto set) { picked = gather.template run<set()>(all[i]); });
         if (monitor != nullptr) monitor->contributions += picked;
     });
     return image;

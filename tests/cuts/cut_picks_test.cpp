@@ -24,7 +24,8 @@ std::vector<std::vector<std::uint64_t>> numbers_of(std::uint64_t seed, std::uint
 
 }  // namespace
 
-TEST_CASE("the sixteen numbers of a node lie in sixteenths of their own, those of a pixel far apart") {
+TEST_CASE(
+    "the sixteen numbers of a node lie in sixteenths of their own, those of a pixel far apart") {
     const auto numbers = numbers_of(3, 100);
     for (std::uint32_t i = 0; i < 100; ++i) {
         std::set<std::uint64_t> sixteenths;

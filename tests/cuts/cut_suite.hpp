@@ -32,8 +32,8 @@ void cut_suite(const Stage& stage, const mir::VplTree& tree, const Shading& shad
             const mir::CutBlock<Shading> block(luxels.hits(), luxels.surfaces(), {}, shading);
             if (block.none_counts) continue;
             ++asked;
-            const mir::VplCut cut = policy.template choose<mir::InstructionSet::baseline>(
-                block, tree, shading);
+            const mir::VplCut cut =
+                policy.template choose<mir::InstructionSet::baseline>(block, tree, shading);
             CHECK(covers(cut, tree));
             CHECK(cut.size() <= most);
             for (const mir::InstructionSet set : instruction_sets())

@@ -7,8 +7,8 @@
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cuts/deviation_cut.hpp"
 #include "mir/sched/cpu_blocks.hpp"
-#include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/contribution.hpp"
+#include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/vpl_shading.hpp"
 #include "support/backwards_executor.hpp"
@@ -36,8 +36,8 @@ mir::VplTree tree_of(const Stage& stage) {
 }
 
 template <class B, class Policy>
-mir::Image<mir::Rgb> gather(const KdStage<B>& stage, const mir::VplTree& tree,
-                            const Policy& policy, std::uint64_t seed) {
+mir::Image<mir::Rgb> gather(const KdStage<B>& stage, const mir::VplTree& tree, const Policy& policy,
+                            std::uint64_t seed) {
     mir::InlineExecutor executor;
     return reconstruct_cuts(stage.gbuffer(), tree, stage.visibility(), bounded<B>(), policy, {seed},
                             executor);
@@ -69,16 +69,17 @@ std::vector<double> p_values(const mir::Image<mir::Rgb>& full, const Picture& pi
     return values;
 }
 
-/// The same gather luxel by luxel, for an image of one block: `weight(node, leaf)` is that of a pick.
+/// The same gather luxel by luxel, for an image of one block: `weight(node, leaf)` is that of a
+/// pick.
 template <class Weight>
 mir::Image<mir::Rgb> naive_gather(const KdStage<mir::Lambert>& stage, const mir::VplTree& tree,
                                   std::uint32_t picks, std::uint64_t seed, const Weight& weight) {
     const auto shading = bounded<mir::Lambert>();
     const auto view = stage.gbuffer().view(0);
     const mir::blocks::InterleavedBlock<mir::VplShading<mir::Lambert>> luxels(view.hits,
-                                                                             view.surfaces, {});
+                                                                              view.surfaces, {});
     const mir::CutBlock<mir::VplShading<mir::Lambert>> block(luxels.hits(), luxels.surfaces(), {},
-                                                            shading);
+                                                             shading);
     const mir::VplCut cut =
         mir::EqualCountCut{picks}.choose<mir::InstructionSet::baseline>(block, tree, shading);
     mir::CutPicks numbers(mir::Random(seed, mir::Stream::cut, 0), cut.size());

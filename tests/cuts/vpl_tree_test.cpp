@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -77,10 +78,11 @@ TEST_CASE("a node picks each of its leaves with the share of its weight") {
         const auto whole = static_cast<double>(tree.weight(node));
         double sum = 0.0;
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const double from = static_cast<double>(tree.weight_before(i) -
-                                                    tree.weight_before(node.first)) / whole;
-            const double to = static_cast<double>(tree.weight_before(i + 1) -
-                                                  tree.weight_before(node.first)) / whole;
+            const double from =
+                static_cast<double>(tree.weight_before(i) - tree.weight_before(node.first)) / whole;
+            const double to =
+                static_cast<double>(tree.weight_before(i + 1) - tree.weight_before(node.first)) /
+                whole;
             // The interval of numbers that pick leaf i, a little inside of its ends.
             CHECK(tree.pick(node, static_cast<std::uint64_t>((from + 1e-9) * 0x1p64)) == i);
             CHECK(tree.pick(node, static_cast<std::uint64_t>((to - 1e-9) * 0x1p64)) == i);
@@ -116,5 +118,23 @@ TEST_CASE("VPLs that are not finite make no tree") {
         if (field == 1) vpls[3].normal.z = bad;
         if (field == 2) vpls[3].intensity.g = bad;
         CHECK_THROWS_AS(tree_of(vpls), mir::Error);
+    }
+}
+
+TEST_CASE("the upper half of a product of 64 bits is that of long multiplication") {
+    using mir::detail::high_product;
+    constexpr std::uint64_t most = ~std::uint64_t{0};
+    static_assert(high_product(most, most) == most - 1);
+    static_assert(high_product(std::uint64_t{1} << 63, 2) == 1);
+    static_assert(high_product(most, 1) == 0);
+    mir::Random random(1, mir::Stream::test, 62);
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const mir::Bits128 bits = random.block(i);
+        const std::uint64_t a = std::uint64_t{bits.word[0]} << 32 | bits.word[1];
+        const std::uint64_t b = std::uint64_t{bits.word[2]} << 32 | bits.word[3];
+        // Both have halves whose products fit into a long double's 64 digits, rounded once.
+        const long double product = static_cast<long double>(a) * static_cast<long double>(b);
+        const auto expected = product * 0x1p-64L;
+        CHECK(std::abs(static_cast<long double>(high_product(a, b)) - expected) <= 2.0L);
     }
 }

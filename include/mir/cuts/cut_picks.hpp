@@ -35,8 +35,8 @@ class CutPicks {
         if (wanted != at_hand_) words_ = numbers_.block(at_hand_ = wanted);
         const std::uint32_t shift =
             shifts_[i / nodes_per_block].word[i % nodes_per_block / 8] >> i % 8 * 4 & 15u;
-        return std::uint64_t{stratum(group_) ^ shift} << 60 |
-               std::uint64_t{words_.word[i % 4]} << 28;
+        return std::uint64_t{stratum(group_) ^ shift} << 60 | std::uint64_t{words_.word[i % 4]}
+                                                                  << 28;
     }
 
     /// Sixteenth of a node from which a group picks, before the digital shift of the node. Groups

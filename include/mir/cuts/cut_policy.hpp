@@ -23,11 +23,9 @@ using CutBlock = blocks::LuxelBlock<F, blocks::BoundedHitBlock>;
 /// Axioms (tests/cuts/cut_suite.hpp): the nodes hold every leaf once, in leaf order; the same
 /// arguments give the same cut, for every instruction set.
 template <class P, class F>
-concept CutPolicy = Shading<F> && requires(const P p, const CutBlock<F>& block,
-                                           const VplTree& tree, const F& shading) {
-    {
-        p.template choose<InstructionSet::baseline>(block, tree, shading)
-        } -> std::same_as<VplCut>;
+concept CutPolicy = Shading<F> &&
+    requires(const P p, const CutBlock<F>& block, const VplTree& tree, const F& shading) {
+    { p.template choose<InstructionSet::baseline>(block, tree, shading) } -> std::same_as<VplCut>;
 };
 
 /// Every VPL, one by one: the sum that every other cut must have as its mean. Model of CutPolicy.

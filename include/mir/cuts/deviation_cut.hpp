@@ -64,9 +64,8 @@ struct DeviationCut {
 
     /// The most that the VPLs of a node can bring to a luxel of the block that reflects all light.
     template <Shading F>
-    [[nodiscard]] static float largest_light(const blocks::BlockBounds& luxels,
-                                             const VplTree& tree, const VplNode& node,
-                                             const F& shading) {
+    [[nodiscard]] static float largest_light(const blocks::BlockBounds& luxels, const VplTree& tree,
+                                             const VplNode& node, const F& shading) {
         const VplBounds& vpls = tree.bounds(node);
         const Vec3 gap =
             glm::max(glm::max(vpls.low - luxels.high, luxels.low - vpls.high), Vec3(0.0f));

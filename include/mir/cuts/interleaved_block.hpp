@@ -15,8 +15,8 @@ template <Shading F>
 class InterleavedBlock {
  public:
     /// Of one of the blocks of a tile.
-    InterleavedBlock(SoaView<const Hit> tile_hits,
-                     SoaView<const typename F::Surface> tile_surfaces, Block b) {
+    InterleavedBlock(SoaView<const Hit> tile_hits, SoaView<const typename F::Surface> tile_surfaces,
+                     Block b) {
         copy(starting_at(tile_hits, first_luxel(b)), hits_.data());
         copy(starting_at(tile_surfaces, first_luxel(b)), surfaces_.data());
     }

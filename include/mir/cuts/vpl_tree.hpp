@@ -4,6 +4,7 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/core/error.hpp"
 #include "mir/cuts/detail/halve_vpls.hpp"
+#include "mir/cuts/detail/high_product.hpp"
 #include "mir/cuts/vpl_bounds.hpp"
 #include "mir/cuts/vpl_node.hpp"
 #include "mir/data/vpl_list.hpp"
@@ -51,8 +52,7 @@ class VplTree {
     /// `u` is a fraction of 2^64.
     [[nodiscard]] std::uint32_t pick(const VplNode& node, std::uint64_t u) const {
         const std::uint64_t before = sums_[node.first];
-        const auto at = static_cast<std::uint64_t>(
-            static_cast<unsigned __int128>(u) * weight(node) >> 64);
+        const std::uint64_t at = detail::high_product(u, weight(node));
         const auto first = sums_.begin() + node.first + 1;
         const auto found = std::upper_bound(first, first + (node.count - 1), before + at);
         return node.first + static_cast<std::uint32_t>(found - first);

@@ -50,7 +50,8 @@ inline VplBounds halve_all(std::span<VplKey> keys, const VplNode& node,
                            std::span<VplBounds> bounds) {
     if (node.is_leaf()) {
         const float* const at = keys[node.first].at;
-        return bounds[node.place] = {{at[0], at[1], at[2]}, {at[0], at[1], at[2]}, keys[node.first].luminance};
+        return bounds[node.place] = {
+                   {at[0], at[1], at[2]}, {at[0], at[1], at[2]}, keys[node.first].luminance};
     }
     halve(keys.subspan(node.first, node.count));
     const VplBounds left = halve_all(keys, node.left(), bounds);
