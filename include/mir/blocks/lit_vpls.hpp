@@ -47,8 +47,8 @@ class LitVpls {
     }
 
     /// Adds what each does to the luxels of all groups: `sums` has a place for each VPL.
-    template <InstructionSet Set, Shading F>
-    [[gnu::always_inline]] void shade_each(const LuxelBlock<F>& block, const F& shading,
+    template <InstructionSet Set, Shading F, class Hits>
+    [[gnu::always_inline]] void shade_each(const LuxelBlock<F, Hits>& block, const F& shading,
                                            GroupRadiance* __restrict sums) {
         for (std::uint32_t group = 0; group < groups_per_block; ++group)
             shade_group<Set>(block, compiled_for<Set>(shading), group,

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/executor.hpp"
+#include "mir/cuts/vpl_bounds.hpp"
+#include "mir/cuts/vpl_node.hpp"
+#include "mir/data/vpl_list.hpp"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace mir::detail {
+
+/// Place of a VPL in six dimensions: its position, and its normal on a scale on which opposite
+/// normals lie as far apart as a part of the scene.
+struct VplKey {
+    float at[6] = {};
+    VplIndex vpl = 0;
+    float luminance = 0.0f;  ///< of its intensity
+};
+
+/// Axis along which keys differ most.
+inline int widest_axis(std::span<const VplKey> keys) {
+    float low[6];
+    float high[6];
+    std::copy_n(keys.front().at, 6, low);
+    std::copy_n(keys.front().at, 6, high);
+    for (const VplKey& key : keys)
+        for (int a = 0; a < 6; ++a) {
+            low[a] = std::min(low[a], key.at[a]);
+            high[a] = std::max(high[a], key.at[a]);
+        }
+    int widest = 0;
+    for (int a = 1; a < 6; ++a)
+        if (high[a] - low[a] > high[widest] - low[widest]) widest = a;
+    return widest;
+}
+
+/// Puts the keys of a node's first half first.
+inline void halve(std::span<VplKey> keys) {
+    const int axis = widest_axis(keys);
+    std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(keys.size() / 2),
+                     keys.end(), [axis](const VplKey& a, const VplKey& b) {
+                         return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.vpl < b.vpl;
+                     });
+}
+
+inline VplBounds halve_all(std::span<VplKey> keys, const VplNode& node,
+                           std::span<VplBounds> bounds) {
+    if (node.is_leaf()) {
+        const float* const at = keys[node.first].at;
+        return bounds[node.place] = {
+                   {at[0], at[1], at[2]}, {at[0], at[1], at[2]}, keys[node.first].luminance};
+    }
+    halve(keys.subspan(node.first, node.count));
+    const VplBounds left = halve_all(keys, node.left(), bounds);
+    return bounds[node.place] = left.with(halve_all(keys, node.right(), bounds));
+}
+
+/// Halves a node and those below it until there are parts enough for many threads.
+inline void halve_top(std::span<VplKey> keys, const VplNode& node, std::uint32_t least,
+                      std::vector<VplNode>& parts) {
+    if (node.count < least) return parts.push_back(node);
+    halve(keys.subspan(node.first, node.count));
+    halve_top(keys, node.left(), least, parts);
+    halve_top(keys, node.right(), least, parts);
+}
+
+/// Bounds of the nodes above the parts.
+inline VplBounds join_top(const VplNode& node, std::uint32_t least, std::span<VplBounds> bounds) {
+    if (node.count < least) return bounds[node.place];
+    const VplBounds left = join_top(node.left(), least, bounds);
+    return bounds[node.place] = left.with(join_top(node.right(), least, bounds));
+}
+
+inline std::vector<VplKey> keys_of(VplSpan<Space::host> vpls, std::span<const VplIndex> order) {
+    VplBounds all;
+    for (const VplIndex j : order) all = all.with({vpls[j].position, vpls[j].position, 0.0f});
+    const float scale = 0.125f * glm::length(all.high - all.low);
+    std::vector<VplKey> keys;
+    keys.reserve(order.size());
+    for (const VplIndex j : order) {
+        const Vec3 p = vpls[j].position;
+        const Vec3 n = vpls[j].normal * scale;
+        keys.push_back({{p.x, p.y, p.z, n.x, n.y, n.z}, j, luminance(vpls[j].intensity)});
+    }
+    return keys;
+}
+
+/// Brings `order` into leaf order and finds the bounds of all nodes.
+template <Executor E>
+void halve_vpls(VplSpan<Space::host> vpls, std::vector<VplIndex>& order,
+                std::vector<VplBounds>& bounds, E& executor) {
+    if (order.empty()) return;
+    std::vector<VplKey> keys = keys_of(vpls, order);
+    const VplNode root{0, 0, static_cast<std::uint32_t>(order.size())};
+    bounds.resize(2 * order.size() - 1);
+    constexpr std::uint32_t least = 4096;
+    std::vector<VplNode> parts;
+    halve_top(keys, root, least, parts);
+    executor.for_each(parts.size(), [&](std::size_t i) { halve_all(keys, parts[i], bounds); });
+    join_top(root, least, bounds);
+    for (std::size_t i = 0; i < keys.size(); ++i) order[i] = keys[i].vpl;
+}
+
+}  // namespace mir::detail

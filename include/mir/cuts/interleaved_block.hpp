@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/blocks/luxel_block.hpp"
+#include "mir/data/soa.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace mir::blocks {
+
+/// Copies a block of 256 luxels so that the luxels of a group lie four apart: group s holds luxel s
+/// of each of the block's sixteen squares of 4 x 4. Groups pick other VPLs, so neighbours do.
+template <Shading F>
+class InterleavedBlock {
+ public:
+    /// Of one of the blocks of a tile.
+    InterleavedBlock(SoaView<const Hit> tile_hits, SoaView<const typename F::Surface> tile_surfaces,
+                     Block b) {
+        copy(starting_at(tile_hits, first_luxel(b)), hits_.data());
+        copy(starting_at(tile_surfaces, first_luxel(b)), surfaces_.data());
+    }
+
+    /// Hits in the new order. Valid as long as this.
+    [[nodiscard]] SoaView<const Hit> hits() const { return {hits_.data(), size}; }
+    /// Surfaces in the new order. Valid as long as this.
+    [[nodiscard]] SoaView<const typename F::Surface> surfaces() const {
+        return {surfaces_.data(), size};
+    }
+
+    /// Place in the block of luxel `k` of group `s`, and the place here of luxel k of square s.
+    [[nodiscard]] static constexpr std::uint32_t swapped(std::uint32_t i) {
+        return i % group_size * groups_per_block + i / group_size;
+    }
+
+ private:
+    static constexpr std::uint32_t size = BlockedLayout::block_size;
+
+    template <class T>
+    static void copy(SoaView<T> from, std::uint32_t* to) {
+        for (std::uint32_t word = 0; word < SoaView<T>::words; ++word)
+            for (std::uint32_t i = 0; i < size; ++i)
+                to[word * size + i] = from.planes[word * from.stride + swapped(i)];
+    }
+
+    alignas(64) std::array<std::uint32_t, SoaView<Hit>::words * size> hits_;
+    alignas(64) std::array<std::uint32_t, SoaView<typename F::Surface>::words * size> surfaces_;
+};
+
+}  // namespace mir::blocks
