@@ -126,6 +126,10 @@ class BackendFrame final : public RenderFrame {
     template <class Use>
     auto with_tile_visibility(const Use& use) const;
 
+    template <class Rays>
+    [[nodiscard]] VplRecords sample_chains_through(const Rays& rays,
+                                                   const MetropolisOptions& options, float bound);
+
     void build_bvh();
     [[nodiscard]] const KdTree& host_tree();
     [[nodiscard]] AlphaMaskView<space> masks_there() const {

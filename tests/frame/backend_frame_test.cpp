@@ -6,6 +6,7 @@
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/host/backend.hpp"
 #include "runtime/backend_frame/chains.hpp"
+#include "runtime/backend_frame/chains_through.hpp"
 #include "runtime/backend_frame/direct.hpp"
 #include "runtime/backend_frame/film.hpp"
 #include "runtime/backend_frame/light.hpp"

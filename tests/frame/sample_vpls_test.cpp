@@ -28,6 +28,8 @@ struct Asked {
     float bound = 0.0f;
 };
 
+using Vpls = mir::VplSpan<mir::Space::host>;
+
 /// A frame that has one answer to the question for chains, and remembers it; it can do nothing
 /// else but trace rays.
 class SamplingFrame final : public mir::RenderFrame {
@@ -41,8 +43,8 @@ class SamplingFrame final : public mir::RenderFrame {
         ++rays_wanted;
         return rays_;
     }
-    mir::VplRecords sample_chains(const MetropolisOptions& options, float bound) override {
-        asked = {asked.times + 1, options, bound};
+    mir::VplRecords sample_chains(const MetropolisOptions& options, float under) override {
+        asked = {asked.times + 1, options, under};
         mir::VplRecords records;
         records.paths = answer;
         return records;
@@ -75,8 +77,6 @@ class SamplingFrame final : public mir::RenderFrame {
     int rays_wanted = 0;
 
  private:
-    using Vpls = mir::VplSpan<mir::Space::host>;
-
     template <class T>
     static T never(T value) {
         FAIL("a sampler asked for luxels");

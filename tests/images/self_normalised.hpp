@@ -3,6 +3,7 @@
 
 #include "mir/fill_visibility.hpp"
 #include "mir/normalise/normalise.hpp"
+#include "mir/normalise/response.hpp"
 #include "mir/runtime/vpl_frame.hpp"
 #include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/shading/lambert.hpp"

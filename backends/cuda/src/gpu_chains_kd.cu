@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#include "mir/cuda/backend.cuh"
+#include "runtime/backend_frame/chains_through.hpp"
+
+namespace mir {
+
+template VplRecords BackendFrame<cuda::Backend, MIR_BSDF>::sample_chains_through(
+    const KdRays<Space::device>&, const MetropolisOptions&, float);
+
+}  // namespace mir

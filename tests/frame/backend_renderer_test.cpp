@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+//
+// What a renderer over a backend does around its frames; the backend is the host, with memory that
+// runs out.
+#include "runtime/backend_renderer.hpp"
+
+#include "conformance/stage.hpp"
+#include "images/support.hpp"
+#include "mir/host/backend.hpp"
+#include "runtime/backend_frame/chains.hpp"
+#include "runtime/backend_frame/chains_through.hpp"
+#include "runtime/backend_frame/direct.hpp"
+#include "runtime/backend_frame/film.hpp"
+#include "runtime/backend_frame/gather.hpp"
+#include "runtime/backend_frame/light.hpp"
+#include "runtime/backend_frame/luxels.hpp"
+#include "runtime/backend_frame/response.hpp"
+#include "runtime/backend_frame/scene.hpp"
+#include "runtime/backend_frame/visibility.hpp"
+#include "support/catch.hpp"
+
+namespace {
+
+using mir::InlineExecutor;
+using mir::RenderSettings;
+
+InlineExecutor executor;
+
+/// The host, which has no memory while it is full.
+class FullBackend {
+ public:
+    using Host = mir::host::Backend<InlineExecutor>;
+    static constexpr mir::Space space = mir::Space::host;
+    template <class T>
+    using Buffer = Host::Buffer<T>;
+    template <class T>
+    using HostBuffer = Host::HostBuffer<T>;
+    using Event = Host::Event;
+    using Queue = Host::Queue;
+
+    explicit FullBackend(const int& times_full) : times_full_(&times_full) {}
+
+    [[nodiscard]] Queue queue() const { return Queue(executor); }
+    template <class T>
+    [[nodiscard]] Buffer<T> buffer(std::size_t size) const {
+        if (*times_full_ > 0)
+            throw mir::Error(mir::ErrorCode::out_of_memory, "the machine is full");
+        return Buffer<T>(size);
+    }
+    template <class T>
+    [[nodiscard]] HostBuffer<T> host_buffer(std::size_t size) const {
+        return HostBuffer<T>(size);
+    }
+
+ private:
+    const int* times_full_;
+};
+static_assert(mir::Backend<FullBackend>);
+
+/// Renders on a machine that is full until it was trimmed so often.
+struct Machine {
+    explicit Machine(int times_full) : full(times_full) {}
+
+    mir::RenderResult render(const RenderSettings& settings) {
+        const mir::BackendRenderer<FullBackend> renderer(
+            "rcvp", mir::BackendScheduler::rcvp,
+            {FullBackend(full), "host", "a tight host", [] { return std::uint64_t{1} << 30; },
+             [this] {
+                 ++trims;
+                 --full;
+             }});
+        return renderer.render(scene, settings, nullptr);
+    }
+
+    mir::Scene scene = mirtest::glossy_box();
+    int full;
+    int trims = 0;
+};
+
+RenderSettings small_picture() {
+    RenderSettings s = mirtest::small_settings(24, 16);
+    s.tile = {256, 256};
+    s.metropolis.bootstrap.min_paths = s.metropolis.bootstrap.max_paths = 4096;
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("A renderer over a backend says what rendered") {
+    const mir::RenderStatistics s = Machine(0).render(small_picture()).statistics;
+    CHECK(s.backend == "host");
+    CHECK(s.device == "a tight host");
+    CHECK(s.scheduler == "rcvp");
+    CHECK(s.acceleration == "bvh");
+    CHECK(!s.scene_hash.empty());
+    CHECK(s.triangles > 0);
+}
+
+TEST_CASE("A renderer over a backend tries smaller tiles while memory is short, with equal bits") {
+    const mir::RenderResult wanted = Machine(0).render(small_picture());
+    Machine tight(2);  // tiles of 256, 128, 64
+    const mir::RenderResult found = tight.render(small_picture());
+    CHECK(tight.trims == 2);
+    CHECK(mirtest::same_bits(found.beauty, wanted.beauty));
+    Machine hopeless(3);
+    try {
+        static_cast<void>(hopeless.render(small_picture()));
+        FAIL("the machine is full");
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::out_of_memory);
+    }
+    CHECK(hopeless.trims == 2);
+}
+
+TEST_CASE("Luxels gather from discs on the backend, with the bits of the host") {
+    RenderSettings s = small_picture();
+    s.integrator = mir::Integrator::micro;
+    s.micro.surfels = 64;
+    s.micro.gather.rays = 16;
+    s.micro.luxels = GENERATE(mir::MicroGather::rays, mir::MicroGather::buffers);
+    Machine machine(0);
+    const mir::RenderResult there = machine.render(s);
+    s.acceleration = mir::Acceleration::kd_tree;
+    s.backend = mir::BackendKind::cpu;
+    const mir::RenderResult here = mirtest::render(machine.scene, s);
+    CHECK(there.statistics.acceleration == "kdtree");
+    CHECK(there.statistics.indirect_luminance > 0.0);
+    CHECK(mirtest::same_bits(there.beauty, here.beauty));
+}
+
+TEST_CASE("Paths of a renderer over a backend are traced on the host") {
+    RenderSettings s = small_picture();
+    s.integrator = mir::Integrator::path;
+    s.path.samples = 1;
+    Machine machine(9);  // nothing is asked of its memory
+    const mir::RenderResult there = machine.render(s);
+    s.acceleration = mir::Acceleration::kd_tree;
+    s.backend = mir::BackendKind::cpu;
+    CHECK(mirtest::same_bits(there.beauty, mirtest::render(machine.scene, s).beauty));
+}
+
+TEST_CASE("A renderer over a backend refuses what its frames lack") {
+    RenderSettings s = small_picture();
+    s.compensate = 2;
+    try {
+        static_cast<void>(Machine(0).render(s));
+        FAIL("nothing was thrown");
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::unsupported);
+        CHECK(std::string(e.what()) == mir::reason_without(mir::FrameFeature::residual));
+    }
+}
