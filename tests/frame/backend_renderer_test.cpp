@@ -79,7 +79,7 @@ struct Machine {
 
 RenderSettings small_picture() {
     RenderSettings s = mirtest::small_settings(24, 16);
-    s.tile = {256, 256};
+    s.tile.reset();
     s.metropolis.bootstrap.min_paths = s.metropolis.bootstrap.max_paths = 4096;
     return s;
 }
@@ -98,18 +98,18 @@ TEST_CASE("A renderer over a backend says what rendered") {
 
 TEST_CASE("A renderer over a backend tries smaller tiles while memory is short, with equal bits") {
     const mir::RenderResult wanted = Machine(0).render(small_picture());
-    Machine tight(2);  // tiles of 256, 128, 64
+    Machine tight(2);  // tiles of 1024, 512, 256
     const mir::RenderResult found = tight.render(small_picture());
     CHECK(tight.trims == 2);
     CHECK(mirtest::same_bits(found.beauty, wanted.beauty));
-    Machine hopeless(3);
+    Machine hopeless(5);  // down to 64
     try {
         static_cast<void>(hopeless.render(small_picture()));
         FAIL("the machine is full");
     } catch (const mir::Error& e) {
         CHECK(e.code() == mir::ErrorCode::out_of_memory);
     }
-    CHECK(hopeless.trims == 2);
+    CHECK(hopeless.trims == 4);
 }
 
 TEST_CASE("Luxels gather from discs on the backend, with the bits of the host") {
@@ -141,6 +141,7 @@ TEST_CASE("Paths of a renderer over a backend are traced on the host") {
 
 TEST_CASE("A renderer over a backend refuses what its frames lack") {
     RenderSettings s = small_picture();
+    s.bound.kind = mir::BoundPolicy::Kind::automatic;
     s.compensate = 2;
     try {
         static_cast<void>(Machine(0).render(s));
