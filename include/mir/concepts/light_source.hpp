@@ -19,9 +19,8 @@ namespace mir {
 ///   distance `d2` and with cosine `cosine` there.
 /// - `share(normal, w)` is what leaves a point along `w`, as a factor of its emission. A receiver
 ///   that faces the light gets emission share / d2, W m^-2; from outside d2 is 1.
-/// - `flux(point, w, probability)` is the power of a light path that starts at `point` along `w`,
-/// W,
-///   where the light itself was drawn with this probability.
+/// - `flux(point, w, probability)` is the power, W, of a light path that starts at `point` along
+///   `w`, where the light itself was drawn with this probability.
 ///
 /// Axioms (tests/conformance/light_source_suite.hpp): flux(p, w, 1) is emission share over all
 /// densities, and its mean the light's power; rays follow ray_density(); sample() and start() mean

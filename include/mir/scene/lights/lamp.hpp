@@ -124,30 +124,38 @@ struct LampView {
 /// An emissive triangle as one light among others. Model of LightSource.
 template <Space S>
 struct LampSource {
+    /// How rays find it, see LightSource.
     static constexpr LightOrigin origin = LightOrigin::surface;
+    /// Whether a point or a direction is drawn, see LightSource.
     static constexpr bool has_extent = true;
 
     const LampView<S>& lamps;         ///< outlives this
     const GeometryView<S>& geometry;  ///< outlives this
     std::uint32_t index = 0;          ///< of LampView::triangles
 
+    /// A point of it for a receiver, see LightSource.
     [[nodiscard]] MIR_HD LightPoint sample(Vec2 u, Vec3 from) const {
         const EmitterSample s = lamps.point_on(geometry, index, u);
         return s.on_side(s.shows_back(from));
     }
+    /// A point of it where a light path begins, see LightSource.
     [[nodiscard]] MIR_HD LightPoint start(Vec2 u, float side) const {
         const EmitterSample s = lamps.point_on(geometry, index, u);
         return s.on_side(s.both_sides && side >= 0.5f);
     }
+    /// A ray that leaves it, see LightSource.
     [[nodiscard]] MIR_HD static Ray ray(Vec3 from, Vec3 normal, Vec2 u) {
         return {from, Frame::around(normal).to_world(square_to_cosine_hemisphere(u))};
     }
+    /// Density of ray() at a surface, m^-2, see LightSource.
     [[nodiscard]] MIR_HD static double ray_density(Vec3 normal, Vec3 w, float cosine, float d2) {
         return per_receiver_area(cosine_hemisphere_pdf(glm::dot(w, normal)), cosine, d2);
     }
+    /// Factor of the emission along a direction, see LightSource.
     [[nodiscard]] MIR_HD static float share(Vec3 normal, Vec3 w) {
         return larger(glm::dot(w, normal), 0.0f);
     }
+    /// Power of a light path, W, see LightSource.
     [[nodiscard]] MIR_HD static Rgb flux(const LightPoint& p, Vec3 /*w*/, float probability) {
         return p.emission * (pi / (probability * p.pdf_start()));
     }

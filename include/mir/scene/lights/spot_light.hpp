@@ -36,7 +36,9 @@ struct SpotLight {
 
 /// A SpotLight as it is sampled. Model of LightSource.
 struct SpotSource {
+    /// How rays find it, see LightSource.
     static constexpr LightOrigin origin = LightOrigin::place;
+    /// Whether a point or a direction is drawn, see LightSource.
     static constexpr bool has_extent = false;
 
     Vec3 position{0};               ///< metres
@@ -46,7 +48,9 @@ struct SpotSource {
     float cos_outer = 1.0f;         ///< of the outer angle
     std::uint16_t light_group = 0;  ///< group that its light is counted in
 
+    /// A point of it for a receiver, see LightSource.
     [[nodiscard]] MIR_HD LightPoint sample(Vec2 u, Vec3 /*from*/) const { return start(u, 0.0f); }
+    /// A point of it where a light path begins, see LightSource.
     [[nodiscard]] MIR_HD LightPoint start(Vec2 /*u*/, float /*side*/) const {
         LightPoint p;
         p.position = position;
@@ -55,9 +59,11 @@ struct SpotSource {
         p.light_group = light_group;
         return p;
     }
+    /// A ray that leaves it, see LightSource.
     [[nodiscard]] MIR_HD Ray ray(Vec3 from, Vec3 normal, Vec2 u) const {
         return {from, Frame::around(normal).to_world(square_to_cone(u, cos_outer))};
     }
+    /// Density of ray() at a surface, m^-2, see LightSource.
     [[nodiscard]] MIR_HD double ray_density(Vec3 normal, Vec3 w, float cosine, float d2) const {
         return glm::dot(w, normal) > cos_outer ? per_receiver_area(cone_pdf(cos_outer), cosine, d2)
                                                : 0.0;
@@ -70,6 +76,7 @@ struct SpotSource {
         const float clamped = smaller(larger(t, 0.0f), 1.0f);
         return clamped * clamped;
     }
+    /// Power of a light path, W, see LightSource.
     [[nodiscard]] MIR_HD Rgb flux(const LightPoint& p, Vec3 w, float probability) const {
         return p.emission * (share(p.normal, w) / (cone_pdf(cos_outer) * probability));
     }
