@@ -37,7 +37,7 @@ class CutGather {
 
     /// Gathers the light of one block and returns how many picks it asked for.
     template <InstructionSet Set>
-    std::uint64_t run(blocks::Block b) const {
+    [[nodiscard]] std::uint64_t run(blocks::Block b) const {
         const auto view = gbuffer_.view(b.tile);
         const blocks::InterleavedBlock<F> luxels(view.hits, view.surfaces, b);
         const CutBlock<F> block(luxels.hits(), luxels.surfaces(), {}, shading_);

@@ -110,13 +110,13 @@ class BackendFrame final : public RenderFrame {
     class Response;
 
     [[nodiscard]] static const Band& of(const FrameBand& band) {
-        return static_cast<const Band&>(band);
+        return dynamic_cast<const Band&>(band);
     }
     [[nodiscard]] static BackendLayer<M>& of(FrameLayer& layer) {
-        return static_cast<Layer&>(layer).words;
+        return dynamic_cast<Layer&>(layer).words;
     }
     [[nodiscard]] static const BackendLayer<M>& of(const FrameLayer& layer) {
-        return static_cast<const Layer&>(layer).words;
+        return dynamic_cast<const Layer&>(layer).words;
     }
 
     /// Calls use(rays) with what single rays are traced by: KdRays or one of WideRays.

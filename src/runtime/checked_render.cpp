@@ -24,7 +24,7 @@ WorldGeometry placed_triangles(const Scene& scene, const RenderSettings& setting
                                TbbExecutor& threads, StageClock& clock) {
     const auto stage = clock.measure(&StageSeconds::geometry);
     AnyExecutor executor(threads);
-    return WorldGeometry(scene, settings.limits, executor);
+    return {scene, settings.limits, executor};
 }
 
 }  // namespace

@@ -21,10 +21,10 @@ struct HostBand final : FrameBand {
 
     /// The band of a host's frame whose surfaces are of this model.
     [[nodiscard]] static const HostBand& of(const FrameBand& band) {
-        return static_cast<const HostBand&>(band);
+        return dynamic_cast<const HostBand&>(band);
     }
     /// The same to write.
-    [[nodiscard]] static HostBand& of(FrameBand& band) { return static_cast<HostBand&>(band); }
+    [[nodiscard]] static HostBand& of(FrameBand& band) { return dynamic_cast<HostBand&>(band); }
 
     BlockedGBuffer<typename B::Params> gbuffer;  ///< all columns of the image
     std::optional<VisibilityMatrix> visibility;  ///< none before find_visible()
@@ -37,11 +37,11 @@ struct HostLayer final : FrameLayer {
 
     /// The light of a layer of a host's frame.
     [[nodiscard]] static const Image<Rgb>& of(const FrameLayer& layer) {
-        return static_cast<const HostLayer&>(layer).image;
+        return dynamic_cast<const HostLayer&>(layer).image;
     }
     /// The same to write.
     [[nodiscard]] static Image<Rgb>& of(FrameLayer& layer) {
-        return static_cast<HostLayer&>(layer).image;
+        return dynamic_cast<HostLayer&>(layer).image;
     }
 
     Image<Rgb> image;  ///< radiance, W m^-2 sr^-1

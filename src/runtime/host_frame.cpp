@@ -96,7 +96,7 @@ class HostFrame final : public RenderFrame {
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 
-    void keep_radii(std::vector<float> radii) override { radii_ = std::move(radii); }
+    void keep_radii(std::vector<float>&& radii) override { radii_ = std::move(radii); }
     float keep_lobes(const VplRecords& records) override {
         VplLobes<B> kept(records, surfaces_, job_.settings.glossy.least_alpha());
         lobes_ = std::move(kept.lobes);

@@ -123,7 +123,9 @@ class RenderFrame {
 
     /// Keeps the radii of the spheres around the VPLs to come, metres, by their index.
     /// @throws Error(unsupported) of frames without FrameFeature::spheres.
-    virtual void keep_radii(std::vector<float> /*radii*/) { throw without(FrameFeature::spheres); }
+    virtual void keep_radii(std::vector<float>&& /*radii*/) {
+        throw without(FrameFeature::spheres);
+    }
     /// Keeps the lobes of the VPLs that aggregate() makes of records; returns
     /// VplLobes::widened_share.
     /// @throws Error(unsupported) of frames without FrameFeature::lobes.

@@ -52,7 +52,7 @@ struct RenderJob {
 
     /// Calls use(surfaces) with the SurfaceTable of the scene's model, and returns what it returns.
     template <class Use>
-    auto with_surfaces(const Use& use) const {
+    [[nodiscard]] auto with_surfaces(const Use& use) const {
         return std::visit(use, surfaces);
     }
 

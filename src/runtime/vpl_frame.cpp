@@ -26,8 +26,8 @@ HostScheduler scheduler_of(const RenderSettings& settings) {
 }  // namespace
 
 struct VplFrame::Parts {
-    Parts(const Scene& scene, const RenderSettings& wanted, Monitor* monitor)
-        : settings(wanted),
+    Parts(const Scene& scene, RenderSettings wanted, Monitor* monitor)
+        : settings(std::move(wanted)),
           checked(scene, settings, monitor, std::launch::deferred),
           tracing(trace_on_host(checked.placed(), settings)),
           job(checked.placed(), settings),

@@ -10,6 +10,8 @@
 #include "support/catch.hpp"
 #include "support/test_sky.hpp"
 
+#include <utility>
+
 namespace {
 
 using mir::Lambert;
@@ -41,6 +43,8 @@ struct Floor {
 const mir::Ray down{{0.2f, 1, 0.3f}, {0, -1, 0}};
 const mir::Ray up{{0.2f, 1, 0.3f}, glm::normalize(Vec3(0.3f, 1, 0.2f))};
 
+using Tracer = decltype(std::declval<const Floor&>().tracer());
+
 }  // namespace
 
 TEST_CASE("a camera ray sees the surface that it meets") {
@@ -48,7 +52,7 @@ TEST_CASE("a camera ray sees the surface that it meets") {
     const mir::SeenLuxel seen = floor.tracer()(down);
     REQUIRE_FALSE(seen.is_background);
     CHECK(seen.ray.direction == down.direction);
-    const mir::Hit hit = floor.tracer().hit(seen);
+    const mir::Hit hit = Tracer::hit(seen);
     CHECK(hit.position == lift(seen.point));
     CHECK(hit.normal == Vec3(0, 1, 0));
     const auto surface = floor.tracer().surface(seen, floor.sky());
@@ -62,7 +66,7 @@ TEST_CASE("a camera ray that meets nothing sees the background, which emits") {
     const Floor floor;
     const mir::SeenLuxel seen = floor.tracer()(up);
     REQUIRE(seen.is_background);
-    CHECK(is_empty(floor.tracer().hit(seen)));
+    CHECK(is_empty(Tracer::hit(seen)));
     const auto surface = floor.tracer().surface(seen, floor.sky());
     CHECK(surface.emission == floor.sky().radiance(up.direction));
     CHECK_FALSE(is_black(surface.emission));

@@ -35,6 +35,8 @@ class InterleavedBlock {
 
  private:
     static constexpr std::uint32_t size = BlockedLayout::block_size;
+    template <class T>
+    using Planes = std::array<std::uint32_t, std::size_t{SoaView<T>::words} * size>;
 
     template <class T>
     static void copy(SoaView<T> from, std::uint32_t* to) {
@@ -43,8 +45,8 @@ class InterleavedBlock {
                 to[word * size + i] = from.planes[word * from.stride + swapped(i)];
     }
 
-    alignas(64) std::array<std::uint32_t, SoaView<Hit>::words * size> hits_;
-    alignas(64) std::array<std::uint32_t, SoaView<typename F::Surface>::words * size> surfaces_;
+    alignas(64) Planes<Hit> hits_;
+    alignas(64) Planes<typename F::Surface> surfaces_;
 };
 
 }  // namespace mir::blocks

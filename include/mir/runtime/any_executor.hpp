@@ -30,8 +30,9 @@ class AnyExecutor {
     template <class Body>
     void for_each(std::size_t n, Body&& body) {
         using Plain = std::remove_reference_t<Body>;
-        loop_(executor_, n, {std::addressof(body), [](const void* context, std::size_t i) {
-                                 (*static_cast<Plain*>(const_cast<void*>(context)))(i);
+        Plain* const at = std::addressof(body);
+        loop_(executor_, n, {&at, [](const void* context, std::size_t i) {
+                                 (**static_cast<Plain* const*>(context))(i);
                              }});
     }
     /// That of the executor beneath.

@@ -17,12 +17,12 @@ namespace mir {
 /// The scene, the VPLs and the luxels of one band come on top; the settings must be validated.
 [[nodiscard]] inline std::uint64_t picture_bytes(const RenderSettings& settings,
                                                  std::size_t layers) {
-    constexpr std::uint64_t film_sum = 8, color = 12, guides = 3 * 12 + 4, coverage = 4;
+    constexpr std::uint64_t film_sum = 8, color = 12, guides = 40, coverage = 4;
     const std::uint64_t pixel =
         film_sum * (1 + 3 * layers) + color * (layers + 1) + guides + coverage;
     const std::uint64_t film = saturating_mul(settings.image.area(), pixel);
     if (settings.integrator != Integrator::path) return film;
-    constexpr std::uint64_t moments = 6 * 8;
+    constexpr std::uint64_t moments = 48;
     const std::uint64_t bounces = settings.bounce_layers ? settings.bounce_limit() + 2u : 3u;
     const std::uint64_t luxel = moments * bounces + color * (layers + 1);
     const std::uint64_t luxels =

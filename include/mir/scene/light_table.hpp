@@ -36,7 +36,7 @@ class LightTable {
     }
     /// f(source) of a light, an index as sample_light() counts, as the LightSource that it is.
     template <class F>
-    auto visit(std::uint32_t light, const F& f) const {
+    [[nodiscard]] auto visit(std::uint32_t light, const F& f) const {
         return view().visit(geometry_->view(), light, f);
     }
 

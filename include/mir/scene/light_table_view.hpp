@@ -36,7 +36,8 @@ struct LightTableView {
     /// f(source) of a light as the LightSource that it is; the same type for all kinds. `geometry`
     /// is that of the scene. All that is done with any light goes through here.
     template <class F>
-    MIR_HD auto visit(const GeometryView<S>& geometry, std::uint32_t light, const F& f) const {
+    [[nodiscard]] MIR_HD auto visit(const GeometryView<S>& geometry, std::uint32_t light,
+                                    const F& f) const {
         if (light < lamps.count) return f(LampSource<S>{lamps, geometry, light});
         if (light < lamps.count + listed_count) return listed[light - lamps.count].visit(f);
         return f(EnvironmentSource<S>{environment, sphere});

@@ -10,7 +10,7 @@ namespace mir {
 
 template <Backend M, Bsdf B>
 void BackendFrame<M, B>::find_visible(FrameBand& band, Vpls vpls) {
-    auto& luxels = static_cast<Band&>(band);
+    auto& luxels = dynamic_cast<Band&>(band);
     UploadedVpls<M> there(machine_, vpls);
     const WaitAtEnd wait(queue_);
     there.send(queue_);

@@ -26,7 +26,7 @@ class AnySource {
 
     /// f(source) of the light as what it is; the same type for all kinds.
     template <class F>
-    MIR_HD auto visit(const F& f) const {
+    [[nodiscard]] MIR_HD auto visit(const F& f) const {
         return visit_from<F, Sources...>(f, kind_);
     }
 
@@ -38,7 +38,7 @@ class AnySource {
                                           is_it.begin());
     }
     template <class F, class First, class... Rest>
-    MIR_HD auto visit_from(const F& f, std::uint32_t kind) const {
+    [[nodiscard]] MIR_HD auto visit_from(const F& f, std::uint32_t kind) const {
         if constexpr (sizeof...(Rest) > 0)
             if (kind != 0) return visit_from<F, Rest...>(f, kind - 1);
         First source;
