@@ -24,7 +24,10 @@ namespace {
 using mir::InlineExecutor;
 using mir::RenderSettings;
 
-InlineExecutor executor;
+InlineExecutor& shared_executor() {
+    static InlineExecutor executor;
+    return executor;
+}
 
 /// The host, which has no memory while it is full.
 class FullBackend {
@@ -40,7 +43,7 @@ class FullBackend {
 
     explicit FullBackend(const int& times_full) : times_full_(&times_full) {}
 
-    [[nodiscard]] Queue queue() const { return Queue(executor); }
+    [[nodiscard]] Queue queue() const { return Queue(shared_executor()); }
     template <class T>
     [[nodiscard]] Buffer<T> buffer(std::size_t size) const {
         if (*times_full_ > 0)
