@@ -50,7 +50,7 @@ Scene corner();
 struct Entry {
     std::string_view name;         ///< what make() takes
     std::string_view description;  ///< one line of help
-    Scene (*make)();               ///< generates it anew, with the same bits each time
+    Scene (*make)();               ///< generates it, with the same bits each time
 };
 
 /// Every built-in scene, those of check_rooms.hpp too, in the order in which help lists them.

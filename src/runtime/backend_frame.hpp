@@ -138,6 +138,9 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] BackendLayer<M> layer_for(const Band& band) const {
         return {machine_, band.gbuffer.grid()};
     }
+    /// A layer that pass(luxels, words) makes of every tile.
+    template <class MakePass>
+    [[nodiscard]] LayerPtr layer_by(const FrameBand& band, const MakePass& pass);
     [[nodiscard]] LayerPtr light_known(const Band& band, Vpls vpls, VplKernel kernel,
                                        Monitor* monitor);
     [[nodiscard]] Image<Rgb> light_traced(const Band& band, Vpls vpls, VplKernel kernel,

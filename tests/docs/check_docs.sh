@@ -200,13 +200,13 @@ check_words() {
     done
 }
 
-# Lines of prose have at most 120 columns: all but those of tables and of blocks of code.
+# Lines of prose have at most 120 bytes: all but those of tables and of blocks of code.
 check_columns() {
     for page in $(pages); do
         awk '/^ *```/ { code = !code; print ""; next }
              { print code || /^ *\|/ || /^    / || /^<!--/ ? "" : $0 }' "$page" |
-            grep -nE '.{121}' | cut -d: -f1 | while read -r line; do
-                complain "$page:$line: more than 120 columns"
+            LC_ALL=C grep -nE '.{121}' | cut -d: -f1 | while read -r line; do
+                complain "$page:$line: more than 120 bytes"
             done
     done
 }

@@ -58,7 +58,7 @@ TEST_CASE("a directional light is a light source", "[statistical]") {
 TEST_CASE("an environment is a light source", "[statistical]") {
     const mir::EnvironmentTable sky(mirtest::test_sky());
     const mir::EnvironmentView<mir::Space::host> view = sky.view();
-    const mir::EnvironmentSource<mir::Space::host> source{view, {{1, 2, 3}, 1.5f}};
+    const mir::EnvironmentSource<mir::Space::host> source{{{{1, 2, 3}, 1.5f}}, view};
     check_light_source(source, {source.power(), {0, 0, 0}, {0, 1, 0}, 4});
 }
 

@@ -44,7 +44,7 @@ struct RenderStatistics {
     std::uint64_t residual_paths = 0;   ///< that traced back what the bound removed
     double residual_luminance = 0.0;    ///< mean over luxels of what they found
     std::optional<ShareEstimate> removed;  ///< by the bound, by paths, where measured
-    std::optional<ShareEstimate> cut;      ///< by the largest bounce, likewise
+    std::optional<ShareEstimate> cut;      ///< by the largest bounce, where measured
     std::optional<double> direct_noise;    ///< of a pixel, relative, where measured
     /// Light of discs against that of paths, before any correction, where it was measured.
     std::optional<LightDifference> gather_difference;

@@ -103,7 +103,7 @@ inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     if (!environment_.empty()) {
         const EnvironmentView<Space::host> around = environment_.view();
         power.push_back(detail::checked_power(
-            EnvironmentSource<Space::host>{around, sphere()}.power(),
+            EnvironmentSource<Space::host>{{sphere()}, around}.power(),
             "environment " + detail::in_quotes(scene.environment->name) + " emits"));
     }
     by_power_ = DiscreteDistribution(power);

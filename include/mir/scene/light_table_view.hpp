@@ -40,7 +40,7 @@ struct LightTableView {
                                     const F& f) const {
         if (light < lamps.count) return f(LampSource<S>{lamps, geometry, light});
         if (light < lamps.count + listed_count) return listed[light - lamps.count].visit(f);
-        return f(EnvironmentSource<S>{environment, sphere});
+        return f(EnvironmentSource<S>{{sphere}, environment});
     }
 };
 

@@ -62,29 +62,27 @@ LayerPtr BackendFrame<M, B>::black(const FrameBand& band) {
 }
 
 template <Backend M, Bsdf B>
-LayerPtr BackendFrame<M, B>::emission(const FrameBand& band) {
+template <class MakePass>
+LayerPtr BackendFrame<M, B>::layer_by(const FrameBand& band, const MakePass& pass) {
     const auto& gbuffer = of(band).gbuffer;
     BackendLayer<M> layer = layer_for(of(band));
     const WaitAtEnd wait(queue_);
     for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
         const auto view = gbuffer.view(t);
-        queue_.for_each(view.size(), EmissionPass{view, layer.tile(t)});
+        queue_.for_each(view.size(), pass(view, layer.tile(t)));
     }
     queue_.record().sync();
     return std::make_unique<Layer>(std::move(layer));
 }
 
 template <Backend M, Bsdf B>
+LayerPtr BackendFrame<M, B>::emission(const FrameBand& band) {
+    return layer_by(band, [](auto luxels, auto out) { return EmissionPass{luxels, out}; });
+}
+
+template <Backend M, Bsdf B>
 LayerPtr BackendFrame<M, B>::coverage(const FrameBand& band) {
-    const auto& gbuffer = of(band).gbuffer;
-    BackendLayer<M> layer = layer_for(of(band));
-    const WaitAtEnd wait(queue_);
-    for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
-        const auto view = gbuffer.view(t);
-        queue_.for_each(view.size(), CoveragePass{view, layer.tile(t)});
-    }
-    queue_.record().sync();
-    return std::make_unique<Layer>(std::move(layer));
+    return layer_by(band, [](auto luxels, auto out) { return CoveragePass{luxels, out}; });
 }
 
 }  // namespace mir

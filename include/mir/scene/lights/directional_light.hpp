@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/light_source.hpp"
 #include "mir/scene/bounds.hpp"
-#include "mir/scene/lights/bounding_sphere.hpp"
+#include "mir/scene/lights/outside_source.hpp"
 
 #include <optional>
 #include <string>
@@ -30,16 +29,13 @@ struct DirectionalLight {
 };
 
 /// A DirectionalLight as it is sampled. Model of LightSource.
-struct DirectionalSource {
-    /// How rays find it, see LightSource.
-    static constexpr LightOrigin origin = LightOrigin::outside;
+struct DirectionalSource : OutsideSource {
     /// Whether a point or a direction is drawn, see LightSource.
     static constexpr bool has_extent = false;
 
     Vec3 direction{0, -1, 0};       ///< unit, along which it shines
     Rgb irradiance;                 ///< W m^-2
     std::uint16_t light_group = 0;  ///< group that its light is counted in
-    BoundingSphere scene;           ///< through which it enters
 
     /// A point of it for a receiver, see LightSource.
     [[nodiscard]] MIR_HD LightPoint sample(Vec2 u, Vec3 /*from*/) const { return start(u, 0.0f); }
@@ -51,21 +47,6 @@ struct DirectionalSource {
         p.light_group = light_group;
         return p;
     }
-    /// A ray that leaves it, see LightSource.
-    [[nodiscard]] MIR_HD Ray ray(Vec3 /*from*/, Vec3 normal, Vec2 u) const {
-        return scene.ray(normal, u);
-    }
-    /// Density of ray() at a surface, m^-2, see LightSource.
-    [[nodiscard]] MIR_HD double ray_density(Vec3 /*normal*/, Vec3 /*w*/, float cosine,
-                                            float /*d2*/) const {
-        return scene.ray_density(cosine);
-    }
-    /// Factor of the emission along a direction, see LightSource.
-    [[nodiscard]] MIR_HD static float share(Vec3 /*normal*/, Vec3 /*w*/) { return 1.0f; }
-    /// Power of a light path, W, see LightSource.
-    [[nodiscard]] MIR_HD Rgb flux(const LightPoint& p, Vec3 /*w*/, float probability) const {
-        return scene.flux(p, probability);
-    }
     /// Luminance of the power that enters the scene, W.
     [[nodiscard]] double power() const {
         return luminance(irradiance) * pi * scene.radius * scene.radius;
@@ -74,7 +55,7 @@ struct DirectionalSource {
 
 /// The light as it is sampled.
 inline DirectionalSource source_of(const DirectionalLight& l, const BoundingSphere& scene) {
-    return {l.direction, l.irradiance, l.light_group, scene};
+    return {{scene}, l.direction, l.irradiance, l.light_group};
 }
 
 }  // namespace mir

@@ -13,8 +13,9 @@ struct NoFinder {
     NoFinder(const B& /*backend*/, std::uint32_t /*luxels*/, std::uint32_t /*vpls*/) {}
 };
 
-/// A pipeline whose tiles are on their way in a TileRing, but for submit(), which says in which
-/// order. A `Finder` other than NoFinder fills words of visibility, for which slots have room.
+/// A pipeline without submit(). Its tiles are on their way in a TileRing; submit() of a derived
+/// class says in which order. A `Finder` other than NoFinder fills words of visibility, for which
+/// slots have room.
 template <Backend B, class In, class Finder = NoFinder<B>>
 class TilePipeline {
  public:
