@@ -8,6 +8,14 @@
 namespace mir {
 namespace {
 
+/// Why the processor cannot render as the settings want: a sentence without its end.
+std::string reason_against_host(const RenderSettings& settings) {
+    if (settings.devices.numbers.empty()) return reason_against_tracing(settings);
+    return "GPUs were chosen by their numbers (the processor is none of them); leave --devices "
+           "out, "
+           "or use --backend cuda";
+}
+
 class CpuRenderer : public Renderer {
  public:
     CpuRenderer(std::string_view name, HostScheduler scheduler)
@@ -15,6 +23,8 @@ class CpuRenderer : public Renderer {
 
     RenderResult render(const Scene& scene, const RenderSettings& settings,
                         Monitor* monitor) const override {
+        if (const std::string reason = reason_against_host(settings); !reason.empty())
+            throw Error(ErrorCode::unsupported, reason);
         CheckedRender checked(scene, settings, monitor, std::launch::deferred);
         const HostTracing tracing = trace_on_host(checked.placed(), settings);
         RenderJob job(checked.placed(), settings);
@@ -34,7 +44,7 @@ class CpuRenderer : public Renderer {
 
 void add_cpu_to(Registry& registry) {
     Registry::Backend backend{BackendKind::cpu, "cpu", [] {}, "cpu-blocks", {}};
-    backend.refuses = reason_against_tracing;
+    backend.refuses = reason_against_host;
     for (const auto& [name, kind] : host_schedulers)
         backend.schedulers.emplace(
             name, [name = name, kind = kind] { return std::make_unique<CpuRenderer>(name, kind); });

@@ -69,12 +69,12 @@ RenderResult render_paths(RenderFrame& frame) {
     const std::vector<Image<Rgb>> images = layers_of(reference, by_bounce);
     const ImageBands bands(frame, 0);
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
-        const BandPtr band = bands.make(i);
+        const BandPtr band = bands.make(frame, i);
         std::vector<LayerPtr> layers;
         for (std::size_t l = 0; l < images.size(); ++l)
             layers.push_back(l == coverage_layer ? frame.coverage(*band)
                                                  : rows_of(images[l], *band));
-        frame.put(*band, std::move(layers));
+        frame.put(*band, std::move(layers), nullptr);
     }
     const auto stage = job.clock.measure(&StageSeconds::film);
     take_layers(frame.develop(), false, job.result, job.executor);
