@@ -6,6 +6,7 @@
 #include "frame/same_result.hpp"
 #include "mir/scenes.hpp"
 #include "runtime/host_frame.hpp"
+#include "runtime/render_paths.hpp"
 #include "runtime/render_vpls.hpp"
 #include "runtime/traced_scenes.hpp"
 #include "support/catch.hpp"
@@ -126,14 +127,29 @@ TEST_CASE("More frames than bands, stored visibility and passes change nothing")
     }
 }
 
-TEST_CASE("Frames of the host share spheres, lobes and light that is traced back") {
+TEST_CASE("Frames of the host share spheres, lobes, light that is traced back, and cuts") {
     RenderSettings s = small_picture();
     s.sampler = mir::SamplerKind::instant_radiosity;
     s.removed_layer = false;
     SECTION("spheres") { s.vsl.enabled = true; }
     SECTION("lobes") { s.glossy.enabled = true; }
     SECTION("traced back") { s.compensate = 4; }
+    SECTION("cuts") {
+        s.sum = mir::LightSum::cuts;
+        s.picks = 4;
+    }
     check_same(drawn(s, 2), drawn_by_one(s));
+}
+
+TEST_CASE("Frames of the host share paths") {
+    RenderSettings s = small_picture();
+    s.integrator = mir::Integrator::path;
+    s.path.samples = 1;
+    s.removed_layer = false;
+    Picture one(s);
+    Picture two(s);
+    mir::SplitFrame frame = two.split(2);
+    check_same(mir::render_paths(frame), mir::render_paths(*one.frame()));
 }
 
 TEST_CASE("A band goes to the same frame in every loop, and turns come from top to bottom") {
