@@ -9,14 +9,6 @@
 namespace mir {
 namespace {
 
-/// Why the processor cannot render as the settings want: a sentence without its end.
-std::string reason_against_host(const RenderSettings& settings) {
-    if (settings.devices.numbers.empty()) return reason_against_tracing(settings);
-    return "GPUs were chosen by their numbers (the processor is none of them); leave --devices "
-           "out, "
-           "or use --backend cuda";
-}
-
 class CpuRenderer : public Renderer {
  public:
     CpuRenderer(std::string_view name, HostScheduler scheduler)
@@ -24,8 +16,6 @@ class CpuRenderer : public Renderer {
 
     RenderResult render(const Scene& scene, const RenderSettings& wanted,
                         Monitor* monitor) const override {
-        if (const std::string reason = reason_against_host(wanted); !reason.empty())
-            throw Error(ErrorCode::unsupported, reason);
         const RenderSettings settings = with_light_sum(wanted, host_features);
         CheckedRender checked(scene, settings, monitor, std::launch::deferred);
         const HostTracing tracing = trace_on_host(checked.placed(), settings);
@@ -46,7 +36,7 @@ class CpuRenderer : public Renderer {
 
 void add_cpu_to(Registry& registry) {
     Registry::Backend backend{BackendKind::cpu, "cpu", [] {}, "cpu-blocks", {}};
-    backend.refuses = reason_against_host;
+    backend.refuses = reason_against_tracing;
     for (const auto& [name, kind] : host_schedulers)
         backend.schedulers.emplace(
             name, [name = name, kind = kind] { return std::make_unique<CpuRenderer>(name, kind); });
