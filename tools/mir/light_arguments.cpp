@@ -147,6 +147,10 @@ void add_sampling(CLI::App& app, mir::RenderSettings& s) {
         "Numbers behind the light paths (default random)");
     app.add_option("--vpls", s.vpls, "Geometric VPLs wanted (default 1024)")
         ->check(between(1, 4e6, "1 to 4000000"));
+    add_choice<mir::LightSum>(
+        app, "--sum", s.sum, {{"all", mir::LightSum::all}, {"cuts", mir::LightSum::cuts}},
+        "VPLs that a luxel gathers: all (default), or a few of many, picked from cuts of a tree");
+    add_count(app, "--picks", s.picks, 1, 65536, "VPLs of a luxel with --sum cuts (default 256)");
     add_choice<mir::DirectLight>(
         app, "--direct", s.direct,
         {{"separate", mir::DirectLight::separate}, {"vpl", mir::DirectLight::vpl}},

@@ -91,6 +91,12 @@ enum class SamplerKind {
     metropolis          ///< a Markov chain over whole paths
 };
 
+/// Which VPLs a luxel gathers.
+enum class LightSum {
+    all,  ///< every one
+    cuts  ///< one of each node of a cut of their tree (reconstruct_cuts()), whose mean is that sum
+};
+
 /// How direct light reaches the image.
 enum class DirectLight {
     separate,  ///< next-event samples per luxel (default); delta lights exactly
@@ -134,10 +140,14 @@ struct RenderSettings {
     PathSettings path{};                            ///< of Integrator::path
     MicroSettings micro{};                          ///< of Integrator::micro
     std::uint32_t vpls = 1024;                      ///< wanted geometric VPLs
+    LightSum sum = LightSum::all;                   ///< of them, at each luxel
+    std::uint32_t picks = 256;                      ///< most VPLs of a luxel, of LightSum::cuts
     SamplerKind sampler = SamplerKind::metropolis;  ///< of Integrator::vpl
-    NormalisationPolicy normalisation = NormalisationPolicy::full;  ///< of samplers that need one
-    std::uint32_t prepass_luxels = 4096;                            ///< of policy `prepass`
-    MetropolisTuning metropolis{};                                  ///< of SamplerKind::metropolis
+    /// Of samplers that need one. With LightSum::cuts `full` is `proposal`: the response of all
+    /// luxels would meet the pairs that cuts leave out.
+    NormalisationPolicy normalisation = NormalisationPolicy::full;
+    std::uint32_t prepass_luxels = 4096;  ///< of policy `prepass`
+    MetropolisTuning metropolis{};        ///< of SamplerKind::metropolis
     bool vpl_roulette = false;  ///< instant radiosity keeps VPLs by what they give to the image
     Termination termination = Termination::roulette;  ///< of light paths
     Sequence sequence = Sequence::random;             ///< of SamplerKind::instant_radiosity
@@ -183,6 +193,18 @@ struct RenderSettings {
     /// Largest number of scattering events of the light that VPLs or discs bring.
     [[nodiscard]] std::uint8_t bounce_limit() const { return max_bounce.value_or(32); }
 
+    /// The policy that counts.
+    [[nodiscard]] NormalisationPolicy normalisation_policy() const {
+        return sum == LightSum::cuts && normalisation == NormalisationPolicy::full
+                   ? NormalisationPolicy::proposal
+                   : normalisation;
+    }
+
+    /// VPLs that each luxel gathers, at most.
+    [[nodiscard]] std::uint32_t gathered_vpls() const {
+        return sum == LightSum::cuts && picks < vpls ? picks : vpls;
+    }
+
     /// Next-event samples of one luxel: those of the pixel shared out, at least one.
     [[nodiscard]] std::uint32_t direct_samples_per_luxel() const {
         return (direct_samples + luxels_per_pixel - 1) / luxels_per_pixel;
@@ -194,9 +216,11 @@ struct RenderSettings {
     }
 };
 
-/// Luxels of the image times VPLs: the contributions of a pass, in a number that does not overflow.
+/// Luxels of the image times VPLs that each gathers: the contributions of a pass, in a number that
+/// does not overflow.
 [[nodiscard]] inline double pairs(const RenderSettings& settings) {
-    return static_cast<double>(settings.image.area()) * settings.luxels_per_pixel * settings.vpls;
+    return static_cast<double>(settings.image.area()) * settings.luxels_per_pixel *
+           settings.gathered_vpls();
 }
 
 }  // namespace mir
