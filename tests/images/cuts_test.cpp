@@ -80,6 +80,30 @@ TEST_CASE("threads, tiles, scheduler and room for visibility change no bit of th
     }
 }
 
+TEST_CASE("cuts are chosen for many VPLs, where nothing needs all of them") {
+    const mir::Scene scene = mir::builtin::make("cornell-box");
+    const auto picks_of = [&](mir::RenderSettings s) {
+        s.sum = mir::LightSum::automatic;
+        const mir::RenderStatistics found = render(scene, s).statistics;
+        return found.contributions / found.luxels;
+    };
+    mir::RenderSettings s = cuts(mir::most_vpls_summed, 4);
+    s.image = {4, 4};
+    CHECK(picks_of(s) > 4);
+    ++s.vpls;
+    CHECK(picks_of(s) == 4);
+    s.removed_layer = true;
+    CHECK(picks_of(s) > 4);
+}
+
+TEST_CASE("the chosen sum has the bits of the one that it is") {
+    const mir::Scene scene = mir::builtin::make("cornell-box");
+    mir::RenderSettings s = cuts(mir::most_vpls_summed + 1, 4);
+    const mir::RenderResult wanted = render(scene, s);
+    s.sum = mir::LightSum::automatic;
+    CHECK(mirtest::same_bits(render(scene, s).beauty, wanted.beauty));
+}
+
 TEST_CASE("cuts say what they did") {
     const mir::Scene scene = mir::builtin::make("cornell-box");
     mir::RenderSettings s = cuts(500, 20);

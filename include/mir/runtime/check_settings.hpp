@@ -74,7 +74,7 @@ inline void check_glossy(const RenderSettings& s) {
 /// Cuts stand for points under a bound, of VPLs whose light is known before luxels are met.
 inline void check_cuts(const RenderSettings& s) {
     expects(s.picks >= 1 && s.picks <= 65536,
-            "VPLs that a luxel picks must be 1 to 65536; 256 are usual");
+            "VPLs that a luxel picks must be 1 to 65536; 128 are usual");
     if (s.sum != LightSum::cuts) return;
     expects(s.integrator == Integrator::vpl,
             "only VPLs are cut (there are none); leave --sum out or use --integrator vpl");
