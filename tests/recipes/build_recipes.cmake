@@ -22,7 +22,7 @@ run(ignored sh ${copy}/tests/layers/check_public.sh ${copy})
 
 # Those of the patches, and those of the tree that ask about what they add.
 foreach(test IN ITEMS "Minnaert" "disc light" "OFF files" "first hits" "sched::VplByVpl" "backend of threads"
-                      "host scheduler" "scene_files.md shows" "comes back from its file")
+                      "scene_files.md shows" "comes back from its file")
     run(ignored ${SCRATCH}/build/bin/test_recipes --warn NoTests "*${test}*")
 endforeach()
 

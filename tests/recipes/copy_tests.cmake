@@ -6,7 +6,6 @@ include(MirTesting)
 
 mir_add_test(test_recipes
     concepts/bsdf_test.cpp
-    frame/host_schedulers_test.cpp
     io/features_page_test.cpp
     io/gltf_writer_test.cpp
     io/mesh_features_test.cpp
