@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""A scene at a size: how `mir` is called for each of its pictures."""
+import dataclasses
+import pathlib
+
+import measure
+
+LAYERS = {"whole": "", "indirect": "indirect"}  # what is measured, and its layer in the EXR
+
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    mir: str
+    scene: str  # file or builtin:NAME
+    width: int
+    height: int
+    options: tuple  # of every picture, references included
+    environment: tuple  # options of it
+    hash: str  # of the scene
+
+    @property
+    def name(self):
+        stem = self.scene.removeprefix("builtin:")
+        return f"{pathlib.Path(stem).stem}-{self.width}x{self.height}"
+
+    @property
+    def key(self):
+        """Everything that changes all of its pictures."""
+        return [self.hash, self.width, self.height, *self.options]
+
+    def render(self, picture, options, layers="indirect"):
+        """The command line of a picture. A box filter, which every renderer has alike."""
+        return [self.mir, "render", self.scene, "-o", picture, "--no-png", "--quiet",
+                "--aov", layers, "--filter", "box", "--width", self.width,
+                "--height", self.height, *self.environment, *self.options, *options]
+
+
+def make_job(mir, scene, size, options, environment):
+    """Reads the scene once, for its hash."""
+    found = measure.run_json([mir, "info", scene, "--json", *environment])
+    return Job(mir, scene, *size, tuple(options), tuple(environment), found["scene_hash"])
