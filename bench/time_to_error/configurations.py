@@ -34,21 +34,22 @@ def of_mir(name, group, values, options, denoise=False):
 def all_pairs():
     for luxels in (1, 4):
         yield of_mir(f"all pairs, luxels {luxels}", "all pairs", (64, 256, 1024, 4096, 16384),
-                     f"--luxels {luxels} --vpls {GROWING}")
+                     f"--sum all --luxels {luxels} --vpls {GROWING}")
     yield of_mir("all pairs, luxels 4, direct samples 256", "all pairs", (256, 1024, 4096, 16384),
-                 f"--luxels 4 --direct-samples 256 --vpls {GROWING}")
+                 f"--sum all --luxels 4 --direct-samples 256 --vpls {GROWING}")
     yield of_mir("all pairs, luxels 4, denoised", "all pairs, denoised", (64, 256, 1024, 4096),
-                 f"--luxels 4 --vpls {GROWING}", denoise=True)
+                 f"--sum all --luxels 4 --vpls {GROWING}", denoise=True)
 
 
 def cuts():
-    vpls = (1024, 4096, 16384, 65536, 262144)
-    for luxels in (1, 4):
-        for picks in (16, 64, 256):
-            yield of_mir(f"cuts, luxels {luxels}, picks {picks}", "cuts", vpls,
-                         f"--sum cuts --luxels {luxels} --picks {picks} --vpls {GROWING}")
-    yield of_mir("cuts, luxels 4, picks 16, denoised", "cuts, denoised", vpls,
-                 f"--sum cuts --luxels 4 --picks 16 --vpls {GROWING}", denoise=True)
+    vpls = (4096, 16384, 65536, 262144, 1048576)
+    for sampler, luxels, picks in (("ir", 1, 16), ("ir", 1, 64), ("ir", 1, 256), ("ir", 4, 16),
+                                   ("ir", 4, 64), ("ir", 4, 256), ("mir", 4, 64)):
+        yield of_mir(f"cuts by {sampler}, luxels {luxels}, picks {picks}", "cuts", vpls,
+                     f"--sum cuts --sampler {sampler} --luxels {luxels} --picks {picks} "
+                     f"--vpls {GROWING}")
+    yield of_mir("cuts by ir, luxels 4, picks 16, denoised", "cuts, denoised", vpls,
+                 f"--sum cuts --sampler ir --luxels 4 --picks 16 --vpls {GROWING}", denoise=True)
 
 
 def paths():
