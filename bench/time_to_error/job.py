@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """A scene at a size: how `mir` is called for each of its pictures."""
 import dataclasses
+import hashlib
 import pathlib
+import shutil
 
 import measure
 
@@ -17,6 +19,7 @@ class Job:
     options: tuple  # of every picture, references included
     environment: tuple  # options of it
     hash: str  # of the scene
+    program: str  # fingerprint of mir, whose seconds change with it
 
     @property
     def name(self):
@@ -38,4 +41,5 @@ class Job:
 def make_job(mir, scene, size, options, environment):
     """Reads the scene once, for its hash."""
     found = measure.run_json([mir, "info", scene, "--json", *environment])
-    return Job(mir, scene, *size, tuple(options), tuple(environment), found["scene_hash"])
+    program = hashlib.sha256(pathlib.Path(shutil.which(mir)).read_bytes()).hexdigest()[:16]
+    return Job(mir, scene, *size, tuple(options), tuple(environment), found["scene_hash"], program)

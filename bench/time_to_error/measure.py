@@ -9,7 +9,7 @@ import time
 
 
 class Failed(Exception):
-    """A program ended with an error; the message is its last line."""
+    """A program did not start or ended with an error, whose last line is the message."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,11 +24,19 @@ class Cost:
                     max(self.megabytes, other.megabytes))
 
 
+def start(command, out, err):
+    try:
+        return subprocess.Popen([str(word) for word in command], stdout=out, stderr=err)
+    except OSError as error:
+        raise Failed(f"{command[0]}: {error.strerror.lower()} (it cannot be started); give the "
+                     "program by --mir") from error
+
+
 def run(command):
     """Runs a program to its end. Returns its cost and its standard output."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         begin = time.perf_counter()
-        process = subprocess.Popen([str(word) for word in command], stdout=out, stderr=err)
+        process = start(command, out, err)
         _, status, usage = os.wait4(process.pid, 0)
         wall = time.perf_counter() - begin
         process.returncode = os.waitstatus_to_exitcode(status)

@@ -5,7 +5,8 @@
 Draws each scene by each configuration with more and more VPLs or paths, and compares every picture
 with two references of the path tracer. Writes into a folder: measurements.csv, time_to_error.md
 with the seconds to each level, time_to_error.svg, and references/, which a later run uses again.
-A run that was stopped goes on where it was when it is started again with the same options.
+A run that was stopped goes on where it was when it is started again with the same options and the
+same program.
 """
 import argparse
 import pathlib
@@ -133,7 +134,8 @@ class SceneStudy:
 
     def _picture_rows(self, configuration, value, seed):
         key = "|".join(str(word) for word in
-                       (*self._job.key, *self._references.names(), *configuration.options))
+                       (self._job.program, *self._job.key, *self._references.names(),
+                        *configuration.options))
         wanted = (key, configuration.name, value, seed)
         known = self._study.known(wanted)
         if known:

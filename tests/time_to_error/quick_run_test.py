@@ -78,6 +78,7 @@ class QuickRun(unittest.TestCase):
         self.assertIn("--only", run(self.output, "--quick", "--only", "nothing").stderr)
         self.assertIn("'a'", run(self.output, "--quick", "--add", "a").stderr)
         self.assertNotEqual(run(self.output, "builtin:none", "--only", "path").returncode, 0)
+        self.assertIn("--mir", run(self.output, "--quick", "--mir", "/no/such").stderr)
 
 
 if __name__ == "__main__":
