@@ -16,6 +16,7 @@ class Job:
     scene: str  # file or builtin:NAME
     width: int
     height: int
+    backend: str
     options: tuple  # of every picture, references included
     environment: tuple  # options of it
     hash: str  # of the scene
@@ -29,17 +30,19 @@ class Job:
     @property
     def key(self):
         """Everything that changes all of its pictures."""
-        return [self.hash, self.width, self.height, *self.options]
+        return [self.hash, self.width, self.height, self.backend, *self.options]
 
     def render(self, picture, options, layers="indirect"):
         """The command line of a picture. A box filter, which every renderer has alike."""
         return [self.mir, "render", self.scene, "-o", picture, "--no-png", "--quiet",
                 "--aov", layers, "--filter", "box", "--width", self.width,
-                "--height", self.height, *self.environment, *self.options, *options]
+                "--height", self.height, "--backend", self.backend,
+                *self.environment, *self.options, *options]
 
 
-def make_job(mir, scene, size, options, environment):
+def make_job(mir, scene, size, backend, options, environment):
     """Reads the scene once, for its hash."""
     found = measure.run_json([mir, "info", scene, "--json", *environment])
     program = hashlib.sha256(pathlib.Path(shutil.which(mir)).read_bytes()).hexdigest()[:16]
-    return Job(mir, scene, *size, tuple(options), tuple(environment), found["scene_hash"], program)
+    return Job(mir, scene, *size, backend, tuple(options), tuple(environment),
+               found["scene_hash"], program)

@@ -36,7 +36,8 @@ def arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="*", help="builtin:NAME or a file; default: cornell-box")
     parser.add_argument("--mir", default="mir", help="the program (default: mir)")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("out/time_to_error"),
+    parser.add_argument("-o", "--output", type=pathlib.Path,
+                        default=pathlib.Path("out/time_to_error"),
                         help="folder (default: out/time_to_error)")
     parser.add_argument("--size", type=size, default=(240, 240), help="default: 240x240")
     parser.add_argument("--reference-paths", type=int, default=4096,
@@ -50,8 +51,8 @@ def arguments():
     parser.add_argument("--add", action="append", default=[], metavar="NAME:VALUES:OPTIONS",
                         help="a further one, as 'cuts 32: 1024,4096: --sum cuts --picks 32 "
                              "--vpls {}'; those of a name up to its first comma are a group")
-    parser.add_argument("--options", default="--backend cpu",
-                        help="of every mir render (default: --backend cpu)")
+    parser.add_argument("--backend", default="cpu", help="of mir (default: cpu)")
+    parser.add_argument("--options", default="", help="of every mir render")
     parser.add_argument("--environment", default="", metavar="OPTIONS",
                         help="--environment FILE and what belongs to it")
     parser.add_argument("--levels", default=",".join(f"{v:g}" for v in tables.LEVELS))
@@ -183,8 +184,8 @@ def main():
     study = Study(options.output)
     results, left_out = {}, []
     for name in options.scene:
-        job = jobs.make_job(options.mir, name, options.size, shlex.split(options.options),
-                            shlex.split(options.environment))
+        job = jobs.make_job(options.mir, name, options.size, options.backend,
+                            shlex.split(options.options), shlex.split(options.environment))
         scene = SceneStudy(study, job, options, missing)
         rows, absent = measure_scene(scene, wanted)
         left_out += [(name, *one) for one in absent]
