@@ -28,8 +28,12 @@ void add_compare(CLI::App& app, CompareOptions& o) {
     app.add_option("reference", o.reference, "OpenEXR picture to compare it with")
         ->required()
         ->type_name("FILE");
+    app.add_option("--second-reference", o.second_reference,
+                   "Independent second reference, whose noise and the first's then cancel in the "
+                   "scaled relMSE")
+        ->type_name("FILE");
     app.add_option("--layer", o.layer,
-                   "Layer to compare in both files (default: the picture itself)")
+                   "Layer to compare in all files (default: the picture itself)")
         ->type_name("NAME");
     add_compare_output(app, o);
     begin_group(app, "Limits (beyond one the exit code is 1)");

@@ -36,8 +36,10 @@ void add_sampler(CLI::App& app, mir::RenderSettings& s) {
                s.vpl_roulette = found->second.vpl_roulette;
            },
            "How VPLs are placed: mir, where they matter to the image, by Metropolis sampling "
-           "(default); bir, where they matter, by paths from both ends; ir, wherever light goes "
-           "(instant radiosity); roulette, the same, kept by what they give to the image; keller, "
+           "(default but with --sum cuts); bir, where they matter, by paths from both ends; ir, "
+           "wherever light goes "
+           "(instant radiosity, default with --sum cuts); roulette, the same, kept by what they "
+           "give to the image; keller, "
            "a fixed share survives each bounce")
         ->type_name("mir|bir|ir|roulette|keller");
 }
@@ -54,9 +56,8 @@ void add_chains(CLI::App& app, mir::RenderSettings& s) {
         "on a few (prepass), or while sampling (proposal)");
     add_count(app, "--prepass-luxels", s.prepass_luxels, 1, 1 << 24,
               "Luxels of --normalise prepass (default 4096)");
-    add_count(app, "--chains", m.chains, 1, 65536,
-              "Markov chains, no more than VPLs: as many VPLs are independent draws, further ones "
-              "mutations of those (default 4096)");
+    add_count(app, "--chains", m.chains, 1, 1 << 22,
+              "Markov chains at most (default: as many as VPLs)");
     add_count(app, "--stride", m.stride, 1, 1 << 20,
               "Mutations from one recorded state to the next (default 64)");
     add_count(app, "--tries", m.chain.tries, 1, 254, "Candidates of a large step (default 8)");
@@ -139,10 +140,18 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
                                  "measure, at 2048 places; correct, in the picture too (default)");
 }
 
+/// Fills in what --sum cuts leaves open: light paths bring many VPLs at next to no cost.
+void choose_for_cuts(const CLI::App& app, mir::RenderSettings& s) {
+    if (s.sum != mir::LightSum::cuts) return;
+    if (app.count("--vpls") == 0) s.vpls = 1u << 18;
+    if (app.count("--sampler") == 0) s.sampler = mir::SamplerKind::instant_radiosity;
+}
+
 void add_sampling(CLI::App& app, mir::RenderSettings& s) {
     begin_group(app, "Light");
     app.add_option("--vpls", s.vpls,
-                   "Virtual point lights wanted: more give smoother light (default 1024)")
+                   "Virtual point lights wanted: more give smoother light (default 1024; 262144 "
+                   "with --sum cuts)")
         ->check(between(1, 4e6, "1 to 4000000"));
     add_sampler(app, s);
     add_choice<mir::Integrator>(app, "--integrator", s.integrator,
@@ -156,11 +165,14 @@ void add_sampling(CLI::App& app, mir::RenderSettings& s) {
         {{"random", mir::Sequence::random}, {"halton", mir::Sequence::halton}},
         "Numbers behind the light paths of --sampler ir and keller (default random)");
     add_choice<mir::LightSum>(
-        app, "--sum", s.sum, {{"all", mir::LightSum::all}, {"cuts", mir::LightSum::cuts}},
-        "VPLs that a luxel gathers: all (default), or a few of many, picked from cuts of a tree "
-        "(cuts)");
-    add_count(app, "--picks", s.picks, 1, 65536,
-              "Most VPLs of a luxel with --sum cuts (default 256)");
+        app, "--sum", s.sum,
+        {{"auto", mir::LightSum::automatic},
+         {"all", mir::LightSum::all},
+         {"cuts", mir::LightSum::cuts}},
+        "VPLs that a luxel gathers: all; a few of many, picked from cuts of a tree (cuts); or what "
+        "suits their number (auto, default)");
+    add_count(app, "--picks", s.picks, 1, 65536, "VPLs of a luxel by cuts (default 128)");
+    app.parse_complete_callback([&app, &s] { choose_for_cuts(app, s); });
     add_choice<mir::DirectLight>(
         app, "--direct", s.direct,
         {{"separate", mir::DirectLight::separate}, {"vpl", mir::DirectLight::vpl}},
