@@ -99,7 +99,7 @@ RenderResult DiscRender<B>::run() {
     check_picture(job_.settings, std::size_t{first_bounce_layer} + bounces);
     const ImageBands bands(frame_, 0);
     if (job_.settings.measure_missing) {
-        const auto stage = job_.clock.measure(&StageSeconds::ledger);
+        const auto stage = job_.clock.measure(&StageSeconds::light_budget);
         s.direct_noise = direct_noise(frame_, job_.settings.direct_samples_per_luxel());
     }
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
@@ -169,7 +169,7 @@ auto DiscRender<B>::light(const Discs& discs) -> std::vector<Radiance> {
 /// what that changes is found along the rays of the gather, the rest along those of the paths.
 template <Bsdf B>
 void DiscRender<B>::check(const Sources& sources) {
-    const auto stage = job_.clock.measure(&StageSeconds::ledger);
+    const auto stage = job_.clock.measure(&StageSeconds::light_budget);
     const IndirectProbes<B> probes(job_, surfaces_, rays_);
     const SurfelPlaces& places = *sources.discs.places;
     const Radiance sum = sum_of(sources.light);

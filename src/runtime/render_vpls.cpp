@@ -97,7 +97,7 @@ void keep_lobes(RenderFrame& frame, const VplRecords& records, bool normalised) 
 void measure_what_is_missing(RenderFrame& frame, float bound) {
     RenderJob& job = frame.job();
     if (!job.settings.measure_missing || !frame.traits().on_host) return;
-    const auto stage = job.clock.measure(&StageSeconds::ledger);
+    const auto stage = job.clock.measure(&StageSeconds::light_budget);
     job.result.statistics.direct_noise = direct_noise(frame, direct_samples_of_luxel(job.settings));
     const bool bounded =
         job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
@@ -117,7 +117,7 @@ void add_mean(RenderFrame& frame, const FrameLayer& layer, double RenderStatisti
 /// The light that the bound removed from a band, by the VPLs.
 LayerPtr removed_light(RenderFrame& frame, const FrameBand& band, const VplLight& light) {
     const RenderJob& job = frame.job();
-    const auto stage = job.clock.measure(&StageSeconds::ledger);
+    const auto stage = job.clock.measure(&StageSeconds::light_budget);
     if (job.settings.bound.kind == BoundPolicy::Kind::none || job.settings.vsl.enabled)
         return frame.black(band);
     LayerPtr removed = light.removed(frame, band);
@@ -150,7 +150,7 @@ void render_band(RenderFrame& frame, const FrameBand& band, float bound, const V
         light.append_layers(frame, band, job.monitor, layers);
     }
     {
-        const auto stage = job.clock.measure(&StageSeconds::ledger);
+        const auto stage = job.clock.measure(&StageSeconds::light_budget);
         add_mean(frame, *layers[indirect_layer], &RenderStatistics::indirect_luminance);
     }
     LayerPtr removed = removed_light(frame, band, light);
