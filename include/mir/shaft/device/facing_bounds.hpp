@@ -5,7 +5,7 @@
 #include "mir/data/luxel.hpp"
 #include "mir/data/soa.hpp"
 #include "mir/data/vpl.hpp"
-#include "mir/shaft/exact/segment_forms.hpp"
+#include "mir/shaft/exact/shadow_planes.hpp"
 
 #include <limits>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mir/shaft/exact/cluster_record.hpp"
-#include "mir/shaft/exact/segment_forms.hpp"
+#include "mir/shaft/exact/shadow_planes.hpp"
 
 namespace mir {
 
@@ -148,16 +148,16 @@ MIR_HD inline EdgeMargins edge_margins(const TriangleRows& rows, const Pyramid& 
 /// edges (positive). S is the VPL's depth, s'(p) the distance of p beyond the plane. With
 ///   U(p) = u(q) s'(p) + S u(p), V(p) = v(q) s'(p) + S v(p), W(p) = s'(p) + S - U(p) - V(p)
 /// the segment to p crosses inside when none is negative. They are affine in p, so their ranges
-/// over a box are known. Fills `forms`; inside it asks for `hit` of the margins.
+/// over a box are known. Fills `planes`; inside it asks for `hit` of the margins.
 MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
                                   const AffineForm& beyond, const ApexRows& apex,
-                                  EdgeMargins margins, float hit, SegmentForms& forms) {
+                                  EdgeMargins margins, float hit, ShadowPlanes& planes) {
     const AffineForm u = combine(apex.u, beyond, apex.depth, affine_form(rows.u, p));
     const AffineForm v = combine(apex.v, beyond, apex.depth, affine_form(rows.v, p));
     const AffineForm d{strict::add(beyond.value, apex.depth), beyond.slope};
     const AffineForm w = subtract(subtract(d, u), v);
-    forms = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), row_from_centre(w),
-             margins};
+    planes = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), row_from_centre(w),
+              margins};
     const SureSign edge_u = sure_sign(u, p.half, margins.u, hit * margins.u);
     const SureSign edge_v = sure_sign(v, p.half, margins.v, hit * margins.v);
     const SureSign edge_w = sure_sign(w, p.half, margins.w, hit * margins.w);
@@ -173,11 +173,11 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
 /// the triangle's plane.
 /// Source: Reshetov, "Faster ray packets - triangle intersection through vertex culling", 2007,
 /// turned round: affine functions of the triangle over the base in place of planes over vertices.
-/// `forms` say what is sure of single segments: where the apex is that near, misses by the plane
+/// `planes` say what is sure of single segments: where the apex is that near, misses by the plane
 /// alone.
 template <class Margins = OcclusionMargins>
 [[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p,
-                                         SegmentForms& forms) {
+                                         ShadowPlanes& planes) {
     const float s = row_at(rows.s, p.apex);
     const float depth = fabsf(s);
     const bool is_near = !(depth > p.sigma);
@@ -191,7 +191,7 @@ template <class Margins = OcclusionMargins>
     const float sigma = is_near ? INFINITY : Margins::edge * p.sigma;
     const EdgeMargins margins = detail::edge_margins(rows, p, apex, sigma);
     const detail::SureSign edges =
-        detail::sure_edges(rows, p, beyond, apex, margins, Margins::hit_share, forms);
+        detail::sure_edges(rows, p, beyond, apex, margins, Margins::hit_share, planes);
     // Sums of products that overflow have any sign.
     const bool is_bounded = margins.w <= EdgeMargins::largest;
     if (is_near) return Occlusion::partial;
@@ -202,8 +202,8 @@ template <class Margins = OcclusionMargins>
 /// The same where single segments are not asked about.
 template <class Margins = OcclusionMargins>
 [[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p) {
-    SegmentForms forms;
-    return occlusion<Margins>(rows, p, forms);
+    ShadowPlanes planes;
+    return occlusion<Margins>(rows, p, planes);
 }
 
 }  // namespace mir
