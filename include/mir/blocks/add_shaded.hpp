@@ -42,11 +42,11 @@ struct WaysAhead {
     /// Sets those of luxel `k`.
     template <DistanceShading F>
     [[gnu::always_inline]] void find(std::uint32_t k, const Hit& hit, const Vpl& vpl) {
-        const Vec3 way = vpl.position - hit.position;
-        x.at[k] = way.x;
-        y.at[k] = way.y;
-        z.at[k] = way.z;
-        inverse.at[k] = F::inverse_distance(way);
+        const Vec3 offset = vpl.position - hit.position;
+        x.at[k] = offset.x;
+        y.at[k] = offset.y;
+        z.at[k] = offset.z;
+        inverse.at[k] = F::inverse_distance(offset);
     }
 };
 
@@ -75,10 +75,10 @@ template <std::uint32_t First, std::uint32_t Lanes, Shading F>
     for (std::uint32_t k = 0; k < Lanes; ++k) {
         Rgb c;
         if constexpr (DistanceShading<F>) {
-            const Vec3 way{ahead.x.at[k], ahead.y.at[k], ahead.z.at[k]};
+            const Vec3 offset{ahead.x.at[k], ahead.y.at[k], ahead.z.at[k]};
             const float inverse = ahead.inverse.at[k];
             ahead.find<F>(k, hits.load(k), next);
-            c = shade.at_distance(hits.load(k), surfaces.load(k), vpl, way, inverse);
+            c = shade.at_distance(hits.load(k), surfaces.load(k), vpl, offset, inverse);
         } else {
             c = shade(hits.load(k), surfaces.load(k), vpl);
         }

@@ -99,7 +99,7 @@ struct LuxelBlock : Hits {
           surfaces(starting_at(tile_surfaces, first_luxel(b))) {}
 };
 
-/// Positions of a group as the packet face of Visibility wants them.
+/// Positions of a group as the packet interface of Visibility wants them.
 inline void load_points(SoaView<const Hit> group, PointPacket& points) {
     for (std::uint32_t k = 0; k < group_size; ++k) {
         const Vec3 p = group.load(k).position;

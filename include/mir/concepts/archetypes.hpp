@@ -84,7 +84,7 @@ struct DeviceVisibility : Value {
     [[nodiscard]] bool visible(Vec3, Vec3) const { return true; }
 };
 
-/// Visibility with the packet face.
+/// Visibility with the packet interface.
 struct PacketVisibility : Visibility {
     using Visibility::Visibility;
 
@@ -95,7 +95,7 @@ struct PacketVisibility : Visibility {
     }
 };
 
-/// Visibility with the block face.
+/// Visibility with the block interface.
 struct BlockVisibility : PacketVisibility {
     using PacketVisibility::PacketVisibility;
     using Block = Pinned;  ///< what block() finds: nothing

@@ -25,8 +25,8 @@ concept ShortRayCaster = RayCaster<R> && requires(const R r, Ray ray, float reac
     { r.closest_hit(ray, reach) } -> std::same_as<std::optional<SurfacePoint>>;
 };
 
-/// The face of a RayCaster for kernels, which know no std::optional: find_point() writes what the
-/// ray sees first and says whether that is something.
+/// The interface of a RayCaster for kernels, which know no std::optional: find_point() writes what
+/// the ray sees first and says whether that is something.
 ///
 /// Axioms: those of RayCaster.
 template <class R>

@@ -34,8 +34,8 @@ struct alignas(64) PointPacket {
     float z[width];                             ///< metres
 };
 
-/// The packet face of Visibility: one origin against up to sixteen points. Bit i of the result is
-/// set when bit i of `active` is set and point i sees the origin.
+/// The packet interface of Visibility: one origin against up to sixteen points. Bit i of the result
+/// is set when bit i of `active` is set and point i sees the origin.
 ///
 /// Axiom: bit i equals visible(origin, point i). Engines of our own keep it always; Embree keeps it
 /// but for segments that touch an edge or a vertex to the last bit, where its packets and its
@@ -61,7 +61,7 @@ struct alignas(64) BlockMask {
     }
 };
 
-/// The block face of Visibility: one origin against up to 256 luxels, which is asked for many
+/// The block interface of Visibility: one origin against up to 256 luxels, which is asked for many
 /// origins. What an engine wants to know about a block is found once, `block(luxels, set)`, from
 /// its luxels in planes, padded with empty ones, which must outlive it; `set` is the instruction
 /// set that its loops may use. Then visible_block(block, origin, mask) clears the bits of luxels

@@ -184,16 +184,16 @@ class PathChain {
                                                          const WeightedPath& y, PathGap out,
                                                          std::uint32_t n) const {
         const PathGap back{out.left, out.left + n + 1};
-        const auto way = [&](const WeightedPath& from, PathGap hole, const WeightedPath& to,
-                             std::uint32_t added) {
+        const auto density = [&](const WeightedPath& from, PathGap hole, const WeightedPath& to,
+                                 std::uint32_t added) {
             const std::uint32_t k = from.path.edges();
             return Rules::choice(gaps_, k, hole, added) *
                    Rules::refill(to.measure, to.path.edges(), hole.left, added);
         };
-        const double there = way(x, out, y, n);
+        const double there = density(x, out, y, n);
         if (!(there > 0.0)) return 0.0;
         return acceptance(luminance(x.measure.contribution), there,
-                          luminance(y.measure.contribution), way(y, back, x, out.vertices()));
+                          luminance(y.measure.contribution), density(y, back, x, out.vertices()));
     }
 
     MIR_HD bool accepts(const Random& numbers, double probability) {

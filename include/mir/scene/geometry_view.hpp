@@ -79,7 +79,7 @@ struct GeometryView {
     /// A point by an edge would, once lifted, lie in the neighbour's plane or behind it. Triangles
     /// that are too narrow keep a quarter of each height.
     [[nodiscard]] MIR_HD Vec3 place(std::uint32_t triangle, Vec2 barycentrics, float offset) const {
-        return position(triangle, barycentrics) + way_off_edges(triangle, barycentrics, offset);
+        return position(triangle, barycentrics) + shift_off_edges(triangle, barycentrics, offset);
     }
 
     /// At barycentrics of the second and third corner.
@@ -108,8 +108,8 @@ struct GeometryView {
     }
     [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
                                                     Vec3 direction, float distance) const;
-    [[nodiscard]] MIR_HD Vec3 way_off_edges(std::uint32_t triangle, Vec2 barycentrics,
-                                            float offset) const;
+    [[nodiscard]] MIR_HD Vec3 shift_off_edges(std::uint32_t triangle, Vec2 barycentrics,
+                                              float offset) const;
     MIR_HD void set_texture_frame(SurfacePoint& p) const;
 };
 
@@ -142,8 +142,8 @@ MIR_HD void GeometryView<S>::set_texture_frame(SurfacePoint& p) const {
 }
 
 template <Space S>
-MIR_HD Vec3 GeometryView<S>::way_off_edges(std::uint32_t triangle, Vec2 barycentrics,
-                                           float offset) const {
+MIR_HD Vec3 GeometryView<S>::shift_off_edges(std::uint32_t triangle, Vec2 barycentrics,
+                                             float margin) const {
     const TriangleIndices& t = triangles[triangle];
     const Vec3 normal = front_normal(triangle);
     const float twice_area = long_length(area_vector(triangle));
@@ -151,16 +151,16 @@ MIR_HD Vec3 GeometryView<S>::way_off_edges(std::uint32_t triangle, Vec2 barycent
                               barycentrics.y};
     const float size = larger(max_abs(positions[t[1]] - positions[t[0]]),
                               max_abs(positions[t[2]] - positions[t[0]]));
-    const float wanted = 4.0f * offset + 0x1p-22f * size;
-    Vec3 way(0.0f);
+    const float wanted = 4.0f * margin + 0x1p-22f * size;
+    Vec3 shift(0.0f);
     for (int k = 0; k < 3; ++k) {
         const Vec3 edge = positions[t[(k + 2) % 3]] - positions[t[(k + 1) % 3]];
         const float length = long_length(edge);
         const float height = twice_area / length;
         const float missing = smaller(wanted, 0.25f * height) - weights[k] * height;
-        if (missing > 0.0f) way += missing * glm::cross(normal, edge / length);
+        if (missing > 0.0f) shift += missing * glm::cross(normal, edge / length);
     }
-    return way;
+    return shift;
 }
 
 template <Space S>
@@ -173,7 +173,7 @@ MIR_HD SurfacePoint GeometryView<S>::surface_point(std::uint32_t triangle, Vec2 
     SurfacePoint p;
     p.position = position(triangle, barycentrics);
     p.offset = offset_at(p.position, distance);
-    p.position += way_off_edges(triangle, barycentrics, p.offset);
+    p.position += shift_off_edges(triangle, barycentrics, p.offset);
     p.barycentrics = barycentrics;
     p.triangle = triangle;
     p.material = materials[triangle];

@@ -49,16 +49,16 @@ struct VplShading {
                                                  const Vpl& vpl) const {
         return (*this)(prepared(hit, s), vpl);
     }
-    /// 1/d, m^-1, of the way from a luxel to a VPL, metres.
-    [[nodiscard, gnu::always_inline]] MIR_HD static float inverse_distance(Vec3 way) {
-        return mir::inverse_distance<Rounding>(way);
+    /// 1/d, m^-1, of the offset from a luxel to a VPL, metres.
+    [[nodiscard, gnu::always_inline]] MIR_HD static float inverse_distance(Vec3 offset) {
+        return mir::inverse_distance<Rounding>(offset);
     }
-    /// Radiance, the `way` from the luxel to the VPL, metres, and `inverse`, its 1/d, m^-1, being
-    /// known.
+    /// Radiance, the `offset` from the luxel to the VPL, metres, and `inverse`, its 1/d, m^-1,
+    /// being known.
     [[nodiscard, gnu::always_inline]] MIR_HD Rgb at_distance(const Hit& hit, const Surface& s,
-                                                             const Vpl& vpl, Vec3 way,
+                                                             const Vpl& vpl, Vec3 offset,
                                                              float inverse) const {
-        return of(prepared(hit, s), vpl, way, inverse);
+        return of(prepared(hit, s), vpl, offset, inverse);
     }
     /// What is the same for all VPLs.
     [[nodiscard, gnu::always_inline]] MIR_HD Prepared prepared(const Hit& hit,
@@ -67,14 +67,14 @@ struct VplShading {
     }
     /// Radiance of a luxel that was prepared.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Prepared& luxel, const Vpl& vpl) const {
-        const Vec3 way = vpl.position - luxel.position;
-        return of(luxel, vpl, way, mir::inverse_distance<Rounding>(way));
+        const Vec3 offset = vpl.position - luxel.position;
+        return of(luxel, vpl, offset, mir::inverse_distance<Rounding>(offset));
     }
 
  private:
-    [[nodiscard, gnu::always_inline]] MIR_HD Rgb of(const Prepared& luxel, const Vpl& vpl, Vec3 way,
-                                                    float inverse) const {
-        const Vec3 wi = way * inverse;
+    [[nodiscard, gnu::always_inline]] MIR_HD Rgb of(const Prepared& luxel, const Vpl& vpl,
+                                                    Vec3 offset, float inverse) const {
+        const Vec3 wi = offset * inverse;
         const float cos_l = dot<Rounding>(wi, luxel.normal);
         const float cos_v = -dot<Rounding>(wi, vpl.normal);
         const float g = strict::at_most(geometry_term(cos_l, cos_v, inverse), bound);
@@ -94,9 +94,9 @@ struct RemovedByBound {
     /// Radiance towards the viewer, W m^-2 sr^-1; 0 where G is no larger than the bound.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
-        const Vec3 way = vpl.position - hit.position;
-        const float inverse = inverse_distance<SeparateRounding>(way);
-        const Vec3 wi = way * inverse;
+        const Vec3 offset = vpl.position - hit.position;
+        const float inverse = inverse_distance<SeparateRounding>(offset);
+        const Vec3 wi = offset * inverse;
         const float excess = geometry_term(wi, inverse, s.normal, vpl.normal) - bound;
         if (!(excess > 0.0f)) return {};
         return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * excess;

@@ -96,7 +96,7 @@ void expect_nothing_skipped(const F& shade, const MakeSurface& surface, Report& 
                       std::to_string(out_of_reach) + " of 20000 values are not");
 }
 
-/// Told way and distance, it answers as if it had found them.
+/// Given offset and distance, it answers as if it had computed them.
 template <DistanceShading F, class MakeSurface>
 void expect_same_at_distance(const F& shade, const MakeSurface& surface, Report& report) {
     Random random = numbers(67);
@@ -104,8 +104,8 @@ void expect_same_at_distance(const F& shade, const MakeSurface& surface, Report&
     for (int i = 0; i < 20000; ++i) {
         const ShadedPlace at = random_shaded_place(random);
         const auto s = surface(at.normal, at.wo);
-        const Vec3 way = at.vpl.position - at.hit.position;
-        const Rgb told = shade.at_distance(at.hit, s, at.vpl, way, F::inverse_distance(way));
+        const Vec3 offset = at.vpl.position - at.hit.position;
+        const Rgb told = shade.at_distance(at.hit, s, at.vpl, offset, F::inverse_distance(offset));
         different += bits_of(told) == bits_of(shade(at.hit, s, at.vpl)) ? 0 : 1;
     }
     report.expect(different == 0, "at_distance() is the same in every bit",

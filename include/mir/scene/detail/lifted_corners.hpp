@@ -27,7 +27,7 @@ struct FaceCorner {
 
 /// Direction that comes out of the surfaces that meet in a place, with a component of one along
 /// that normal which it is furthest from. Zero where they turn too far from each other for that.
-[[nodiscard]] inline Vec3 way_out(std::span<const FaceCorner> corners) {
+[[nodiscard]] inline Vec3 outwards(std::span<const FaceCorner> corners) {
     Vec3 sum(0.0f);
     for (const FaceCorner& c : corners) sum += c.normal;
     const float length = glm::length(sum);
@@ -58,11 +58,11 @@ struct FaceCorner {
     for (auto first = all.begin(); first != all.end();) {
         const auto last =
             std::find_if(first, all.end(), [&](const auto& c) { return c.key() != first->key(); });
-        const Vec3 way = way_out({first, last});
+        const Vec3 out = outwards({first, last});
         for (; first != last; ++first)
             lifted[first->face][first->corner] =
                 first->place + (static_cast<float>(first->level) * step) *
-                                   (way == Vec3(0.0f) ? first->normal : way);
+                                   (out == Vec3(0.0f) ? first->normal : out);
     }
     return lifted;
 }

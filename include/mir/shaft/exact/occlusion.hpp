@@ -133,11 +133,11 @@ struct ApexRows {
 /// Margins of U, V and W, metres, `sigma` a multiple of the scene's.
 MIR_HD inline EdgeMargins edge_margins(const TriangleRows& rows, const Pyramid& p,
                                        const ApexRows& apex, float sigma) {
-    const float way = strict::add(p.spread, apex.depth);
+    const float reach = strict::add(p.spread, apex.depth);
     const float u = fabsf(apex.u);
     const float v = fabsf(apex.v);
-    const float varied_u = strict::mul(l1_of_gradient(rows.u), way);
-    const float varied_v = strict::mul(l1_of_gradient(rows.v), way);
+    const float varied_u = strict::mul(l1_of_gradient(rows.u), reach);
+    const float varied_v = strict::mul(l1_of_gradient(rows.v), reach);
     const float at_apex = loose::mul_add(5.0f, strict::add(u, v), 5.0f);
     return {strict::mul(sigma, loose::mul_add(4.0f, u, varied_u)),
             strict::mul(sigma, loose::mul_add(4.0f, v, varied_v)),

@@ -50,8 +50,8 @@ struct EdgeDoubt {
 /// in a coordinate, metres. With 16 e m G |p - q| for the plane, (12 e m G + 8 e) |d| for the edges
 /// and |d| <= 1.74 |p - q|, which is less than 37 e m G |p - q| + 14 e |p - q|.
 MIR_HD inline EdgeDoubt edge_doubt(float size, float span) {
-    const float way = strict::add(span, strict::mul(0x1p-20f, size));
-    return {strict::mul(strict::mul(40.0f * 0x1p-24f, way), size), strict::mul(0x1p-20f, way)};
+    const float reach = strict::add(span, strict::mul(0x1p-20f, size));
+    return {strict::mul(strict::mul(40.0f * 0x1p-24f, reach), size), strict::mul(0x1p-20f, reach)};
 }
 
 MIR_HD inline EdgeDoubt edge_doubt(Vec3 from, Vec3 to) {
