@@ -19,8 +19,8 @@ class Image {
     explicit Image(Extent extent, T value = {})
         : extent_(extent), data_(static_cast<std::size_t>(extent.area()), value) {}
 
-    /// An image whose elements have no value yet: for those who write every one of them, from
-    /// several threads if they like.
+    /// An image whose elements have no value yet. For code that writes every one of them, from
+    /// several threads if it likes.
     static Image unwritten(Extent extent) {
         Image image;
         image.extent_ = extent;

@@ -7,8 +7,8 @@
 
 namespace mir {
 
-/// A geometric VPL, its path VPLs already summed: a point that shines into the hemisphere of its
-/// geometric normal with radiant intensity J cos(theta).
+/// A geometric VPL, its path VPLs already summed. It is a point that shines into the hemisphere of
+/// its geometric normal with radiant intensity J cos(theta).
 struct Vpl {
     Vec3 position{0};  ///< lifted off the surface, metres
     Vec3 normal{0};    ///< unit geometric normal

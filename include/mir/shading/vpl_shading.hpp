@@ -11,9 +11,9 @@
 
 namespace mir {
 
-/// Geometry term of a luxel and a VPL, m^-2: cos cos / d^2 with the shading normal at the luxel
-/// and the geometric one at the VPL; 0 when either points away (docs/method.md, 4.2). `inverse` is
-/// 1 / d, the cosines those of the direction from the luxel to the VPL and back.
+/// Geometry term of a luxel and a VPL, m^-2: cos cos / d^2. It takes the shading normal at the
+/// luxel and the geometric one at the VPL; it is 0 when either points away (docs/method.md, 4.2).
+/// `inverse` is 1 / d, the cosines those of the direction from the luxel to the VPL and back.
 MIR_HD inline float geometry_term(float cos_l, float cos_v, float inverse) {
     return larger(cos_l, 0.0f) * larger(cos_v, 0.0f) * (inverse * inverse);
 }
@@ -53,8 +53,8 @@ struct VplShading {
     [[nodiscard, gnu::always_inline]] MIR_HD static float inverse_distance(Vec3 offset) {
         return mir::inverse_distance<Rounding>(offset);
     }
-    /// Radiance, the `offset` from the luxel to the VPL, metres, and `inverse`, its 1/d, m^-1,
-    /// being known.
+    /// Radiance from the `offset` to the VPL, metres, and its inverse length. `inverse` is 1/d,
+    /// m^-1.
     [[nodiscard, gnu::always_inline]] MIR_HD Rgb at_distance(const Hit& hit, const Surface& s,
                                                              const Vpl& vpl, Vec3 offset,
                                                              float inverse) const {
@@ -91,7 +91,7 @@ struct RemovedByBound {
 
     float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
 
-    /// Radiance towards the viewer, W m^-2 sr^-1; 0 where G is no larger than the bound.
+    /// Radiance towards the viewer, W m^-2 sr^-1. 0 where G is no larger than the bound.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
         const Vec3 offset = vpl.position - hit.position;
