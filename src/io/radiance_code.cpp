@@ -36,7 +36,7 @@ RadianceCode radiance_code(Rgb pixel) {
     return {static_cast<std::uint16_t>(std::clamp(code, 1.0, 65535.0)), share(p.r), share(p.g)};
 }
 
-/// What neighbours let expect of a code: the mean of those to the left and above.
+/// What neighbours let expect of a code. The mean of those to the left and above.
 template <class Code>
 int predicted_code(const Image<RadianceCode>& codes, std::uint32_t x, std::uint32_t y, Code code) {
     const int left = x > 0 ? codes(x - 1, y).*code : 0;

@@ -29,7 +29,7 @@ struct BackendMachine {
     std::function<void()> trim;                   ///< gives back what is kept
 };
 
-/// Renders on a backend: by VPLs in its memory (BackendFrame); paths are traced, and discs made, on
+/// Renders on a backend. By VPLs in its memory (BackendFrame); paths are traced, and discs made, on
 /// the host, where luxels gather from those on the backend. Tries again with smaller tiles and
 /// bands while the machine has too little memory.
 template <Backend M>

@@ -18,7 +18,7 @@ double pairs_that_pay(double triangles) {
     return 128 * triangles * std::max(1.0, std::sqrt(triangles / many));
 }
 
-/// Paths and discs ask ray by ray, which Embree answers fastest; so do luxels where masks forbid
+/// Paths and discs ask ray by ray, which Embree answers fastest. So do luxels where masks forbid
 /// shafts.
 Acceleration structure_of(const WorldGeometry& geometry, const RenderSettings& s) {
     if (s.acceleration != Acceleration::automatic) return s.acceleration;

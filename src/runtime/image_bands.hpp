@@ -12,7 +12,7 @@ namespace mir {
 /// on them.
 class ImageBands {
  public:
-    /// `vpls` of which the visibility will be stored, 0 for none: bands become lower until the
+    /// `vpls` of which the visibility will be stored, 0 for none. Bands become lower until the
     /// matrix of one fits into Limits::visibility_bytes.
     ImageBands(RenderFrame& frame, std::uint32_t vpls);
 

@@ -32,7 +32,7 @@ class IndirectProbes {
         fill_gbuffer<B>(luxels_, 0, rays_, caster_, surfaces, job.executor);
     }
 
-    /// One in each cell of a grid on the film, at a random place; empty where a ray meets nothing.
+    /// One in each cell of a grid on the film, at a random place. Empty where a ray meets nothing.
     [[nodiscard]] const BlockedGBuffer<typename B::Params>& luxels() const { return luxels_; }
 
     /// Their random numbers.

@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// The normalisation stage of a render: finds what each VPL does to the image and makes intensities
+/// The normalisation stage of a render. Finds what each VPL does to the image and makes intensities
 /// of the radiance that the sampler gave (docs/method.md, 10).
 class NormalisationPass {
  public:

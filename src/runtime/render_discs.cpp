@@ -127,7 +127,7 @@ auto DiscRender<B>::make_discs() -> Discs {
     return discs;
 }
 
-/// What luxels gather from: bounce by bounce where each has a layer, else the sum; nothing when
+/// What luxels gather from. Bounce by bounce where each has a layer, else the sum; nothing when
 /// light may be reflected once alone.
 template <Bsdf B>
 auto DiscRender<B>::light(const Discs& discs) -> std::vector<Radiance> {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr float no_bound = std::numeric_limits<float>::max();
 
-/// What brings direct light to one luxel: its samples, or as many VPLs at infinity as there are to
+/// What brings direct light to one luxel. Its samples, or as many VPLs at infinity as there are to
 /// be others.
 DirectSamples direct_samples_of_luxel(const RenderSettings& settings) {
     return settings.direct == DirectLight::separate
@@ -93,7 +93,7 @@ void keep_lobes(RenderFrame& frame, const VplRecords& records, bool normalised) 
     job.result.statistics.widened_share = frame.keep_lobes(records);
 }
 
-/// Only where rays of the host are at hand: others would have to build for them.
+/// Only where rays of the host are at hand. Others would have to build for them.
 void measure_what_is_missing(RenderFrame& frame, float bound) {
     RenderJob& job = frame.job();
     if (!job.settings.measure_missing || !frame.traits().on_host) return;
@@ -106,7 +106,7 @@ void measure_what_is_missing(RenderFrame& frame, float bound) {
     job.result.statistics.removed = missing.removed;
 }
 
-/// Adds what a band brings to a mean luminance over the image: row by row, so that bands change
+/// Adds what a band brings to a mean luminance over the image. Row by row, so that bands change
 /// nothing.
 void add_mean(RenderFrame& frame, const FrameLayer& layer, double RenderStatistics::*mean) {
     RenderStatistics& s = frame.job().result.statistics;

@@ -75,7 +75,7 @@ struct CabinHull {
     }
 };
 
-/// Box with rounded corners inside a hull, from which its surface is seen: every point of the
+/// Box with rounded corners inside a hull, from which its surface is seen. Every point of the
 /// surface has one coordinate `a` around the box (z along the side +x, then around the ends to the
 /// other side) and one coordinate `b` upwards (y up to the box' top, then over its edge).
 struct Core {
@@ -118,7 +118,7 @@ struct Core {
 inline constexpr Core lower_core{0.66f, -1.98f, 1.9f, 0.66f};  ///< of the body
 inline constexpr Core cabin_core{0.42f, -0.1f, 0.85f, 1.22f};  ///< of the cabin
 
-/// Where the ray from `origin`, inside the hull, along the unit vector `direction` leaves it; at
+/// Where the ray from `origin`, inside the hull, along the unit vector `direction` leaves it. At
 /// most 2 m away. Regula falsi (Illinois): a fixed number of steps, so that bits do not depend on
 /// tolerances.
 template <class Hull>

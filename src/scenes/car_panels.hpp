@@ -43,7 +43,7 @@ inline SurfaceGrid parameters(std::span<const Rib> ribs, float cell, bool loop) 
     return g;
 }
 
-/// How a panel is cut: size of its cells, thickness and depth below the hull, metres.
+/// How a panel is cut. Size of its cells, thickness and depth below the hull, metres.
 struct Cut {
     float cell = 0.0226f;      ///< width of a cell, metres
     float thickness = 0.012f;  ///< metres
@@ -86,7 +86,7 @@ inline std::vector<Rib> band(std::initializer_list<float> a, float b0, float b1)
     return ribs;
 }
 
-/// The panel around a wheel arch: from the arch to the rectangle [a0, a1] x [bottom, top].
+/// The panel around a wheel arch. From the arch to the rectangle [a0, a1] x [bottom, top].
 inline std::vector<Rib> around_arch(float axle, float a0, float a1, float bottom, float top) {
     const float radius = 0.372f;
     const float height = car_wheel_height;

@@ -8,7 +8,7 @@
 
 namespace mir::builtin {
 
-/// Points of a surface, row by row; the front is where (next row) x (next column) points.
+/// Points of a surface, row by row. The front is where (next row) x (next column) points.
 struct SurfaceGrid {
     std::uint32_t columns = 0;  ///< vertices in a row, at least 2
     std::uint32_t rows = 0;     ///< at least 2
@@ -46,7 +46,7 @@ inline std::vector<std::vector<std::uint32_t>> border(const SurfaceGrid& g) {
     return {low};
 }
 
-/// Joins front and back of a sheet along one line of its border; the edge has its own vertices.
+/// Joins front and back of a sheet along one line of its border. The edge has its own vertices.
 inline void add_rim(Mesh& m, std::span<const std::uint32_t> line, std::uint32_t back) {
     const auto first = static_cast<std::uint32_t>(m.positions.size());
     for (const std::uint32_t side : {0u, back})

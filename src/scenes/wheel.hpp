@@ -30,7 +30,7 @@ struct TyreSection {
     }
 };
 
-/// Tyre about the x axis with a tread of blocks: four grooves around, and slanted cuts.
+/// Tyre about the x axis with a tread of blocks. Four grooves around, and slanted cuts.
 inline Mesh tyre(std::uint32_t rubber) {
     const std::uint32_t segments = 264;
     Mesh m = empty_mesh("tyre", rubber);

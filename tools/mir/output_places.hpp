@@ -6,7 +6,7 @@
 
 namespace mirtool {
 
-/// True when both names lead to one file, or would: as the file system counts what is there, else
+/// True when both names lead to one file, or would. As the file system counts what is there, else
 /// by folder and name. An empty name leads nowhere.
 bool are_one_file(const std::string& a, const std::string& b);
 

@@ -36,7 +36,7 @@ inline std::string sentence_of(const std::exception& e) {
     return "unexpected failure: " + shown(e.what());
 }
 
-/// Says why the program fails, on standard error, the first time that it is called: what follows
+/// Says why the program fails, on standard error, the first time that it is called. What follows
 /// from a failure is no news.
 inline void say_failure(const std::string& sentence) {
     static std::atomic<bool> is_said{false};

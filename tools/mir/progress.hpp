@@ -12,7 +12,7 @@
 
 namespace mirtool {
 
-/// Tells on stderr how a render gets on: on a terminal one line, rewritten five times a second;
+/// Tells on stderr how a render gets on. On a terminal one line, rewritten five times a second;
 /// elsewhere a line for each stage that lasts a second, and one every ten seconds. Stops with its
 /// life.
 class Progress {

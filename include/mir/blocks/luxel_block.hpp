@@ -41,7 +41,7 @@ struct HitBlock {
     std::uint32_t candidates[groups_per_block] = {};  ///< luxels that count, a bit each
     bool none_counts = true;                          ///< no bit is set in `candidates`
 
-    /// One of the blocks of a tile; luxel i of it counts if it sees something and `wanted(i)`.
+    /// One of the blocks of a tile. Luxel i of it counts if it sees something and `wanted(i)`.
     template <class Wanted>
     HitBlock(SoaView<const Hit> tile, Block b, const Wanted& wanted)
         : place(b), hits(starting_at(tile, first_luxel(b))) {

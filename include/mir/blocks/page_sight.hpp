@@ -12,7 +12,7 @@
 
 namespace mir::blocks {
 
-/// One page of a submitted tile: the grain of parallel work where visibility is asked for 256
+/// One page of a submitted tile. The grain of parallel work where visibility is asked for 256
 /// luxels at a time.
 struct PlacedPage {
     TileIndex tile = 0;  ///< of the image or band
@@ -35,7 +35,7 @@ class PageSight {
     static constexpr std::uint32_t most_vpls = PageClusters::most_vpls;  ///< at a time
     static_assert(most_vpls <= 32, "a word has a bit for each");
 
-    /// Of a page of a tile; the luxel in a slot of the page counts if it sees something and
+    /// Of a page of a tile. The luxel in a slot of the page counts if it sees something and
     /// `wanted(slot)`. The planes of `tile` and `visibility` must outlive it.
     template <class Wanted>
     PageSight(const SoaView<const Hit>& tile, const LuxelPage& page, const V& visibility,
@@ -80,7 +80,7 @@ class PageSight {
     }
 
  private:
-    /// How often a VPL has lit a packet in part before the page is sorted: about as much was asked
+    /// How often a VPL has lit a packet in part before the page is sorted. About as much was asked
     /// until then as sorting costs (docs/decisions/002).
     static constexpr std::uint32_t parted_packets_of_sort = 64;
 

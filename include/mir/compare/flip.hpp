@@ -52,7 +52,7 @@ Image<float> feature_strength(const Image<float>& plane, const FilterWeights& de
     return strength;
 }
 
-/// Colour pipeline up to the colour difference: blur by contrast sensitivity, back to what a
+/// Colour pipeline up to the colour difference. Blur by contrast sensitivity, back to what a
 /// display can show, to a perceptually uniform space.
 template <Executor E>
 Image<Vec3> seen_colour(const Image<Rgb>& image, const FlipFilters& f, E& executor) {
@@ -95,7 +95,7 @@ inline float colour_error(Vec3 a, Vec3 b) {
                         : knee_error + (share - knee) / (1.0f - knee) * (1.0f - knee_error);
 }
 
-/// Error of every pixel: the colour error, raised where one image has an edge or point that the
+/// Error of every pixel. The colour error, raised where one image has an edge or point that the
 /// other lacks.
 template <Executor E>
 Image<float> flip_errors(const Percept& a, const Percept& b, E& executor) {

@@ -58,7 +58,7 @@ inline Image<Rgb> tone_mapped(const Image<Rgb>& image, float exposure_ev) {
 
 }  // namespace detail
 
-/// Exposures for a reference: from the one that tames its brightest pixel to the one that shows its
+/// Exposures for a reference. From the one that tames its brightest pixel to the one that shows its
 /// median (the upper one of an even number; at least 2^-23, where more than half is black).
 /// @pre the image has a pixel.
 inline FlipExposures flip_exposures(const Image<Rgb>& reference) {

@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// Finds the first triangle along a ray, from kernels: the interface of a ray engine that knows
+/// Finds the first triangle along a ray, from kernels. The interface of a ray engine that knows
 /// nothing of surfaces. `triangle` of the answer is TriangleHit::none for rays that leave the
 /// scene. `hides` says whether a triangle lies between two points.
 ///

@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// Index of the first of `count` values that `holds` is true of, found by halving: it must be true
+/// Index of the first of `count` values that `holds` is true of, found by halving. It must be true
 /// of all behind that one. `count` if there is none.
 template <class T, class Predicate>
 MIR_HD std::uint32_t first_that(const T* values, std::uint32_t count, const Predicate& holds) {

@@ -122,7 +122,7 @@ class LaneGroup {
         return gathered;
     }
 
-    /// Replaces each value by the sum of those of the lanes before; returns the sum of all.
+    /// Replaces each value by the sum of those of the lanes before. Returns the sum of all.
     MIR_HD std::uint32_t sums_before(PerLane<std::uint32_t>& values) const {
 #if defined(__CUDA_ARCH__)
         const std::uint32_t own = values[0];
@@ -144,7 +144,7 @@ class LaneGroup {
 #endif
     }
 
-    /// All values, joined in pairs by `join`, in the same order on host and device: lane 0 with 16,
+    /// All values, joined in pairs by `join`, in the same order on host and device. Lane 0 with 16,
     /// 1 with 17 and so on, then 0 with 8.
     template <class T, class Join>
     [[nodiscard]] MIR_HD T combined(PerLane<T> values, const Join& join) const {
@@ -250,7 +250,7 @@ class LaneGroup {
     }
 
  private:
-    /// Integers in the order of the values: the device compares those of a warp in one instruction.
+    /// Integers in the order of the values. The device compares those of a warp in one instruction.
     [[nodiscard]] MIR_HD PerLane<std::int32_t> places_of(const PerLane<float>& values) const {
         PerLane<std::int32_t> places;
         each_apart([&](std::uint32_t lane) {

@@ -18,7 +18,7 @@ namespace mir::detail {
 
 inline constexpr std::uint32_t lane_count = 16;
 
-/// Bit k of lane k, from memory: not every instruction set shifts lanes by different counts.
+/// Bit k of lane k, from memory. Not every instruction set shifts lanes by different counts.
 inline constexpr auto lane_bits = [] {
     std::array<std::uint32_t, lane_count> bits{};
     for (std::uint32_t k = 0; k < lane_count; ++k) bits[k] = 1u << k;

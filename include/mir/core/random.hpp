@@ -104,7 +104,7 @@ class Random {
     Bits128 block_{};
 };
 
-/// Random::at() for who asks for neighbouring dimensions one after the other: the last four numbers
+/// Random::at() for who asks for neighbouring dimensions one after the other. The last four numbers
 /// are kept, because making one costs as much as making four. Not shared by threads.
 class NearbyNumbers {
  public:

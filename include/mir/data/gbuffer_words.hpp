@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// The memory of a G-buffer as kernels write it: per tile a run of hit words, then one of surface
+/// The memory of a G-buffer as kernels write it. Per tile a run of hit words, then one of surface
 /// words, as in BlockedGBuffer. A view; stores to different luxels may happen at the same time.
 template <class Params>
 struct GBufferWords {

@@ -14,7 +14,7 @@ enum class LightOrigin : std::uint8_t {
     outside   ///< from outside the scene: it has a direction, but no place
 };
 
-/// A point of a light, or one direction of light from outside: what a sample of a light is.
+/// A point of a light, or one direction of light from outside. What a sample of a light is.
 struct LightPoint {
     Vec3 position{0};        ///< metres, lifted off a surface; from outside none
     Vec3 normal{0, 0, 1};    ///< unit, of the side that shines, or axis of a place; from outside

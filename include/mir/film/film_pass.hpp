@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Kernel over the luxels of a band in row order: where each lies in its pixel.
+/// Kernel over the luxels of a band in row order. Where each lies in its pixel.
 struct LuxelOffsets {
     LuxelGrid grid;               ///< of the whole image
     std::uint64_t seed = 0;       ///< that placed the luxels
@@ -25,7 +25,7 @@ struct LuxelOffsets {
     }
 };
 
-/// The sums of a film's pixels while luxels come: for each pixel one of weights, then three for
+/// The sums of a film's pixels while luxels come. For each pixel one of weights, then three for
 /// each layer. Rows of pixels take turns in a ring of rows. A view.
 struct FilmSums {
     double* sums = nullptr;    ///< planes() planes of rows * width sums
@@ -43,7 +43,7 @@ struct FilmSums {
     }
 };
 
-/// Kernel over the pixels that a band of luxels reaches, in row order: adds what Film::add_rows()
+/// Kernel over the pixels that a band of luxels reaches, in row order. Adds what Film::add_rows()
 /// adds to them, in its order.
 template <class Layer>
 struct FilmPass {
@@ -102,7 +102,7 @@ struct FilmPass {
     }
 };
 
-/// Kernel over finished pixels in row order: writes their colours, layer after layer, as
+/// Kernel over finished pixels in row order. Writes their colours, layer after layer, as
 /// Film::develop() makes them, and clears their sums for the next turn of the ring.
 struct DevelopPass {
     FilmSums from;                      ///< of the film

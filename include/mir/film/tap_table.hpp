@@ -41,7 +41,7 @@ class TapTable {
     /// Number of taps along one axis.
     [[nodiscard]] std::uint32_t taps() const { return 2 * reach_ + 1; }
 
-    /// The taps of cell column `cx` that a luxel can reach; all others have weight zero.
+    /// The taps of cell column `cx` that a luxel can reach. All others have weight zero.
     [[nodiscard]] Range x(std::uint32_t cx) const { return ranges_[cx]; }
     /// The same along y.
     [[nodiscard]] Range y(std::uint32_t cy) const { return ranges_[columns_ + cy]; }

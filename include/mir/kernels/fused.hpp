@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// One luxel, all VPLs, rays and shading in one place: the body of algorithm 3 of the paper as RC
+/// One luxel, all VPLs, rays and shading in one place. The body of algorithm 3 of the paper as RC
 /// runs it. Writes W m^-2 sr^-1, VPLs summed in their order.
 ///
 /// Rays go 32 at a time before what they found is shaded: neither then occupies the registers of

@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Where the rows of a G-buffer lie in the whole luxel image; random numbers are keyed by it.
+/// Where the rows of a G-buffer lie in the whole luxel image. Random numbers are keyed by it.
 struct LuxelBand {
     std::uint32_t first_row = 0;  ///< of the band, in luxels of the whole image
     LuxelGrid grid;               ///< of the whole image

@@ -14,7 +14,7 @@
 
 namespace mir {
 
-/// What VPLs of unit intensity do to one block of 16 x 16 luxels each: kernel for groups, over
+/// What VPLs of unit intensity do to one block of 16 x 16 luxels each. Kernel for groups, over
 /// pairs of a block of some rows of blocks of a tile and 32 VPLs. Both halves of the group prepare
 /// the same sixteen neighbouring luxels, then take one VPL each of those that any of them sees.
 /// Sums lanes of sixteen luxels in single and the lanes in double precision, exactly as ResponseSum
@@ -43,7 +43,7 @@ struct BlockResponse {
     /// Groups that cover so many blocks and the VPLs that are summed.
     [[nodiscard]] std::uint32_t groups(std::uint32_t blocks) const { return blocks * runs(); }
 
-    /// Group `i` < groups(): block first_block + i / r and the VPLs from first_vpl + 32 (i % r) on,
+    /// Group `i` < groups(). Block first_block + i / r and the VPLs from first_vpl + 32 (i % r) on,
     /// of which r are runs of 32. Writes the sum of VPL first_vpl + j to element j of the `count`
     /// of that block; blocks lie in rows of `columns`.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
@@ -177,13 +177,13 @@ template <class G, class P, class F>
 BlockResponse(G, P, VisibilityWords<G::space>, F, std::uint32_t, std::uint32_t, VplIndex,
               std::uint32_t, ImageResponse*, std::uint32_t) -> BlockResponse<G, P, F>;
 
-/// Adds up each row of blocks from left to right, in place: kernel over pairs of row and VPL.
+/// Adds up each row of blocks from left to right, in place. Kernel over pairs of row and VPL.
 struct SumBlockRow {
     ImageResponse* sums = nullptr;  ///< of blocks, as BlockResponse writes them
     std::uint32_t columns = 0;      ///< blocks of a row
     std::uint32_t count = 0;        ///< VPLs
 
-    /// Row i / count and VPL i % count; the sum replaces that of the row's first block.
+    /// Row i / count and VPL i % count. The sum replaces that of the row's first block.
     MIR_HD void operator()(std::uint32_t i) const {
         ImageResponse* first = sums + std::size_t{i / count} * columns * count + i % count;
         ImageResponse sum = *first;

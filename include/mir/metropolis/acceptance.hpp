@@ -29,7 +29,7 @@ inline const char* sentence_for(ChainNumber number) {
     }
 }
 
-/// Returns `value`, or NaN on a device unless `ok`: kernels cannot throw, and NaN is no
+/// Returns `value`, or NaN on a device unless `ok`. Kernels cannot throw, and NaN is no
 /// probability.
 /// @throws Error(internal) on the host unless `ok`.
 MIR_HD inline double checked(bool ok, double value, [[maybe_unused]] ChainNumber number,

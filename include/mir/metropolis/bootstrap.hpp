@@ -19,7 +19,7 @@ struct Bootstrap {
 
 namespace detail {
 
-/// Paths to draw in all: what the error so far makes likely to suffice, but between a tenth more
+/// Paths to draw in all. What the error so far makes likely to suffice, but between a tenth more
 /// and four times as many, because that error is an estimate too.
 inline std::uint64_t next_bootstrap_size(const PathLuminance& p, const BootstrapOptions& options) {
     const double ratio = p.contributing > 0 ? p.relative_error() / options.relative_error : 2.0;

@@ -25,7 +25,7 @@ struct ChainRules {
     MIR_HD static bool accepts(double number, double probability) { return number < probability; }
 };
 
-/// Where a Markov chain stands and what it has been through: all that a PathChain remembers, 17 kB.
+/// Where a Markov chain stands and what it has been through. All that a PathChain remembers, 17 kB.
 struct ChainState {
     /// Coordinates of the current path; under Mutation::bidirectional of its last large step.
     PrimarySample sample;
@@ -39,7 +39,7 @@ struct ChainState {
     bool is_broken = false;             ///< a number of an acceptance was none, on a device
 };
 
-/// A Markov chain of full paths whose stationary density is Y(F): the paths that matter to the
+/// A Markov chain of full paths whose stationary density is Y(F). The paths that matter to the
 /// image, each as often as it brings light. Over the paths of another generator it is their target;
 /// without a camera there are no bidirectional mutations. One thread at a time. Generator, options
 /// and state must outlive it. Source: algorithm 1 of Pajot, Barthe, Paulin 2009; Metropolis light
@@ -49,7 +49,7 @@ class PathChain {
     static_assert(path_dimension::count <= max_coordinates);
 
  public:
-    /// Chain number `chain` of a run where `state` stands: after start(), or where a PathChain of
+    /// Chain number `chain` of a run where `state` stands. After start(), or where a PathChain of
     /// the same arguments has left it.
     MIR_HD PathChain(const Generator& generator, const ChainOptions& options, std::uint64_t seed,
                      std::uint32_t chain, ChainState& state)

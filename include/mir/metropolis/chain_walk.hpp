@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// What a chain remembers while it runs, 26 kB: too much for a thread's own memory.
+/// What a chain remembers while it runs, 26 kB. Too much for a thread's own memory.
 struct ChainMemory {
     ChainState state;  ///< where the chain stands
     /// With the current suffix, unless that is the state's own, and with a proposal.

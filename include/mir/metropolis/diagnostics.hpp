@@ -119,7 +119,7 @@ inline double split_r_hat(const Traces& traces) {
     return spread.total() == 0.0 ? 1.0 : std::sqrt(spread.total() / spread.within());
 }
 
-/// Integrated autocorrelation time 1 + 2 sum(rho_t): how many steps are worth one independent draw
+/// Integrated autocorrelation time 1 + 2 sum(rho_t). How many steps are worth one independent draw
 /// of the scalar. At least 1, at most the length of a chain. The sum stops where pairs of
 /// neighbouring lags stop being positive and is made monotone, so its length adapts to the data.
 /// Defined for every input: 1 when all values are equal; the length of a chain when that is below

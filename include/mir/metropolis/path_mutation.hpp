@@ -74,7 +74,7 @@ class GapChoices {
                 if (const double w = weight_of(k, {left, right}); w > 0.0)
                     body(PathGap{left, right}, w);
     }
-    /// Small gaps are likelier; the one that moves x1 alone is rare, because it yields no new VPL.
+    /// Small gaps are likelier. The one that moves x1 alone is rare, because it yields no new VPL.
     /// An edge can be cut open only where a vertex fits in.
     [[nodiscard]] MIR_HD double weight_of(std::uint32_t k, PathGap gap) const {
         const bool at_end = gap.left == 0 || gap.right == k + 1;

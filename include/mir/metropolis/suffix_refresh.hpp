@@ -30,7 +30,7 @@ class SuffixProposal {
         return p > 0.0 && is_finite(target / p) ? target / p : 0.0;
     }
 
-    /// A path with the x0, x1, x2 of `from` and a new rest; its weight is that of weight(), 0 when
+    /// A path with the x0, x1, x2 of `from` and a new rest. Its weight is that of weight(), 0 when
     /// nothing came of it.
     template <class Numbers>
     MIR_HD void draw(const WeightedPath& from, Numbers&& u, WeightedPath& out) const {

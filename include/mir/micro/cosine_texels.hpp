@@ -74,7 +74,7 @@ class CosineTexels {
     [[nodiscard]] MIR_HD static float root(float a) {
         return a > 1e-12f ? a * loose::inverse_root(a) : 1e-6f;
     }
-    /// (4 / pi) atan(q) for q from -1 to 1, to 1.1e-4: least squares, weighted until errors were
+    /// (4 / pi) atan(q) for q from -1 to 1, to 1.1e-4. Least squares, weighted until errors were
     /// alike.
     [[nodiscard]] MIR_HD static float eighths(float q) {
         const float q2 = q * q;

@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// Texels of a micro-buffer that share a ReflectionLobe evenly: around its axis from left to right,
+/// Texels of a micro-buffer that share a ReflectionLobe evenly. Around its axis from left to right,
 /// away from it from bottom to top. Host and device.
 class LobeTexels {
  public:

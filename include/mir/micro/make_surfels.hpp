@@ -11,7 +11,7 @@ namespace mir {
 
 namespace detail {
 
-/// Most discs of a scene, whatever its limits: nodes of a tree over them are counted by 32 bits.
+/// Most discs of a scene, whatever its limits. Nodes of a tree over them are counted by 32 bits.
 inline constexpr std::uint64_t most_surfels = std::uint64_t{1} << 31;
 
 /// Index of the first piece of each triangle, and the number of all pieces at the end.

@@ -10,7 +10,7 @@
 
 namespace mir {
 
-/// Small pictures of what is around points next to each other: what each of their texels sees first
+/// Small pictures of what is around points next to each other. What each of their texels sees first
 /// of a tree of discs, along the directions of its point's `Texels`. Drawn by 32 lanes together, in
 /// the memory of their group; host and device, the same bits, which do not depend on what other
 /// pictures are drawn with one.
@@ -159,7 +159,7 @@ class MicroBuffers {
             return pictures == placed_ ? walk.group.fate(node) : Fate::unsure;
     }
 
-    /// Looks at nodes that are unsure, one for each lane, for one picture after another: it is
+    /// Looks at nodes that are unsure, one for each lane, for one picture after another. It is
     /// passed by, to be drawn, or its children wait.
     template <Space S>
     MIR_HD void look(const Walk<S>& walk) {

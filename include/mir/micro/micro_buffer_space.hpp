@@ -23,7 +23,7 @@ struct MicroPoint {
 /// fail; more leave room for fewer groups.
 template <std::uint32_t Side, bool Lobes = true, std::uint32_t Waiting = 320>
 struct MicroBufferSpace {
-    /// What waits when nodes are taken one at a time: up to 63 that were unsure before, and one for
+    /// What waits when nodes are taken one at a time. Up to 63 that were unsure before, and one for
     /// each step of a walk down.
     static constexpr std::uint32_t reserve = 2 * LaneGroup::width + SurfelTreeOptions::depth_limit;
     static_assert(Waiting > reserve);
@@ -31,7 +31,7 @@ struct MicroBufferSpace {
     static constexpr std::uint32_t room = Waiting - reserve;
 
     static constexpr std::uint32_t side = Side;  ///< most texels in each direction
-    /// Pictures that are drawn at once: as many as leave a GPU room for enough groups.
+    /// Pictures that are drawn at once. As many as leave a GPU room for enough groups.
     static constexpr std::uint32_t pictures = Side <= 8 ? 4 : 1;
 
     /// Nodes and for which pictures, a bit each, something is to be done with them.

@@ -14,7 +14,7 @@ namespace mir {
 
 namespace detail {
 
-/// How the surface of a sphere is cut: rows between parallels of equal distance, each into equal
+/// How the surface of a sphere is cut. Rows between parallels of equal distance, each into equal
 /// patches between meridians that are about as wide as high.
 struct SpherePatches {
     static constexpr double half_turn = 3.14159265358979323846;

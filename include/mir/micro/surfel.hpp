@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// A disc that stands for a piece of a triangle: around the centroid of the piece, in the plane of
+/// A disc that stands for a piece of a triangle. Around the centroid of the piece, in the plane of
 /// the triangle, and no larger than the piece where that is known. A trivially copyable value of 64
 /// bytes.
 struct alignas(16) Surfel {
@@ -20,7 +20,7 @@ struct alignas(16) Surfel {
     float area = 0.0f;           ///< of the piece, m^2
     std::uint32_t triangle = 0;  ///< index into WorldGeometry, or no_triangle
     std::uint32_t material = 0;  ///< index into Scene::materials
-    /// From the centre to two corners of the piece, counter-clockwise around the normal; the third
+    /// From the centre to two corners of the piece, counter-clockwise around the normal. The third
     /// is minus their sum. Both zero: the disc is whole. Metres.
     Vec3 corner1{0};
     Vec3 corner2{0};  ///< like corner1

@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// What patches see of each other: for both sides of every patch the nodes that rays meet, with
+/// What patches see of each other. For both sides of every patch the nodes that rays meet, with
 /// density cos / pi, traced once for all bounces from random places of its discs. 8 bytes for each
 /// patch and ray.
 class SurfelLinks {

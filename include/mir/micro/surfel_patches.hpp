@@ -18,7 +18,7 @@ struct SurfelPatchOptions {
     float least_cosine = 0.8f;  ///< of the angle between their normals and the mean of those
 };
 
-/// The patches of a scene: nodes of a tree whose discs share the light that falls on them, while
+/// The patches of a scene. Nodes of a tree whose discs share the light that falls on them, while
 /// each reflects it with its own albedo. Together they hold every disc once. A scene of many small
 /// triangles has far fewer patches than discs. Immutable; const use from any thread. Source:
 /// patches and elements of radiosity (Cohen, Greenberg, Immel and Brock, "An efficient radiosity
@@ -52,7 +52,7 @@ class SurfelPatches {
     [[nodiscard]] std::size_t size() const { return nodes_.size(); }
 
  private:
-    /// One surface, not one behind the other: no thicker than a bent one whose normals turn so far,
+    /// One surface, not one behind the other. No thicker than a bent one whose normals turn so far,
     /// and of one material. Of a right triangle with two equal sides the longest lies across the
     /// sphere, whose radius is the root of the area.
     static bool is_patch(const SurfelTree& tree, std::uint32_t index, const SurfelPatchOptions& o) {

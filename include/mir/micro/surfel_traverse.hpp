@@ -117,7 +117,7 @@ MIR_HD inline void meet_sphere(const SurfelNode& node, std::uint32_t index, cons
         take_nearer(hit, along - sqrtf(inside2), index, glm::dot(node.axis, to_centre) < 0.0f);
 }
 
-/// True when all discs below a node show the same side to a point: however a normal of its cone is
+/// True when all discs below a node show the same side to a point. However a normal of its cone is
 /// tilted, all of the sphere lies on one side of the plane through the point across that normal.
 /// Or, what flat walls seen at a slant need, all of the slab of the discs does. Or the point is so
 /// deep in a slab so flat that what is in doubt is less than a thousandth of the node: a wall seen
@@ -137,7 +137,7 @@ MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre) {
     return is_beyond_tilt(height - doubt) || is_beyond_tilt(0x1p-10f * node.radius - doubt);
 }
 
-/// True when a ray ends at an inner node: it is not inside, the node's solid angle is not larger
+/// True when a ray ends at an inner node. It is not inside, the node's solid angle is not larger
 /// than the ray's (`sine2` is its cap_sine_squared()), and it shows one side. As a disc, it is
 /// passed by when its centre lies below the tangent plane of `normal`: that is an end for nodes up
 /// to an eighth of their distance alone, of which little is above the plane and that at a slant.
@@ -165,7 +165,7 @@ MIR_HD float entry(const SurfelTreeView<S>& tree, std::uint32_t index, const Sur
     return along + half < 0.0f ? never : along - half;
 }
 
-/// Nodes that wait while a walk goes down elsewhere: at most one for each on the way.
+/// Nodes that wait while a walk goes down elsewhere. At most one for each on the way.
 struct WaitingSurfels {
     std::uint32_t node[SurfelTreeOptions::depth_limit];
     float near[SurfelTreeOptions::depth_limit];
@@ -202,12 +202,12 @@ MIR_HD std::uint32_t descend(const SurfelTreeView<S>& tree, std::uint32_t index,
 
 }  // namespace detail
 
-/// What a ray sees first of the discs of a tree: the nearest disc, or an inner node where the ray's
+/// What a ray sees first of the discs of a tree. The nearest disc, or an inner node where the ray's
 /// solid angle is not smaller than the node's, whose discs all show it the same side. With a solid
 /// angle of 0 it is the nearest disc of all, in every bit, and at equal distances the first in the
 /// order of the tree. Where it stops, a node counts as large as its sphere, but only as far as the
-/// ray also meets the spheres above it. Nothing is allocated; thread-safe.
-/// Source: Ritschel et al. 2009, section 4; cap_solid_angle() in place of its pi r^2 / d^2.
+/// ray also meets the spheres above it. Nothing is allocated; thread-safe. Source: Ritschel et al.
+/// 2009, section 4; cap_solid_angle() in place of its pi r^2 / d^2.
 template <Space S>
 [[nodiscard]] MIR_HD SurfelHit closest_surfel(const SurfelTreeView<S>& tree, const SurfelRay& ray,
                                               StopShape shape = StopShape::disc) {

@@ -12,7 +12,7 @@ namespace mir {
 
 namespace detail {
 
-/// A node to be made: discs [first, first + count), with `room` nodes below it on any way.
+/// A node to be made. Discs [first, first + count), with `room` nodes below it on any way.
 struct SurfelJob {
     std::uint32_t first = 0;
     std::uint32_t count = 0;

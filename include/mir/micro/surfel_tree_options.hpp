@@ -23,7 +23,7 @@ enum class SurfelSplit {
 /// How a hierarchy of discs is built. Choices change speed and where approximate rays stop, never
 /// what exact rays meet.
 struct SurfelTreeOptions {
-    /// Most nodes on the way from the root to a disc; traversal has a stack of that size.
+    /// Most nodes on the way from the root to a disc. Traversal has a stack of that size.
     static constexpr std::uint32_t depth_limit = 48;
 
     SphereFit sphere = SphereFit::ritter;          ///< what bounds the discs of a node

@@ -50,7 +50,7 @@ MIR_HD bool start_at_camera(const World& world, Numbers& u, Path& path) {
     return true;
 }
 
-/// Writes the next vertex from `at` along `w`; false unless the direction lies above the surface
+/// Writes the next vertex from `at` along `w`. False unless the direction lies above the surface
 /// and hits another.
 template <class World>
 MIR_HD bool step_along(const World& world, const PathVertex& at, Vec3 w, PathVertex& next) {

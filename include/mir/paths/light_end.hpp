@@ -54,7 +54,7 @@ MIR_HD PlacedLightEnd sample_light_start(const World& world, float pick, Vec2 uv
     });
 }
 
-/// Writes the light end of a path that ran into the surface `at`; false when its side that was hit
+/// Writes the light end of a path that ran into the surface `at`. False when its side that was hit
 /// does not emit.
 template <class World>
 MIR_HD bool light_end_at(const World& world, const PathVertex& at, LightEnd& end) {

@@ -66,7 +66,7 @@ struct PathWorld {
         : PathWorld(world_geometry.view(), light_table.view(), surface_table.view(), ray_caster,
                     sight, seen_from.optics(), film_aspect, geometry_bound) {}
 
-    /// Writes the first surface along a ray as a path vertex; false when there is none.
+    /// Writes the first surface along a ray as a path vertex. False when there is none.
     [[nodiscard]] MIR_HD bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find_point(luxels.caster, ray, p)) return false;

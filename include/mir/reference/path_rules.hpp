@@ -33,12 +33,12 @@ struct BalanceRules {
         return per_area * d2 / cosine;
     }
 
-    /// Largest odds of survival: where nothing is absorbed a path ends after a thousand vertices on
+    /// Largest odds of survival. Where nothing is absorbed a path ends after a thousand vertices on
     /// average. Not lower, because a path that goes on weighs 1 / odds more each time: the variance
     /// stays finite up to a reflectance of sqrt(odds).
     static constexpr float most_odds = 0.999f;
 
-    /// Throughput of a path after Russian roulette with the number `u`, black when it ends: the
+    /// Throughput of a path after Russian roulette with the number `u`, black when it ends. The
     /// odds of survival are the largest channel of `throughput`, at most `most_odds`. Source: Arvo
     /// and Kirk, "Particle transport and image synthesis", SIGGRAPH 1990.
     static Rgb roulette(Rgb throughput, float u) {

@@ -29,7 +29,7 @@ class ReferenceImage {
     /// Replicates that each pixel is to get; variances divide by them.
     [[nodiscard]] std::uint32_t replicates() const { return replicates_; }
 
-    /// Adds one replicate of pixel (x, y) after `earlier` others: the mean radiance of every
+    /// Adds one replicate of pixel (x, y) after `earlier` others. The mean radiance of every
     /// bounce; those not given are black, those behind `last_bounce` may be one sum.
     void add(std::uint32_t x, std::uint32_t y, std::uint32_t earlier,
              std::span<const RgbSum> bounces) {

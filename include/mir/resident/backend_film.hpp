@@ -16,7 +16,7 @@
 
 namespace mir {
 
-/// Film on a backend: luxels that lie there become pixels there, with the bits of Film, and come
+/// Film on a backend. Luxels that lie there become pixels there, with the bits of Film, and come
 /// home when they are finished. Memory grows with the height of a band, not of the image: sums of
 /// pixels take turns in a ring of rows. One queue and one thread at a time.
 template <Backend B>
@@ -25,7 +25,7 @@ class BackendFilm {
     /// Of the backend.
     using Queue = typename B::Queue;
 
-    /// `grid` and `seed` must be those that placed the luxels; bands have up to `most_rows` luxel
+    /// `grid` and `seed` must be those that placed the luxels. Bands have up to `most_rows` luxel
     /// rows. Starts to copy on `queue`.
     /// @throws What Film throws of filter and layers; what the backend throws.
     BackendFilm(const B& backend, Queue& queue, const LuxelGrid& grid, const Filter& filter,
@@ -57,7 +57,7 @@ class BackendFilm {
     template <Executor E>
     void bring_home(Queue& queue, E& executor);
 
-    /// The images of the layers, once all bands were added and brought home; leaves the film
+    /// The images of the layers, once all bands were added and brought home. Leaves the film
     /// without.
     [[nodiscard]] std::vector<Image<Rgb>> take_images() { return std::move(images_); }
 

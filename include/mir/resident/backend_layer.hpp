@@ -92,7 +92,7 @@ struct AddLayer {
     MIR_HD void operator()(std::uint32_t i) const { sum.store(i, sum.load(i) + layer.load(i)); }
 };
 
-/// Kernel over the rows of a layer: adds up the luminance of each, from left to right.
+/// Kernel over the rows of a layer. Adds up the luminance of each, from left to right.
 struct RowLuminance {
     LayerView layer;        ///< what is added up
     double* out = nullptr;  ///< a sum per row of the image or band, in the unit of the layer

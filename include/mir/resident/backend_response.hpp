@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// ResponseSum on a backend: the response of VPLs over an image whose luxels and visibility lie in
+/// ResponseSum on a backend. The response of VPLs over an image whose luxels and visibility lie in
 /// the backend's memory, and come in bands of rows. The order of sums is that of ResponseSum, which
 /// rows of blocks of the image define and neither tiles nor memory: the result has the same bits
 /// for any bands and tiles that are whole blocks, and those of ResponseSum where shading has the
@@ -71,7 +71,7 @@ class BackendResponse {
                 static_cast<std::uint32_t>(count)};
     }
 
-    /// What is added at a time: some rows of blocks of a row of tiles, and some VPLs.
+    /// What is added at a time. Some rows of blocks of a row of tiles, and some VPLs.
     struct Part {
         TileIndex first_tile = 0;
         std::uint32_t first_row = 0;  ///< of blocks, in the tiles

@@ -49,7 +49,7 @@ class UploadedGeometry {
 template <Backend B>
 class UploadedTextures {
  public:
-    /// Starts the copies on `queue`; the table and its scene must live until they are done.
+    /// Starts the copies on `queue`. The table and its scene must live until they are done.
     UploadedTextures(const B& backend, typename B::Queue& queue, const TextureTable& textures)
         : values_(backend, queue, std::span<const float>(texel_values())),
           texels_(upload_texels(backend, queue, textures)),

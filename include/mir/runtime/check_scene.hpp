@@ -152,7 +152,7 @@ inline double share_of_picture(const Image<Rgb>& layer, const Image<Rgb>& beauty
     return all > 0.0 ? sum(layer) / all : 0.0;
 }
 
-/// A picture bears 10 % in a pixel: less is seen by those who look for it.
+/// A picture bears 10 % in a pixel. Less is seen by those who look for it.
 inline void add_direct_noise_warning(const RenderResult& result,
                                      std::vector<std::string>& warnings) {
     constexpr double bearable = 0.1;

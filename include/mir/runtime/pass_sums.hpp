@@ -46,7 +46,7 @@ class PassSums {
         return spread_.relative_error(passes());
     }
 
-    /// The mean picture of at least one pass; of one pass that pass in every bit. Position and
+    /// The mean picture of at least one pass. Of one pass that pass in every bit. Position and
     /// depth are those of the first pass, because a mean of two surfaces lies on neither; the VPLs
     /// are those of the last. `complete` says whether further passes were wanted.
     [[nodiscard]] RenderResult result(bool complete = true) const;

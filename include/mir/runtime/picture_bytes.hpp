@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// Estimates the bytes that a picture takes while it is rendered: the sums of its film, the images
+/// Estimates the bytes that a picture takes while it is rendered. The sums of its film, the images
 /// and guides of the result, and of paths the sums of all luxels. `layers` are those of the film.
 /// The scene, the VPLs and the luxels of one band come on top; the settings must be validated.
 [[nodiscard]] inline std::uint64_t picture_bytes(const RenderSettings& settings,

@@ -43,7 +43,7 @@ struct RenderStage {
     const char* title;      ///< what a person reads
 };
 
-/// Every stage in the order in which a frame goes through them; what they take adds up to
+/// Every stage in the order in which a frame goes through them. What they take adds up to
 /// StageSeconds::total.
 inline constexpr std::array<RenderStage, 21> render_stages{
     {{"geometry", &StageSeconds::geometry, "geometry"},

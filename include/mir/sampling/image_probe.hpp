@@ -36,7 +36,7 @@ class ImageProbe {
         return luminance(response(place) * j);
     }
 
-    /// Calls f(hit, surface, radiance) for each luxel that `place` lights, in a fixed order; the
+    /// Calls f(hit, surface, radiance) for each luxel that `place` lights, in a fixed order. The
     /// radiance is that of 1 W sr^-1, sr^-1 m^-2.
     template <class F>
     void for_each_lit(const Vpl& place, F&& f) const;

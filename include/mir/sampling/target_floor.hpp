@@ -10,7 +10,7 @@ namespace mir {
 
 /// The floor under the target of VplGenerator.
 struct TargetFloor {
-    /// Floor over the mean response, above 0 to 1; share / (1 + share) of the VPLs are there for
+    /// Floor over the mean response, above 0 to 1. Share / (1 + share) of the VPLs are there for
     /// its sake. Small: light that the probe misses comes seldom and bright; large: more VPLs light
     /// nothing.
     float share = 0.05f;

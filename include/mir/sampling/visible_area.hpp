@@ -26,7 +26,7 @@ struct AreaRays {
         cell = 4.0 * half * half * static_cast<double>(aspect) / (side * side);
     }
 
-    /// Ray i < count, row by row from the top left: through the middle of its cell and of the lens.
+    /// Ray i < count, row by row from the top left. Through the middle of its cell and of the lens.
     [[nodiscard]] MIR_HD Ray operator()(std::uint32_t i) const {
         const std::uint32_t x = i % side;
         const std::uint32_t y = i / side;
@@ -73,7 +73,7 @@ double visible_area(const Camera& camera, float aspect,
     return area;
 }
 
-/// The scale-free default bound of the geometry term, m^-2: that of a VPL at the radius r0 at which
+/// The scale-free default bound of the geometry term, m^-2. That of a VPL at the radius r0 at which
 /// `vpls` discs cover the visible area, 1 / (pi r0^2) = vpls / area (docs/method.md, 4.3).
 inline float default_bound(double visible_area, std::uint32_t vpls) {
     if (!(visible_area > 0.0)) return std::numeric_limits<float>::max();

@@ -16,7 +16,7 @@ namespace mir {
 /// VPLs whose distance tells how dense they are around another.
 inline constexpr std::uint32_t vsl_neighbours = 10;
 
-/// Radius of the sphere around each VPL, metres: that of the disc which is its share of the surface
+/// Radius of the sphere around each VPL, metres. That of the disc which is its share of the surface
 /// among its nearest neighbours, d_k / sqrt(k) with d_k the distance to the k-th (vsl_neighbours),
 /// times `scale`. Where there are no k others, the radius r0 at which as many discs cover
 /// `visible_area` (docs/method.md, 4.3), and never below a tenth of that, because samplers may put

@@ -25,7 +25,7 @@ struct AlphaMask {
     }
 };
 
-/// What kernels read of the masks of a scene: says which points of triangles are there, with the
+/// What kernels read of the masks of a scene. Says which points of triangles are there, with the
 /// same bits on host and device. A point that is not hides nothing and is no hit. A view;
 /// thread-safe.
 template <Space S>

@@ -11,7 +11,7 @@
 
 namespace mir {
 
-/// What kernels read of a WorldGeometry: turns the answers of ray engines (triangle, barycentrics)
+/// What kernels read of a WorldGeometry. Turns the answers of ray engines (triangle, barycentrics)
 /// into surface points, with the same bits on host and device. A view; thread-safe.
 template <Space S>
 struct GeometryView {

@@ -11,7 +11,7 @@
 
 namespace mir {
 
-/// A kind of light that a Scene lists: what it is there, what samples it, and where it is held.
+/// A kind of light that a Scene lists. What it is there, what samples it, and where it is held.
 template <class L, LightSource S, std::vector<L> Scene::*List>
 struct LightKind {
     using Light = L;                    ///< as a Scene has it

@@ -15,7 +15,7 @@ struct TexelView {
     std::uint32_t height = 0;               ///< rows
 };
 
-/// What kernels read of a scene's images: lookups with the same bits on host and device. A view;
+/// What kernels read of a scene's images. Lookups with the same bits on host and device. A view;
 /// thread-safe. Without mip maps: one lookup is a mean of the four texels around a point.
 template <Space S>
 struct TextureView {

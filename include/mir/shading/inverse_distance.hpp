@@ -5,7 +5,7 @@
 
 namespace mir {
 
-/// 1 / d, m^-1, of the offset from a luxel to a VPL, metres; shorter ways than 2^-50 m count as
+/// 1 / d, m^-1, of the offset from a luxel to a VPL, metres. Shorter ways than 2^-50 m count as
 /// that long. Same bits on host and device up to 2^50 m. From 2^64 m on squares are no floats, of
 /// which a device makes NaN.
 template <class Rounding>

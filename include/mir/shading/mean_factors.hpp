@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// A material as it is on average: its factors, the base colour times the mean of its texture.
+/// A material as it is on average. Its factors, the base colour times the mean of its texture.
 /// Other textures and vertex colours are left out. Every texel counts alike, however large the part
 /// of a surface that shows it.
 inline MaterialFactors mean_factors(const Scene& scene, const Material& material) {

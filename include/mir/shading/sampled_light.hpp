@@ -13,7 +13,7 @@
 
 namespace mir {
 
-/// f cos for light from the unit direction `wi`; black when either side of the surface disagrees.
+/// f cos for light from the unit direction `wi`. Black when either side of the surface disagrees.
 /// No branches: loops over lanes ask it.
 template <Bsdf B>
 [[gnu::always_inline]] MIR_HD inline Rgb reflected(const Hit& hit,

@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// The directions in which a point sees a sphere: those within asin(sine) of the unit vector
+/// The directions in which a point sees a sphere. Those within asin(sine) of the unit vector
 /// `axis`. Precise for the smallest of them too, where 1 - cos of the angle has no digits.
 struct SphereCone {
     Vec3 axis{0, 0, 1};  ///< unit

@@ -25,7 +25,7 @@ inline std::uint64_t exr_expansion(Imf::Compression method) {
     return dwa ? 1u << 17 : 4096;
 }
 
-/// Bytes of a chunk that are taken for any file: writers code a flat row of many pixels in few
+/// Bytes of a chunk that are taken for any file. Writers code a flat row of many pixels in few
 /// bytes, and OpenEXR reads it into a chunk of many rows.
 inline constexpr std::uint64_t exr_free_chunk = 64ull << 20;
 

@@ -136,7 +136,7 @@ inline Json* GltfJsonBuilder::slot(bool is_object) {
     return &parent.back();
 }
 
-/// Structures that are made of an element of a list are larger than its JSON: an empty material
+/// Structures that are made of an element of a list are larger than its JSON. An empty material
 /// takes two kilobytes.
 inline void GltfJsonBuilder::count(bool is_object) {
     std::uint64_t cost = 1;

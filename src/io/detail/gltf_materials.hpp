@@ -103,7 +103,7 @@ class GltfMaterials {
         ignore("KHR_materials_ior of 0 (taken as 1.5)");
     }
 
-    /// Diffuse colour and glossiness carry over; the coloured reflectance at normal incidence has
+    /// Diffuse colour and glossiness carry over. The coloured reflectance at normal incidence has
     /// no place in a metallic-roughness dielectric.
     void specular_glossiness(const tinygltf::Value& from, Material& to) {
         to.metallic = 0.0f;

@@ -32,7 +32,7 @@ class GltfMeshes {
           scene_(scene),
           report_(report) {}
 
-    /// For every mesh of the file, the scene meshes of its primitives; none for those that no node
+    /// For every mesh of the file, the scene meshes of its primitives. None for those that no node
     /// has as they are stored, which `is_plain` tells.
     /// @throws Error(invalid_input), Error(limit_exceeded)
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> convert_all(

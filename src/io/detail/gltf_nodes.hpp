@@ -19,7 +19,7 @@ namespace mir::detail {
 struct PlacedNode {
     std::size_t node = 0;
     DMat4 to_world{1.0};
-    /// Turns what has an orientation but no size, a light or a camera: rotations of this node and
+    /// Turns what has an orientation but no size, a light or a camera. Rotations of this node and
     /// of those above, whose scale tilts and mirrors it. The node's own scale does not count.
     DMat4 turn{1.0};
     bool is_visible = true;  ///< false: it has no meshes and lights, but its camera
@@ -142,7 +142,7 @@ inline std::vector<int> node_parents(const tinygltf::Model& model) {
     return parents;
 }
 
-/// Roots of the scene to show: the default one, else the first one, else every root node.
+/// Roots of the scene to show. The default one, else the first one, else every root node.
 inline std::vector<std::size_t> scene_roots(const tinygltf::Model& model, SceneReport& report) {
     const std::vector<int> parents = node_parents(model);
     std::vector<std::size_t> roots;

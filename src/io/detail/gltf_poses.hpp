@@ -32,7 +32,7 @@ class GltfPoses {
         return weights;
     }
 
-    /// The shape of a node's mesh that its skin gives; none when it has none that can be used.
+    /// The shape of a node's mesh that its skin gives. None when it has none that can be used.
     [[nodiscard]] std::optional<GltfShape> skinned(const tinygltf::Node& node) const {
         if (node.skin < 0 || !has_joints(node)) return std::nullopt;
         const tinygltf::Skin& skin = model_.skins[static_cast<std::size_t>(node.skin)];

@@ -65,7 +65,7 @@ inline Texture GltfTextures::convert(const std::string& name, int index, int set
     return to;
 }
 
-/// Source: Khronos, KHR_texture_transform: scaled, then turned counter-clockwise as the image is
+/// Source: Khronos, KHR_texture_transform. Scaled, then turned counter-clockwise as the image is
 /// seen (its v runs downwards), then shifted.
 inline void GltfTextures::transform(const tinygltf::Value& from, const std::string& place,
                                     Texture& to, int& set) {

@@ -34,7 +34,7 @@ inline std::string json_kind(const Json& json) {
     }
 }
 
-/// A name, which is for people alone: of another type it is as good as none.
+/// A name, which is for people alone. Of another type it is as good as none.
 inline std::string json_name(const Json& json) {
     if (!json.is_object()) return {};
     const auto found = json.find("name");

@@ -24,7 +24,7 @@ struct LogChart {
     std::vector<LogSeries> series;  ///< at most two
 };
 
-/// The chart as an SVG element with its legend; empty unless a series has two points.
+/// The chart as an SVG element with its legend. Empty unless a series has two points.
 std::string log_chart(const LogChart& chart);
 
 }  // namespace mirtool

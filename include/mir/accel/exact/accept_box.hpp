@@ -45,7 +45,7 @@ namespace mir {
 /// segments are cut to that cube first (reach.hpp).
 [[nodiscard]] MIR_HD inline float reach_of(float magnitude) { return 1.5f * magnitude; }
 
-/// Unit of the margins of shafts, metres: more than twice what rounding displaces a point of a
+/// Unit of the margins of shafts, metres. More than twice what rounding displaces a point of a
 /// segment, or a triangle's plane, per axis.
 [[nodiscard]] MIR_HD inline double sigma_of(float magnitude) {
     return 32.0 * 0x1p-24 * static_cast<double>(magnitude);

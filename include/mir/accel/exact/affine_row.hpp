@@ -15,11 +15,11 @@ struct alignas(16) AffineRow {
     float w = 0.0f;  ///< value at the origin
 };
 
-/// A triangle in the form in which segments are tested: three affine functions of a point. u and v
-/// are the barycentric coordinates of the second and third corner along the normal, s is the signed
-/// distance from the plane in metres, positive in front.
-/// Source: Baldwin and Weber, "Fast ray-triangle intersections by coordinate transformation",
-/// JCGT 5(3), 2016.
+/// A triangle in the form in which segments are tested. Three affine functions of a point.
+/// u and v are the barycentric coordinates of the second and third corner along the normal,
+/// s is the signed distance from the plane in metres, positive in front. Source: Baldwin
+/// and Weber, "Fast ray-triangle intersections by coordinate transformation", JCGT 5(3),
+/// 2016.
 struct TriangleRows {
     AffineRow u;  ///< weight of the second corner
     AffineRow v;  ///< weight of the third corner

@@ -21,7 +21,7 @@ struct CutSegment {
     float t_length = 0.0f;  ///< rays: distance from `from` to `to`, metres
 };
 
-/// True when the point lies in the cube, which is what callers check first: cutting is rare.
+/// True when the point lies in the cube, which is what callers check first. Cutting is rare.
 [[nodiscard]] MIR_HD inline bool within_reach(Vec3 p, float reach) { return max_abs(p) <= reach; }
 
 namespace detail {
@@ -108,7 +108,7 @@ MIR_HD inline Vec3 passage_point(const Ray& ray, float t, Vec3 t_of_faces, float
     return cut;
 }
 
-/// Cuts the segment from `a` to `b` where it must be cut, which is rare; false when nothing of it
+/// Cuts the segment from `a` to `b` where it must be cut, which is rare. False when nothing of it
 /// is left.
 [[nodiscard]] MIR_HD inline bool is_left_within_reach(Vec3& a, Vec3& b, float reach) {
     if (within_reach(a, reach) && within_reach(b, reach)) return true;

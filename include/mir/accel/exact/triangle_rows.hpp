@@ -65,7 +65,7 @@ MIR_HD inline bool is_finite_row(AffineRow r) {
     return usable ? rows : uncrossable_rows();
 }
 
-/// True when the segment crosses the triangle: its ends lie strictly on opposite sides of the
+/// True when the segment crosses the triangle. Its ends lie strictly on opposite sides of the
 /// plane, and it passes inside the three edges, or outside of them by no more than rounding can
 /// hide (detail/thick_triangle.hpp). All as computed in single precision: the bit is the same when
 /// the ends change places, on every processor and in every compilation. An "or" of this over all

@@ -58,7 +58,7 @@ struct ChooseChildren {
     }
 };
 
-/// Kernel over the nodes of a level and one index more: numbers the nodes of the next, and their
+/// Kernel over the nodes of a level and one index more. Numbers the nodes of the next, and their
 /// triangles.
 struct NumberChildren {
     const BinaryNode* nodes = nullptr;

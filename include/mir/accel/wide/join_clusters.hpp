@@ -24,7 +24,7 @@ struct MarkKept {
     }
 };
 
-/// Kernel over clusters and one index more: joins pairs, closes the gaps and counts what is left.
+/// Kernel over clusters and one index more. Joins pairs, closes the gaps and counts what is left.
 /// Nodes are numbered in the order of the clusters that go.
 struct JoinClusters {
     const Cluster* clusters = nullptr;

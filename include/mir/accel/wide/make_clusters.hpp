@@ -8,7 +8,7 @@
 
 namespace mir::detail {
 
-/// Kernel over triangles: boxes around their accept regions, or around the parts of these, and the
+/// Kernel over triangles. Boxes around their accept regions, or around the parts of these, and the
 /// places of the boxes along Morton's curve through the scene's bounds.
 template <Space S>
 struct MakeBoxes {

@@ -99,7 +99,7 @@ MIR_HD inline void quantise_axis(const WideNode& node, int axis, float margin, Q
 
 }  // namespace detail
 
-/// The boxes of a node, grown by `margin` metres, on a grid; and by a hundredth of a step more.
+/// The boxes of a node, grown by `margin` metres, on a grid. And by a hundredth of a step more.
 /// `margin` is 8 e M or more: it holds the rounding of the grid's origin, too. Boxes of empty slots
 /// mean nothing.
 [[nodiscard]] MIR_HD inline QuantisedNode quantised(const WideNode& node, float margin) {

@@ -63,7 +63,7 @@ MIR_HD std::uint32_t cut_into_parts(const CutTriangle& t, std::uint32_t splits,
     }
 }
 
-/// Kernel over triangles: how much each gains by splits, as a number that is multiplied by a common
+/// Kernel over triangles. How much each gains by splits, as a number that is multiplied by a common
 /// density to get its number of splits; 0 where there is nothing to gain. What counts is the part
 /// of the box's surface that the triangle does not need, and how coarse the plane is that cuts it;
 /// after Karras and Aila, with a fourth root, which all machines round alike, in place of the

@@ -30,7 +30,7 @@ class WideBvh {
 
     /// The root first; children are numbered as WideNode::ref says.
     [[nodiscard]] std::span<const WideNode> nodes() const { return nodes_; }
-    /// Rows of the triangles of leaves, leaf by leaf; one that was split stands in each of its
+    /// Rows of the triangles of leaves, leaf by leaf. One that was split stands in each of its
     /// leaves.
     [[nodiscard]] std::span<const TriangleRows> triangles() const { return triangles_; }
     /// Which triangle of WorldGeometry stands at each place of triangles().

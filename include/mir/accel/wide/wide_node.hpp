@@ -21,7 +21,7 @@ struct alignas(16) ChildRow {
     [[nodiscard]] MIR_HD float& operator[](std::size_t k) { return at[k]; }
 };
 
-/// One node of a wide bounding volume hierarchy, 256 bytes: the boxes of up to eight children, side
+/// One node of a wide bounding volume hierarchy, 256 bytes. The boxes of up to eight children, side
 /// by side so that one vector instruction reads a plane of all of them, and what they are. A
 /// trivially copyable value, the same on host and device.
 struct alignas(64) WideNode {

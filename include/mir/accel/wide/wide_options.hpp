@@ -10,7 +10,7 @@ namespace mir {
 /// How a wide bounding volume hierarchy is built. Choices change speed and memory, never what is
 /// visible.
 struct WideBvhOptions {
-    /// Most nodes on the way from the root to a triangle; traversal has a stack of that size.
+    /// Most nodes on the way from the root to a triangle. Traversal has a stack of that size.
     static constexpr std::uint32_t depth_limit = 32;
 
     /// Most triangles that a leaf may hold, whatever the options say.

@@ -50,7 +50,7 @@ struct MetChildren {
     std::uint32_t mask = 0;  ///< bit k: child k
 };
 
-/// Children whose boxes the segment meets between its start and the fraction `end`; always those
+/// Children whose boxes the segment meets between its start and the fraction `end`. Always those
 /// that it meets by 14 e M.
 MIR_HD inline MetChildren met_children(const WideNode& node, const SlabSegment& segment,
                                        float end) {
@@ -116,7 +116,7 @@ struct WaitingNode {
     ChildQueue children;
 };
 
-/// Shows the met leaves of a node to the visitor; true when it wants no more. The inner children
+/// Shows the met leaves of a node to the visitor. True when it wants no more. The inner children
 /// that were met, nearest first, are put into `inner`.
 template <class Leaf>
 MIR_HD bool visit_children(const WideNode& node, const SlabSegment& segment, Leaf& leaf,

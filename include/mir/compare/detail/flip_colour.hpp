@@ -54,7 +54,7 @@ inline Vec3 hunt_lab_of(Rgb c) {
     return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
 }
 
-/// Distance for large colour differences: city block in lightness, Euclidean in chroma (Abasi,
+/// Distance for large colour differences. City block in lightness, Euclidean in chroma (Abasi,
 /// Amani Tehran and Fairchild, "Distance metrics for very large color differences", 2020).
 inline float hyab(Vec3 a, Vec3 b) {
     const Vec3 d = a - b;

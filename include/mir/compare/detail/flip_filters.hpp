@@ -56,7 +56,7 @@ struct FlipFilters {
         return scaled(values, positive, negative);
     }
 
-    /// Contrast sensitivity in space: sums of a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees.
+    /// Contrast sensitivity in space. Sums of a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees.
     void make_contrast(double ppd) {
         constexpr double pi2 = 9.869604401089358;
         constexpr double widest = 0.04;

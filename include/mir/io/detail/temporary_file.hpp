@@ -31,7 +31,7 @@ class LockedFile {
         if (descriptor_ >= 0) close(descriptor_);
     }
 
-    /// Makes a new file of these permissions, less those that the process gives to none; no file,
+    /// Makes a new file of these permissions, less those that the process gives to none. No file,
     /// with errno, where there is one already or none can be. On file systems without locks it is
     /// not locked.
     static LockedFile create(const std::filesystem::path& path, mode_t permissions) {
@@ -43,7 +43,7 @@ class LockedFile {
         return {};
     }
 
-    /// Locks a file that is there; none when another process has it, or its name is another's now.
+    /// Locks a file that is there. None when another process has it, or its name is another's now.
     static LockedFile take(const std::filesystem::path& path) {
         LockedFile file(open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
         const bool taken =

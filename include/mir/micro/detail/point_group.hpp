@@ -80,7 +80,7 @@ class PointGroup {
         return is_alike_ && (4.0f * radius_ < node.radius || small < dot(to_centre, to_centre));
     }
 
-    /// What a node may cover of any point's texels, where those are alike: as seen from all points
+    /// What a node may cover of any point's texels, where those are alike. As seen from all points
     /// it lies in a ball that is larger by theirs, seen from their centre.
     template <class Texels>
     [[nodiscard]] MIR_HD TexelReach reach(const Texels& texels, const SurfelNode& node) const {

@@ -14,7 +14,7 @@ struct Ball {
     double radius = 0.0;
 };
 
-/// Smallest sphere with all of 1 to 4 points on it; none where they lie so that there is none.
+/// Smallest sphere with all of 1 to 4 points on it. None where they lie so that there is none.
 inline std::optional<Ball> ball_through(std::span<const Double3> points) {
     const std::size_t n = points.size() - 1;
     // Centre p0 + sum of x_i v_i, v_i = p_i - p0, with v_i . (2 sum of x_j v_j - v_i) = 0.
@@ -41,7 +41,7 @@ inline std::optional<Ball> ball_through(std::span<const Double3> points) {
     return Ball{points[0] + offset, glm::length(offset)};
 }
 
-/// Smallest ball around a few points: those that it is known to touch, 1 to 4 of them.
+/// Smallest ball around a few points. Those that it is known to touch, 1 to 4 of them.
 class BallBasis {
  public:
     explicit BallBasis(Double3 first) : points_{first}, ball_{first, 0.0} {}

@@ -14,7 +14,7 @@ namespace mir::detail {
 template <Backend B>
 class SplitPlan {
  public:
-    /// `plan` says how many splits there may be; it learns how many references come of them.
+    /// `plan` says how many splits there may be. It learns how many references come of them.
     /// `queue` must outlive it.
     SplitPlan(const B& backend, typename B::Queue& queue, GeometryView<B::space> geometry,
               ClusterPlan& plan)

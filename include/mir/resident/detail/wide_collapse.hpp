@@ -41,7 +41,7 @@ class WideCollapse {
     }
 
  private:
-    /// Room for wide nodes: each is made of a node of the binary tree that has two children.
+    /// Room for wide nodes. Each is made of a node of the binary tree that has two children.
     static std::size_t most_nodes(const ClusterPlan& plan) {
         return std::max(plan.references, 2u) - 1;
     }

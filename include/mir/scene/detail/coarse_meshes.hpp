@@ -13,7 +13,7 @@
 
 namespace mir::detail {
 
-/// Steps between neighbouring floats that the median edge of a mesh should have: rounding of its
+/// Steps between neighbouring floats that the median edge of a mesh should have. Rounding of its
 /// corners then turns and shortens it by a thousandth.
 inline constexpr double least_steps = 1000.0;
 

@@ -49,7 +49,7 @@ inline FarBox box_of(const std::vector<Vec3>& points) {
     return {DVec3(bounds.low), DVec3(bounds.high)};
 }
 
-/// Sizes of a box that may lie between it and the origin: they cost three of the 24 bits of a
+/// Sizes of a box that may lie between it and the origin. They cost three of the 24 bits of a
 /// float, and what was not made to lie far away keeps its coordinates.
 inline constexpr double near_sizes = 8.0;
 

@@ -34,7 +34,7 @@ class Recentring {
                                                    [](DVec3 shift) { return shift != DVec3(0.0); });
     }
 
-    /// Sentences on meshes that are too fine for the floats that hold them: in their own
+    /// Sentences on meshes that are too fine for the floats that hold them. In their own
     /// coordinates, and in those of the world that apply() leads to.
     [[nodiscard]] std::vector<std::string> remarks(const Scene& scene) const {
         std::vector<double> edges;

@@ -36,9 +36,9 @@ struct TileSlot {
 /// What kinds of visibility the slots of a ring hold.
 enum class SlotVisibility { none, words, masks };
 
-/// A few tiles on their way: while one is computed, the next goes up and the last comes home.
-/// Slots are used in turn; acquire() waits for the tile that used a slot last and writes it into
-/// the image. Not thread-safe.
+/// A few tiles on their way. While one is computed, the next goes up and the last comes home. Slots
+/// are used in turn; acquire() waits for the tile that used a slot last and writes it into the
+/// image. Not thread-safe.
 template <Backend B, class G>
 class TileRing {
  public:

@@ -30,7 +30,7 @@ struct BackendShaftOptions {
     float normal_weight = 0.02f;
 };
 
-/// Fills words of visibility on a backend by shafts: the better neighbours lie together, the
+/// Fills words of visibility on a backend by shafts. The better neighbours lie together, the
 /// faster. Holds the memory between the stages: 35 bytes for each 32 luxels and each VPL of a batch
 /// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 32
 /// bytes for each luxel. One queue at a time.
@@ -59,7 +59,7 @@ class BackendShafts {
           places_(backend.template buffer<std::uint32_t>(luxels)),
           counters_(backend.template buffer<std::uint32_t>(9)) {}
 
-    /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`: bit for bit
+    /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`. Bit for bit
     /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are padded with
     /// empty ones. With the layout of their tile they are in blocked order, and put into clusters
     /// while it works; without one they are taken as they are.

@@ -10,10 +10,10 @@
 
 namespace mir {
 
-/// Decides pairs of 256 luxels and a VPL: kernel for groups, a block per lane, neighbouring blocks
+/// Decides pairs of 256 luxels and a VPL. Kernel for groups, a block per lane, neighbouring blocks
 /// and one VPL a group. Zeroes the words of pairs that a triangle covers, leaves those of clear
-/// ones as they are, facing masks (FacingPass), and queues the rest: with all triangles
-/// that are partial, if it has found them, since those of each cluster are among them.
+/// ones as they are, facing masks (FacingPass), and queues the rest: with all triangles that are
+/// partial, if it has found them, since those of each cluster are among them.
 template <Space S, VplSet P>
 struct BlockShafts {
     /// Thread blocks that a multiprocessor of a GPU is to hold at least.

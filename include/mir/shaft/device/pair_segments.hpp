@@ -11,7 +11,7 @@
 
 namespace mir {
 
-/// The segments between a VPL and 32 luxels, of a group: what triangles whose planes are kept do to
+/// The segments between a VPL and 32 luxels, of a group. What triangles whose planes are kept do to
 /// each of them. A lane knows of two luxels, lane % 16 and the one 16 behind it. Lanes 0 to 15 ask
 /// the first half of the planes and the others the second, so that one is read for two luxels.
 class PairSegments {

@@ -14,7 +14,7 @@ namespace mir {
 inline constexpr std::uint32_t cluster_luxels = 32;
 inline constexpr std::uint32_t block_luxels = 256;  ///< of a block
 
-/// A box of which one axis leans: points are measured along it from a plane that is tilted against
+/// A box of which one axis leans. Points are measured along it from a plane that is tilted against
 /// the other two. On a sloping surface it is as thin as the surface is flat.
 struct TiltedAxis {
     static constexpr std::uint32_t none = 3;  ///< no axis leans
@@ -43,7 +43,7 @@ struct alignas(16) ClusterRecord {
     TiltedAxis tilt;              ///< of the box where it leans
 };
 
-/// True when the proofs of docs/shafts.md hold for the cluster's luxels: segments to others may be
+/// True when the proofs of docs/shafts.md hold for the cluster's luxels. Segments to others may be
 /// cut (reach.hpp), and are then none of the shaft's. False when a coordinate is not a number.
 [[nodiscard]] MIR_HD inline bool within_reach(const ClusterRecord& cluster, float reach) {
     for (int axis = 0; axis < 3; ++axis)

@@ -18,7 +18,7 @@ MIR_HD inline const ChildRow& plane_row(const WideNode& node, int axis, bool upp
 MIR_HD inline AxisStep adapted(const WideNode&, int /*axis*/, AxisStep step) { return step; }
 MIR_HD inline AffineRow adapted(const WideNode&, AffineRow row) { return row; }
 
-/// What numbers of planes are added to: the sum of it and a byte is a byte put among the digits of
+/// What numbers of planes are added to. The sum of it and a byte is a byte put among the digits of
 /// a float, which costs the device one operation.
 inline constexpr float plane_bias = 32768.0f;
 

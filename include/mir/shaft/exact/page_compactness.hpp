@@ -21,7 +21,7 @@ struct RunSizes {
         sum += diagonal;
         inverses += 1.0f / diagonal;
     }
-    /// False when some runs reach from one surface to another: if they are few, their arithmetic
+    /// False when some runs reach from one surface to another. If they are few, their arithmetic
     /// mean is much larger than the harmonic one; if they are many, it is larger than for a square
     /// that is cut into n squares, which are 1 / sqrt(n) as wide. `diagonal` is that of the box
     /// around all runs, metres. What is no number counts as compact.

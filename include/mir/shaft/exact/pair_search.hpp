@@ -61,7 +61,7 @@ struct ListPartial {
 
 }  // namespace detail
 
-/// Whether the proofs of docs/shafts.md hold for a scene of that reach: products overflow in larger
+/// Whether the proofs of docs/shafts.md hold for a scene of that reach. Products overflow in larger
 /// ones. Scenes too small for them have no triangles (WorldGeometry drops those without area).
 [[nodiscard]] MIR_HD inline bool is_proved_scale(float reach) { return reach <= reach_of(1e18f); }
 

@@ -48,7 +48,7 @@ MIR_HD inline float loose_at(AffineRow row, Vec3 p) {
     return strict::add(loose_dot({row.x, row.y, row.z}, p), row.w);
 }
 
-/// The same in one fused operation per axis; rounding is that of loose_at() and twice that of the
+/// The same in one fused operation per axis. Rounding is that of loose_at() and twice that of the
 /// value at the origin.
 MIR_HD inline float quick_at(const PlainRow& row, Vec3 p) {
     return loose::mul_add(row.z, p.z,

@@ -18,7 +18,7 @@ struct alignas(16) Shaft {
     Vec3 leaves{0};  ///< t is at most leaves (plane - apex); 0 where the VPL lies beside no face
 };
 
-/// What rounding may add to a share t when planes are single precision numbers: differences,
+/// What rounding may add to a share t when planes are single precision numbers. Differences,
 /// reciprocals and products round to 5 units of 2^-24 of t in all; the rest is for underflow.
 struct FloatPlaneSlack {
     static constexpr float relative = 1.00001f;  ///< factor of t

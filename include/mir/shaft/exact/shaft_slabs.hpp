@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// A Shaft as the nodes of a wide hierarchy are tested against it: for each axis which of a child's
+/// A Shaft as the nodes of a wide hierarchy are tested against it. For each axis which of a child's
 /// two planes the segments reach first, and the share of the way at which the first of them passes
 /// the one and the last of them the other. One fused operation per plane, no selection per child.
 ///

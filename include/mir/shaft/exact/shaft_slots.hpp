@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// A shaft as the eight children of a node are tested against it at once: what meets_box() decides
+/// A shaft as the eight children of a node are tested against it at once. What meets_box() decides
 /// by the signs of rates is decided here, once for the whole walk. On the host.
 class SlotShaft {
  public:

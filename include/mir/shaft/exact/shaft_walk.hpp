@@ -15,7 +15,7 @@ enum class WalkEnd : std::uint8_t {
 
 namespace detail {
 
-/// Slots of a node whose boxes the shaft meets, bit k for slot k; what it says of empty slots means
+/// Slots of a node whose boxes the shaft meets, bit k for slot k. What it says of empty slots means
 /// nothing.
 MIR_HD inline std::uint32_t met_slots(const WideNode& node, const Shaft& shaft) {
     std::uint32_t mask = 0;
@@ -34,7 +34,7 @@ struct WaitingSlots {
     std::uint32_t slots;
 };
 
-/// Shows the leaves among `met` to the visitor and removes them; true when it wants no more.
+/// Shows the leaves among `met` to the visitor and removes them. True when it wants no more.
 template <class Leaf>
 MIR_HD bool visit_leaves(const WideNode& node, Leaf& leaf, std::uint32_t& met) {
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {

@@ -9,7 +9,7 @@
 
 namespace mir::detail {
 
-/// The box of a cluster as triangles are tested against it: it keeps within centre -+ half, metres.
+/// The box of a cluster as triangles are tested against it. It keeps within centre -+ half, metres.
 struct ClusterBox {
     Vec3 centre{0};
     Vec3 half{0};
@@ -40,9 +40,9 @@ inline AffineRow subtract_rows(AffineRow f, AffineRow g, AffineRow h) {
     return {rest(f.x, g.x, h.x), rest(f.y, g.y, h.y), rest(f.z, g.z, h.z), rest(f.w, g.w, h.w)};
 }
 
-/// Sixteen triangles, made ready for one VPL: the affine functions s', U, V and W of
-/// occlusion.hpp, once for all clusters that are asked about. Left uninitialised, because there are
-/// many for each pair and most are not used.
+/// Sixteen triangles, made ready for one VPL. The affine functions s', U, V and W of occlusion.hpp,
+/// once for all clusters that are asked about. Left uninitialised, because there are many for each
+/// pair and most are not used.
 struct CandidateLanes {
     LaneRows beyond;  ///< s': distance beyond the plane as seen from the VPL, metres
     LaneRows u;       ///< U, V, W: not negative where the segment crosses inside

@@ -60,7 +60,7 @@ class PageClusters {
         is_ordered_ = true;
     }
 
-    /// The 256 luxels of cluster `c` in their order: of the page's block `c` unless sorted. Valid
+    /// The 256 luxels of cluster `c` in their order. Of the page's block `c` unless sorted. Valid
     /// until sort(), and while this object stays where it is.
     [[nodiscard]] SoaView<const Hit> hits(std::uint32_t c) const {
         if (!is_ordered_) return {tile_.planes + page_.slot(c * BlockMask::luxels), tile_.stride};
@@ -137,7 +137,7 @@ class PageClusters {
 
     [[nodiscard]] Hit in_slot(std::uint32_t k) const { return tile_.load(page_.slot(k)); }
 
-    /// Lists the slots of luxels that are not empty, and puts the others last; returns how many are
+    /// Lists the slots of luxels that are not empty, and puts the others last. Returns how many are
     /// listed.
     [[nodiscard]] std::uint32_t list_luxels(detail::PageNumbers& used) {
         std::uint32_t used_count = 0;

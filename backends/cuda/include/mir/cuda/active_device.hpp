@@ -26,7 +26,7 @@ class ActiveDevice {
     int former_ = 0;
 };
 
-/// The same where nothing may throw: runs `release` with the device current if it can be, and
+/// The same where nothing may throw. Runs `release` with the device current if it can be, and
 /// forgets failures, which the next checked call reports.
 template <class Release>
 void release_on(int ordinal, const Release& release) noexcept {

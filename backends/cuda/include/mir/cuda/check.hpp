@@ -9,7 +9,7 @@
 
 namespace mir::cuda {
 
-/// True for failures after which CUDA refuses all further work of this process: only a new process
+/// True for failures after which CUDA refuses all further work of this process. Only a new process
 /// can use the GPU again. What runs on the CPU is not touched.
 [[nodiscard]] inline bool ends_all_work(cudaError_t status) {
     switch (status) {

@@ -22,7 +22,7 @@ inline constexpr std::uint32_t threads_per_block = BlockedLayout::block_size;
 /// Bytes of fast memory that a block may have without asking for more.
 inline constexpr std::size_t workspace_bytes = 48 * 1024;
 
-/// Warps of a block that runs groups of lanes: few, because a block keeps its place until its
+/// Warps of a block that runs groups of lanes. Few, because a block keeps its place until its
 /// slowest warp is done, and no more than there is room for.
 template <class Kernel>
 inline constexpr std::uint32_t groups_per_block = static_cast<std::uint32_t>(

@@ -76,7 +76,7 @@ class Queue {
     template <class Kernel>
     void for_each(std::uint32_t n, const Kernel& kernel);
 
-    /// Bit i % 32 of words[(i / 32) columns + j] becomes kernel(kernel.row(i), j); each word is
+    /// Bit i % 32 of words[(i / 32) columns + j] becomes kernel(kernel.row(i), j). Each word is
     /// written once. Defined in mir/cuda/launch.cuh, for files that nvcc compiles.
     /// @throws Error(invalid_argument) unless rows is a multiple of 32; Error(device)
     template <class Kernel>

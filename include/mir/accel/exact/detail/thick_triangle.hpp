@@ -58,7 +58,7 @@ MIR_HD inline EdgeDoubt edge_doubt(Vec3 from, Vec3 to) {
     return edge_doubt(larger(max_abs(from), max_abs(to)), max_abs(to - from));
 }
 
-/// An edge along the thin piece of a segment that lies in the plane: its barycentric coordinate is
+/// An edge along the thin piece of a segment that lies in the plane. Its barycentric coordinate is
 /// `middle` where the piece crosses the plane and changes by `slope` to the end of the piece.
 struct EdgeAlong {
     float middle = 0.0f;

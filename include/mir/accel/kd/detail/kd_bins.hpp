@@ -40,7 +40,7 @@ struct KdGrid {
                 all_lanes(static_cast<float>(bins))),
           scale(all_lanes(1.0f) / width) {}
 
-    /// Few enough that counting, not sweeping bins, takes the time; enough that the exact search
+    /// Few enough that counting, not sweeping bins, takes the time. Enough that the exact search
     /// looks at a small part.
     static int bins_for(std::size_t fragments) {
         if (fragments <= 256) return 32;
@@ -94,7 +94,7 @@ struct KdBins {
     }
 };
 
-/// The bins around the cheapest border, where the exact search takes place: on either side the next
+/// The bins around the cheapest border, where the exact search takes place. On either side the next
 /// one in which something begins or ends, since between two such places costs are affine.
 struct KdBorder {
     int axis = 0;

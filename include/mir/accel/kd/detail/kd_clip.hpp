@@ -32,7 +32,7 @@ inline void cut_polygon(const KdPolygon& from, KdPolygon& to, int axis, float at
     to.count = n;
 }
 
-/// Cuts a triangle to the faces of a cell that its fragment touches; the others are implied. The
+/// Cuts a triangle to the faces of a cell that its fragment touches. The others are implied. The
 /// result is in one of two polygons.
 inline const KdPolygon& cut_to_cell(const ClipTriangle& triangle, const KdFragment& fragment,
                                     const KdCell& cell, KdPolygon (&polygons)[2]) {
@@ -76,7 +76,7 @@ struct KdExtent {
     }
 };
 
-/// Boxes of the two parts of a polygon: where x <= low_side and where x >= high_side.
+/// Boxes of the two parts of a polygon. Where x <= low_side and where x >= high_side.
 inline void extents_of_parts(const KdPolygon& polygon, int axis, float low_side, float high_side,
                              KdExtent& left, KdExtent& right) {
     if (polygon.count == 0) return;

@@ -5,7 +5,7 @@
 
 namespace mir::detail {
 
-/// A part of the scene for which a binary tree is made already: its box and its root.
+/// A part of the scene for which a binary tree is made already. Its box and its root.
 struct alignas(16) Cluster {
     Vec3 low{0};
     std::uint32_t node = 0;

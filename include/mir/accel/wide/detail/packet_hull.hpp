@@ -35,7 +35,7 @@ class PacketHull {
             set(axis, origin[axis], ends_of(coordinates[axis], active), shortest);
     }
 
-    /// Bit k: segments may meet the box of child k; what it says of empty slots means nothing.
+    /// Bit k: segments may meet the box of child k. What it says of empty slots means nothing.
     template <InstructionSet Set>
     [[nodiscard]] std::uint32_t met(const WideNode& node) const {
         const auto& planes = node.planes;

@@ -14,7 +14,7 @@ struct SplitPlane {
     [[nodiscard]] MIR_HD bool exists() const { return axis >= 0; }
 };
 
-/// The planes between cells of Morton's curve through a scene: all triangles are cut at the same
+/// The planes between cells of Morton's curve through a scene. All triangles are cut at the same
 /// ones, so that their parts lie in the same boxes.
 struct SplitPlanes {
     static constexpr std::uint32_t cells = 1u << 21;  ///< per axis, as fine_morton_code()
