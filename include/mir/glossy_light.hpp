@@ -10,7 +10,7 @@
 namespace mir {
 
 /// Lobes of the VPLs that aggregate() makes of records with arrivals, by their index. Lobes
-/// narrower than the GGX width `least_alpha` are widened to it, because a few points in place of a
+/// narrower than the GGX width `least_alpha` are widened to it, because a few points instead of a
 /// surface show a narrow one as spots.
 template <Bsdf B>
 struct VplLobes {

@@ -12,8 +12,8 @@ namespace mir {
 /// on them.
 class ImageBands {
  public:
-    /// `vpls` of which the visibility will be stored, 0 for none. Bands become lower until the
-    /// matrix of one fits into Limits::visibility_bytes.
+    /// `vpls`: number of VPLs whose visibility will be stored, 0 for none. Bands become lower until
+    /// the matrix of one fits into Limits::visibility_bytes.
     ImageBands(RenderFrame& frame, std::uint32_t vpls);
 
     /// Bands that the image is cut into; the last may be lower than the others.

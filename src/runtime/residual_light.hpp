@@ -14,7 +14,7 @@ namespace mir {
 /// returned, W m^-2 sr^-1. Unbiased; surfaces met reflect with their full BSDF, so what is added is
 /// what the bound removed where those are Lambertian, as VPLs are, or where VPLs keep a lobe that
 /// was not widened. Source: Kollig and Keller, "Illumination in the presence of weak
-/// singularities", MCQMC 2004, with paths in place of the recursion. By rays of the host. Bits
+/// singularities", MCQMC 2004, with paths instead of the recursion. By rays of the host. Bits
 /// depend on seed and luxel alone.
 Image<Rgb> add_residual_light(RenderFrame& frame, const AnyLuxels& luxels, std::uint32_t first_row,
                               float bound, std::span<Image<Rgb>* const> layers);

@@ -27,7 +27,7 @@ class Convergence {
     /// `reference`, which may be empty, must outlive it.
     explicit Convergence(const mir::Image<mir::Rgb>& reference) : reference_(reference) {}
 
-    /// Looks at the passes so far, of which there may be none. `last`: no more will come.
+    /// Looks at the passes so far, none or more. `last`: no more will come.
     void look_at(const mir::PassSums& sums, bool last);
 
     /// In the order of their passes. Of a resumed picture, none before it was resumed.

@@ -26,7 +26,7 @@ struct LaneRun {
 };
 
 /// Lanes of one vector register. Where a group is several, compilers loop over them inside of the
-/// loop over VPLs, which then does anew for each VPL what depends on the luxel alone.
+/// loop over VPLs, which then repeats for each VPL what depends on the luxel alone.
 constexpr std::uint32_t lanes_shaded_by(InstructionSet set) {
     if (set == InstructionSet::avx512) return 16;
     return set == InstructionSet::avx2 ? 8 : 4;

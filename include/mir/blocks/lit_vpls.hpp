@@ -11,8 +11,8 @@
 
 namespace mir::blocks {
 
-/// VPLs of which is known which luxels of a block they light. The luxels of a vector register meet
-/// all of them before the next ones do, so that what a shading makes of a luxel alone is computed
+/// VPLs for which the lit luxels of a block are known. The luxels of a vector register meet all
+/// of them before the next ones do, so that what a shading makes of a luxel alone is computed
 /// once.
 class LitVpls {
  public:
@@ -37,7 +37,7 @@ class LitVpls {
     [[gnu::always_inline]] void shade(const LuxelBlock<F, Hits>& block, const F& shading,
                                       GroupRadiance* sums) {
         for (std::uint32_t group = 0; group < groups_per_block; ++group) {
-            // A copy, of which the compiler knows that no luxel is read from it.
+            // A copy: the compiler knows that no luxel is read from it.
             GroupRadiance sum = sums[group];
             shade_group<Set>(block, compiled_for<Set>(shading), group,
                              [&](std::uint32_t) -> GroupRadiance& { return sum; });

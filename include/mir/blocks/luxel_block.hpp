@@ -17,8 +17,8 @@ inline constexpr std::uint32_t group_size = PointPacket::width;
 inline constexpr std::uint32_t groups_per_block = BlockMask::packets;
 static_assert(groups_per_block * group_size == BlockedLayout::block_size);
 
-/// Calls `body` for each group of a block. Kept a loop, of which compilers make vectors: once they
-/// have unrolled it into sixteen numbers they do not.
+/// Calls `body` for each group of a block. Kept a loop, which compilers vectorise: once they have
+/// unrolled it into sixteen numbers they do not.
 template <class Body>
 [[gnu::always_inline]] inline void each_group(const Body& body) {
     // nvcc does not know the pragma.

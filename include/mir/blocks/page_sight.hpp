@@ -47,9 +47,9 @@ class PageSight {
     PageSight& operator=(const PageSight&) = delete;
     ~PageSight() = default;
 
-    /// Asks for VPLs first .. first + count - 1, at most `most_vpls`, of which those count that
-    /// `matters(vpl)`: nobody sees the others. Returns which ones are seen by some luxel: bit k is
-    /// VPL first + k.
+    /// Asks for VPLs first .. first + count - 1, at most `most_vpls`; those with `matters(vpl)`
+    /// count: nobody sees the others. Returns which ones are seen by some luxel: bit k is VPL first
+    /// + k.
     template <VplSet P, class Matters>
     [[gnu::always_inline]] std::uint32_t look(const P& vpls, VplIndex first, std::uint32_t count,
                                               const Matters& matters) {

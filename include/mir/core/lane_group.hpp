@@ -22,7 +22,7 @@ class LaneGroup {
     static constexpr std::uint32_t width = 32;         ///< lanes
     static constexpr std::uint32_t all = 0xFFFFFFFFu;  ///< the bits of all lanes
 
-    /// Whether lanes are those of a warp, of which none is done before the others.
+    /// Whether lanes are those of a warp, none of them done before the others.
     static constexpr bool is_warp =
 #if defined(__CUDA_ARCH__)
         true;

@@ -68,9 +68,9 @@ inline std::string escaped_control(std::uint32_t code) {
 /// report: one line of valid UTF-8 without controls. Those become `\n`, `\t`, `\r`, `\x1b` or
 /// `\u202e`, bytes that are no UTF-8 `\xff`; everything else stays, backslashes too. What is then
 /// longer than `longest` bytes ends in "... (N bytes)", N being the size of `text`, and has
-/// `longest` bytes with that, or fewer, so that no character is cut; at least that ending. What was
-/// made printable stays as it is when it is made so again, by no smaller `longest`.
-/// Throws nothing but std::bad_alloc.
+/// `longest` bytes with that, or fewer, so that no character is cut; at least that ending. Making
+/// printable text printable again changes nothing, for no smaller `longest`. Throws nothing but
+/// std::bad_alloc.
 inline std::string printable(std::string_view text, std::size_t longest = 200) {
     const std::string ending = "... (" + std::to_string(text.size()) + " bytes)";
     const std::size_t room = longest - std::min(longest, ending.size());

@@ -15,7 +15,7 @@ template <class T>
 class Image {
  public:
     Image() = default;
-    /// An image of `extent`, every element of which is `value`.
+    /// An image of `extent` with the same `value` everywhere.
     explicit Image(Extent extent, T value = {})
         : extent_(extent), data_(static_cast<std::size_t>(extent.area()), value) {}
 

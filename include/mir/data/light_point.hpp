@@ -23,7 +23,7 @@ struct LightPoint {
                              ///< W sr^-1, of a direction without extent irradiance, W m^-2
     float pdf = 1.0f;        ///< of this choice: per m^2, from outside per sr; 1 where there
                              ///< is none
-    std::uint8_t sides = 1;  ///< that shine there: 1 or 2, one of which was chosen
+    std::uint8_t sides = 1;  ///< that shine there: 1 or 2; one was chosen
     std::uint16_t light_group = 0;  ///< of the light
     std::uint32_t triangle = 0;     ///< of a surface: index into WorldGeometry::triangles()
     Vec2 barycentrics{0};           ///< of a surface: weights of the second and third vertex

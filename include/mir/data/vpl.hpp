@@ -21,8 +21,8 @@ enum class VplKind : std::uint8_t {
     reflective  ///< a point that reflects: indirect light
 };
 
-/// Which point of which surface a geometric VPL is, and how much stands on it.
-/// Kernels that light luxels do not read it.
+/// Which point of a surface a geometric VPL is, and how much stands on it. Kernels that light
+/// luxels do not read it.
 struct VplOrigin {
     VplKind kind = VplKind::reflective;  ///< part of the point's identity
     std::uint32_t triangle = 0;          ///< identity of the point: triangle and barycentrics

@@ -48,7 +48,7 @@ struct FilmSums {
 template <class Layer>
 struct FilmPass {
     LuxelGrid grid;                 ///< of the whole image
-    detail::TapView taps;           ///< of the filter; views, as it is
+    detail::TapView taps;           ///< of the filter; views, like this
     const Vec2* offsets = nullptr;  ///< LuxelOffsets of the band
     const Layer* layers = nullptr;  ///< colour of luxel (x, y) of the band: layers[l](x, y)
     FilmSums to;  ///< of the film; rows of the ring must hold all pixels that the band reaches

@@ -43,9 +43,9 @@ struct BlockResponse {
     /// Groups that cover so many blocks and the VPLs that are summed.
     [[nodiscard]] std::uint32_t groups(std::uint32_t blocks) const { return blocks * runs(); }
 
-    /// Group `i` < groups(). Block first_block + i / r and the VPLs from first_vpl + 32 (i % r) on,
-    /// of which r are runs of 32. Writes the sum of VPL first_vpl + j to element j of the `count`
-    /// of that block; blocks lie in rows of `columns`.
+    /// Group `i` < groups(). Block first_block + i / r and the VPLs from first_vpl + 32 (i % r) on;
+    /// there are r runs of 32. Writes the sum of VPL first_vpl + j to element j of the `count` of
+    /// that block; blocks lie in rows of `columns`.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
         const std::uint32_t block = i / runs();
         const std::uint32_t first = i % runs() * LaneGroup::width;

@@ -46,7 +46,7 @@ struct ChainExtent {
 
 /// Runs chains, each from its start to its last record and in slices of any length, which leave no
 /// trace in the result. `intensity(path)` is what the record of a path gets. The same on host and
-/// device, but for where records go. `Suffix` is a SuffixProposal.
+/// device, except for where records go. `Suffix` is a SuffixProposal.
 template <class Generator, class Suffix, class Intensity>
 struct ChainWalk {
     /// The scene that paths run through.
@@ -98,8 +98,8 @@ struct ChainWalk {
     }
 
  private:
-    /// Names the random numbers of a state's suffixes, but for the refresh: 16 bits of the chain, 8
-    /// of the refresh, 32 of the state.
+    /// Names the random numbers of a state's suffixes, except for the refresh. It holds 16 bits of
+    /// the chain, 8 of the refresh, 32 of the state.
     MIR_HD static std::uint64_t index_of(std::uint32_t chain, std::uint64_t state) {
         return (std::uint64_t{chain} << 40) | static_cast<std::uint32_t>(state);
     }

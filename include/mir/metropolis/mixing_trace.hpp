@@ -24,7 +24,7 @@ struct TraceSample {
 class TraceRhythm {
  public:
     TraceRhythm() = default;
-    /// For a chain of `states` states, of which `seen` have passed.
+    /// For a chain of `states` states; `seen` of them have passed.
     MIR_HD explicit TraceRhythm(std::uint64_t states, std::uint64_t seen = 0)
         : stride_((states + most - 1) / most), seen_(seen) {}
 

@@ -31,7 +31,7 @@ MIR_HD inline double portable_exp2(double x) {
 /// proportional to 1 / length between s1 and s2.
 ///
 /// Coordinates are multiples of 2^-24, as all numbers of `Random` are, and lengths are rounded to
-/// them. Hence wrapping is exact, 1 is never returned, and T(u -> v) == T(v -> u) in every bit.
+/// them. So wrapping is exact, 1 is never returned, and T(u -> v) == T(v -> u) in every bit.
 ///
 /// Immutable; const use from any thread.
 /// Source: Kelemen et al., "A simple and robust mutation strategy for the Metropolis light

@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Draws x3 .. x_k of a path anew while x0, x1 and x2 stay, at least one reflection behind x2: an
+/// Redraws x3 .. x_k of a path while x0, x1 and x2 stay, at least one reflection behind x2: an
 /// independence chain on the light behind one VPL, with the target Y(F) + floor Y(R). Its states
 /// bring the same geometric VPL, so they cost nothing at reconstruction (docs/method.md, 11.6).
 /// Const use from any thread.

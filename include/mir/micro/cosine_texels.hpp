@@ -64,8 +64,8 @@ class CosineTexels {
     }
 
  private:
-    /// For the approximations that reach() is made of, of which asin() and atan() have most, and
-    /// the rounding of directions.
+    /// For the approximations in reach(), asin() and atan() above all, and rounded
+    /// directions.
     static constexpr float margin = 2e-4f;
 
     [[nodiscard]] MIR_HD static float dot(Vec3 a, Vec3 b) {

@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// Ends nothing: what gather_light() calls after each luxel unless told.
+/// Default progress callback of gather_light(): does nothing.
 inline constexpr auto no_progress = [](std::uint64_t) {};
 
 /// Indirect light of an image. What `gather`, a RayGather or a BufferGather, finds at every luxel;

@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// A point of which a picture is drawn.
+/// A point whose picture is drawn.
 template <class Texels>
 struct MicroPoint {
     Vec3 origin{0};  ///< metres

@@ -69,8 +69,8 @@ struct SpherePatches {
 /// Cuts a sphere into patches no larger than options.max_area, between parallels and meridians and
 /// about as wide as high, and puts a disc in the middle of each: it touches the sphere there, its
 /// front outside, and is as large as the patch (DiscExtent::equal_area) or reaches to its farthest
-/// corner (others; patches have no straight edges to end at). Areas add up to that of the sphere
-/// but for the rounding of each to single precision. `material` is an index as of
+/// corner (others; patches have no straight edges to end at). Areas add up to that of the sphere,
+/// except for the rounding of each to single precision. `material` is an index as of
 /// WorldGeometry::material_of(); the discs belong to Surfel::no_triangle.
 /// @throws Error(invalid_argument) on options or a radius out of range; Error(limit_exceeded)
 ///         before memory is taken.
@@ -81,7 +81,7 @@ inline std::vector<Surfel> sphere_surfels(Vec3 centre, float radius, std::uint32
             "the radius of a sphere must be positive and finite (metres), or it has no surface; "
             "give one");
     // Before rows are counted by 32 bits: patches are at least a quarter as large as asked for,
-    // but for the poles.
+    // except at the poles.
     check_limit(static_cast<std::uint64_t>(
                     std::min(1e18, 12.0 * static_cast<double>(radius) * radius / options.max_area)),
                 limits.surfels, "surfels");

@@ -25,8 +25,8 @@ MIR_HD inline bool is_above(const SurfelRay& ray, Vec3 to_centre) {
 /// True when nothing below a node is above the tangent plane of `normal` through the point that the
 /// node's centre is `to_centre` away from; never true of what a ray above the plane may meet. The
 /// sphere is asked first. Most nodes that it cuts belong to the wall that gathers, whose discs lie
-/// in the plane: they are in a slab across the axis, of which the plane's normal sees
-/// |cos| thickness + sin radius.
+/// in the plane: they are in a slab across the axis, whose extent along the plane's normal is |cos|
+/// thickness + sin radius.
 MIR_HD inline bool lies_below(const SurfelNode& node, Vec3 normal, Vec3 to_centre, float padded) {
     const float height = glm::dot(normal, to_centre);
     if (height < -padded) return true;
@@ -140,7 +140,7 @@ MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre) {
 /// True when a ray ends at an inner node. It is not inside, the node's solid angle is not larger
 /// than the ray's (`sine2` is its cap_sine_squared()), and it shows one side. As a disc, it is
 /// passed by when its centre lies below the tangent plane of `normal`: that is an end for nodes up
-/// to an eighth of their distance alone, of which little is above the plane and that at a slant.
+/// to an eighth of their distance alone: little of them is above the plane, and that at a slant.
 MIR_HD inline bool stops_at(const SurfelNode& node, Vec3 normal, Vec3 to_centre, float sine2) {
     const float distance2 = length_squared(to_centre);
     const float radius2 = node.radius * node.radius;
@@ -152,7 +152,7 @@ MIR_HD inline bool stops_at(const SurfelNode& node, Vec3 normal, Vec3 to_centre,
 inline constexpr float never = std::numeric_limits<float>::infinity();
 
 /// Distance from which on a ray may meet discs below a node, or infinity. Never too large: what
-/// meet_disc() accepts of a leaf lies, but for rounding, inside the spheres of all nodes above it.
+/// meet_disc() accepts of a leaf lies, rounding aside, inside the spheres of all nodes above it.
 template <Space S>
 MIR_HD float entry(const SurfelTreeView<S>& tree, std::uint32_t index, const SurfelRay& ray) {
     const SurfelNode& node = tree.nodes[index];
@@ -207,7 +207,7 @@ MIR_HD std::uint32_t descend(const SurfelTreeView<S>& tree, std::uint32_t index,
 /// angle of 0 it is the nearest disc of all, in every bit, and at equal distances the first in the
 /// order of the tree. Where it stops, a node counts as large as its sphere, but only as far as the
 /// ray also meets the spheres above it. Nothing is allocated; thread-safe. Source: Ritschel et al.
-/// 2009, section 4; cap_solid_angle() in place of its pi r^2 / d^2.
+/// 2009, section 4; cap_solid_angle() instead of its pi r^2 / d^2.
 template <Space S>
 [[nodiscard]] MIR_HD SurfelHit closest_surfel(const SurfelTreeView<S>& tree, const SurfelRay& ray,
                                               StopShape shape = StopShape::disc) {

@@ -92,8 +92,8 @@ struct PathWorld {
         return {lift(p),        p.geometric_normal, shading_normal,
                 p.barycentrics, p.triangle,         p.material};
     }
-    /// The square of 2^-4 of the scene's size, of which `ray_offset` is about 2^-16. A double holds
-    /// products over 64 edges of 2^-8 to 2^8 times its root, and over 33 of 2^-16 to 2^16.
+    /// The square of 2^-4 of the scene's size; `ray_offset` is about 2^-16 of that size. A double
+    /// holds products over 64 edges of 2^-8 to 2^8 times its root, and over 33 of 2^-16 to 2^16.
     [[nodiscard]] static double unit_for(float ray_offset) {
         return ray_offset > 0.0f ? std::scalbn(1.0, 2 * (std::ilogb(ray_offset) + 12)) : 1.0;
     }

@@ -109,7 +109,7 @@ class UploadedEnvironment {
     UploadedArray<B, Rgb> texels_;
     UploadedArray<B, double> cells_;
     UploadedArray<B, double> rows_;
-    EnvironmentView<Space::host> values_;  ///< of which only the values are used
+    EnvironmentView<Space::host> values_;  ///< only the values are used
 };
 
 /// The lights of a scene in a backend's memory.
@@ -153,7 +153,7 @@ class UploadedLights {
     UploadedArray<B, double> cumulative_;
     UploadedTextures<B> textures_;
     UploadedEnvironment<B> environment_;
-    LightTableView<Space::host> values_;  ///< of which only the values are used
+    LightTableView<Space::host> values_;  ///< only the values are used
 };
 
 /// The materials and images of a scene in a backend's memory.

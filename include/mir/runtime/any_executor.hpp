@@ -39,7 +39,7 @@ class AnyExecutor {
     [[nodiscard]] std::size_t concurrency() const { return concurrency_(executor_); }
 
  private:
-    /// A body of which no type is known.
+    /// A body of unknown type.
     struct Call {
         const void* context;
         void (*body)(const void*, std::size_t);

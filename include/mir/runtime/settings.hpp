@@ -124,8 +124,8 @@ struct GlossySettings {
     [[nodiscard]] float least_alpha() const { return least_roughness * least_roughness; }
 };
 
-/// What to render and how. Plain values with working defaults, of which designated initialisers may
-/// change some; validate() tells what is wrong.
+/// What to render and how. Plain values with working defaults; designated initialisers may change
+/// some. validate() tells what is wrong.
 struct RenderSettings {
     Extent image{640, 480};                         ///< pixels
     std::uint32_t luxels_per_pixel = 4;             ///< 1..64

@@ -17,7 +17,7 @@ namespace mir {
 /// Estimates what a VPL gives to the image before there is an image, from a few luxels: the
 /// quantity that Georgiev and Slusallek, "Simple and robust iterative importance sampling of
 /// virtual point lights", Eurographics 2010, decide by. Unbiased over seeds. Owns what it needs of
-/// the scene but for what `V` refers to; const use from any thread.
+/// the scene except for what `V` refers to; const use from any thread.
 template <Bsdf B, Visibility V>
 class ImageProbe {
  public:

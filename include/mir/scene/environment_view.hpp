@@ -19,7 +19,8 @@ struct EnvironmentSample {
 /// Directions are drawn in proportion to the luminance of their texel and uniformly inside it, so
 /// their density is luminance / total per steradian, exactly, where total = int luminance dw: an
 /// importance table whose weights are luminance times solid angle. Source: Pharr, Jakob, Humphreys,
-/// "Physically Based Rendering", 3rd edition, section 14.2.4, but for the place inside the texel.
+/// "Physically Based Rendering", 3rd edition, section 14.2.4, except for the place inside the
+/// texel.
 template <Space S>
 struct EnvironmentView {
     static constexpr Space space = S;  ///< where the arrays lie

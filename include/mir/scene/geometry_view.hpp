@@ -68,8 +68,8 @@ struct GeometryView {
 
     /// Distance by which segments that leave `position`, metres, are lifted off its surface,
     /// metres. At least least_offset(). Beyond that `ray_offset`, which lets shafts see that a
-    /// surface does not hide its own points, as long as it is less than 2^-13 of `seen_from`: of
-    /// the distance from which the point is seen, or of the size of what it lies on.
+    /// surface does not hide its own points, while it is less than 2^-13 of `seen_from`: of the
+    /// distance from which the point is seen, or of the size of what it lies on.
     [[nodiscard]] MIR_HD float offset_at(Vec3 position, float seen_from = INFINITY) const {
         return larger(least_offset(position), smaller(ray_offset, 0x1p-13f * seen_from));
     }

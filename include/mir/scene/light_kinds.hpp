@@ -15,7 +15,7 @@ namespace mir {
 template <class L, LightSource S, std::vector<L> Scene::*List>
 struct LightKind {
     using Light = L;                    ///< as a Scene has it
-    using Source = S;                   ///< as it is sampled
+    using Source = S;                   ///< in the form that is sampled
     static constexpr auto list = List;  ///< member of Scene
 };
 

@@ -20,7 +20,7 @@ MIR_HD inline float ggx_d(float cos_h, float alpha) {
     return a2 / (pi * t * t);
 }
 
-/// wi + wo, of which only lengths are needed. Nothing is divided before GgxOutgoing::dv() divides
+/// wi + wo; only lengths of it are needed. Nothing is divided before GgxOutgoing::dv() divides
 /// once.
 template <class Rounding>
 struct HalfVector {

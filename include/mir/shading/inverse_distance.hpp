@@ -5,9 +5,9 @@
 
 namespace mir {
 
-/// 1 / d, m^-1, of the offset from a luxel to a VPL, metres. Shorter ways than 2^-50 m count as
-/// that long. Same bits on host and device up to 2^50 m. From 2^64 m on squares are no floats, of
-/// which a device makes NaN.
+/// 1 / d, m^-1, of the offset from a luxel to a VPL, metres. Offsets shorter than 2^-50 m count as
+/// that long. Same bits on host and device up to 2^50 m. From 2^64 m on squares are no floats, and
+/// a device gives NaN.
 template <class Rounding>
 [[gnu::always_inline]] MIR_HD inline float inverse_distance(Vec3 offset) {
     const float squared = larger(dot<Rounding>(offset, offset), 0x1p-100f);

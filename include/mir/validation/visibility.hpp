@@ -54,7 +54,7 @@ inline bool expect_triangles(const WorldGeometry& geometry, Report& report) {
     return some;
 }
 
-/// Segments of which two answers differ.
+/// Segments with two different answers.
 struct Disagreements {
     double doubt;  ///< doubt_of() the geometry
     std::size_t all = 0;

@@ -19,7 +19,7 @@ namespace mir::detail {
 
 using Json = nlohmann::json;
 
-/// Extensions of which more than the name is read.
+/// Extensions that are read beyond their name.
 inline bool is_read_extension(std::string_view name) {
     constexpr std::array<std::string_view, 8> known = {"EXT_mesh_gpu_instancing",
                                                        "KHR_lights_punctual",

@@ -84,7 +84,7 @@ inline std::array<double, 3> scale_of_turns(std::array<double, 3> s) {
     return s;
 }
 
-/// Transform of a node to its parent, with `scale` in place of its own unless it has a matrix.
+/// Transform of a node to its parent, with `scale` instead of its own unless it has a matrix.
 inline DMat4 node_transform(const tinygltf::Node& node, const std::array<double, 3>& scale,
                             const std::string& place) {
     if (node.matrix.empty())

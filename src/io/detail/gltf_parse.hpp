@@ -238,7 +238,7 @@ inline void GltfParser::use_weights(const tinygltf::Node& node, std::size_t i) {
     if (std::any_of(weights.begin(), weights.end(), is_set)) morphed_[mesh] = 1;
 }
 
-/// A skin that cannot be used is no reason to refuse a picture. Its mesh stands as it is stored.
+/// A skin that cannot be used is no reason to refuse a picture. Its mesh stands as stored.
 inline void GltfParser::use_skin(const GltfValue& from, tinygltf::Node& node) {
     const auto given = from.find("skin");
     if (!given) return;

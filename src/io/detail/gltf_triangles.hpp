@@ -36,7 +36,7 @@ inline std::vector<TriangleIndices> gltf_triangles(const std::vector<std::uint32
 }
 
 /// Which vertices of its accessors a primitive has. Exporters let many primitives share accessors,
-/// and each of them shall not hold all of these.
+/// and none of them should hold all of these.
 struct VertexChoice {
     std::uint64_t all = 0;              ///< vertices of the accessors
     std::vector<std::uint32_t> chosen;  ///< in their order; empty: all

@@ -11,7 +11,7 @@
 namespace mir::detail {
 
 /// `path` without links, as far as it exists. What cannot be followed (a loop of links, a name that
-/// is too long) cannot be opened either: it is taken as it is written.
+/// is too long) cannot be opened either: it is taken as written.
 inline std::filesystem::path resolved(const std::filesystem::path& path) {
     namespace fs = std::filesystem;
     std::error_code failure;

@@ -14,7 +14,7 @@ namespace mir {
 // accept. This header computes such boxes.
 //
 // Let M be the largest |coordinate| of all corners, let the ends p, q of segments keep within
-// reach() = 1.5 M, e = 2^-24, g_u = |gradient of u|_1, g_v likewise, G = g_u + g_v.
+// reach() = 1.5 M, e = 2^-24, g_u = |gradient of u|_1, g_v the same, G = g_u + g_v.
 //
 // Lemma. If hits_segment() is true there is a point X on the segment with
 //   |s(X)| <= 41 e M, u(X) >= -28 e M g_u, v(X) >= -28 e M g_v, w(X) >= -(28 e M G + 10 e).
@@ -106,8 +106,8 @@ MIR_HD inline Bounds rounded_outwards(Double3 low, Double3 high) {
 
 /// Box around all places where hits_segment() may accept a segment for the triangle a, b, c and
 /// where traversal may look for it, rounded outwards. `magnitude` is magnitude_of() the bounds of
-/// the whole scene, metres. Cut to the cube of reach_of(magnitude), outside of which there are no
-/// segments: needles would have boxes without end. The same bits on host and device.
+/// the whole scene, metres. Cut to the cube of reach_of(magnitude), because needles would have
+/// boxes without end; no segment lies outside. The same bits on host and device.
 [[nodiscard]] MIR_HD inline Bounds accept_box(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
     const detail::AcceptTriangle t = detail::accept_triangle(a, b, c, magnitude);
     const detail::Double3 margin(accept_margin_of(magnitude));

@@ -97,7 +97,7 @@ MIR_HD bool is_solid(const TriangleRows& rows, Vec3 from, Vec3 to, const RowsAtE
 template <class Mask>
 [[nodiscard]] MIR_HD bool hits_segment(const TriangleRows& rows, Vec3 from, Vec3 to,
                                        std::uint32_t triangle, const Mask& mask) {
-    // Not by way of what follows, of which a device's compiler makes other instructions.
+    // Returns early, because a device's compiler makes other instructions of what follows.
     if constexpr (std::is_same_v<Mask, Opaque>) return hits_segment(rows, from, to);
     const float s_from = row_at(rows.s, from);
     const float s_to = row_at(rows.s, to);

@@ -17,7 +17,7 @@ struct WideLevel {
 
 /// What is noted of wide nodes before they are written, by node.
 struct WideNotes {
-    std::uint32_t* roots = nullptr;  ///< nodes of the binary tree of which they are made
+    std::uint32_t* roots = nullptr;  ///< nodes of the binary tree they are made of
     WideChildren* children = nullptr;
     std::uint32_t* first_child = nullptr;  ///< the first wide node among their children
     /// Place of the first triangle below. Those in leaves of the node itself come first, side by

@@ -44,7 +44,7 @@ struct FindNearest {
 };
 
 /// Kernel over clusters: the neighbour of the pair that they form by their order. The last of an
-/// odd number has none but itself.
+/// odd number has itself alone.
 struct PairNeighbours {
     const std::uint32_t* left = nullptr;  ///< how many clusters there are
     std::uint32_t* partners = nullptr;

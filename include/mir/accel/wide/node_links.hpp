@@ -18,7 +18,7 @@ struct LeafTriangles {
     /// True when there is none.
     [[nodiscard]] MIR_HD bool empty() const { return (bits[0] | bits[1]) == 0; }
 
-    /// Takes the next one, of which there must be one; returns its place.
+    /// Takes the next one, which must exist; returns its place.
     MIR_HD std::uint32_t pop() {
         const bool is_first_half = bits[0] != 0;
         const std::uint32_t from = is_first_half ? bits[0] : bits[1];

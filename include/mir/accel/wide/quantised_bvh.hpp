@@ -22,7 +22,7 @@ template <Space S>
 struct QuantiseNodes {
     WideBvhView<S> bvh;              ///< whose nodes are read
     QuantisedNode* boxes = nullptr;  ///< one for each node, by its number
-    NodeLinks* links = nullptr;      ///< likewise
+    NodeLinks* links = nullptr;      ///< as above
 
     /// Writes the boxes of node `i`, with a margin of 2^-20 of the hierarchy's reach, and its
     /// links.

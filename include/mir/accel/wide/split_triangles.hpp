@@ -7,7 +7,7 @@
 
 namespace mir::detail {
 
-/// A triangle as it is cut.
+/// A triangle in the form that is cut.
 struct CutTriangle {
     AcceptTriangle accept;
     PartBox box;
@@ -63,11 +63,11 @@ MIR_HD std::uint32_t cut_into_parts(const CutTriangle& t, std::uint32_t splits,
     }
 }
 
-/// Kernel over triangles. How much each gains by splits, as a number that is multiplied by a common
-/// density to get its number of splits; 0 where there is nothing to gain. What counts is the part
-/// of the box's surface that the triangle does not need, and how coarse the plane is that cuts it;
-/// after Karras and Aila, with a fourth root, which all machines round alike, in place of the
-/// third.
+/// Kernel over triangles. How much each gains by splits, as a number that is multiplied by a
+/// common density to get its number of splits; 0 where there is nothing to gain. What counts is
+/// the part of the box's surface that the triangle does not need, and how coarse the plane is that
+/// cuts it; after Karras and Aila, with a fourth root, which all machines round alike, instead of
+/// the third.
 template <Space S>
 struct RateTriangles {
     GeometryView<S> geometry;

@@ -49,8 +49,8 @@ class PacketSlabs {
         }
     }
 
-    /// Lanes whose segments meet the box of child `k`, those for which met_children() finds it but
-    /// for rounding. An empty slot may be met by lanes that go both ways.
+    /// Lanes whose segments meet the box of child `k`. They agree with met_children() except for
+    /// rounding. An empty slot may be met by lanes that go both ways.
     [[nodiscard]] std::uint32_t meet(const WideNode& node, std::uint32_t k) const {
         return mixed_ ? meet<true>(node, k) : meet<false>(node, k);
     }
@@ -121,8 +121,8 @@ inline constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
 template <InstructionSet Set, class Hull, std::uint32_t Packets = 1>
 class WidePacketWalk {
  public:
-    /// From the origin to `Packets` packets of points, of which some are active. `mask` outlives
-    /// the walk; nullptr: all triangles are whole.
+    /// From the origin to `Packets` packets of points, some of them active. `mask` outlives the
+    /// walk; nullptr: all triangles are whole.
     WidePacketWalk(const WideBvhView<Space::host>& bvh, const Hull& hull, Vec3 origin,
                    const PointPacket* points, std::uint32_t active,
                    const AlphaMaskView<Space::host>* mask = nullptr)
@@ -167,10 +167,10 @@ class WidePacketWalk {
     /// Nodes are visited some at a time, so that loops are long and know their lengths before they
     /// begin: a processor guesses wrong once a loop, not once a node.
     static constexpr std::uint32_t nodes_at_once = 8;
-    /// A round takes from the stack only what lies above what an earlier one has left there, hence
-    /// nodes below those that the earlier one put: so the shallowest node that it puts lies deeper
-    /// than the shallowest of those, and what is on the stack comes from no more rounds than there
-    /// are levels.
+    /// A round takes from the stack only what lies above what an earlier one has left there, that
+    /// is, nodes below those that the earlier one put. So the shallowest node that it puts lies
+    /// deeper than the shallowest of those, and what is on the stack comes from no more rounds than
+    /// there are levels.
     static constexpr std::uint32_t most_waiting =
         (nodes_at_once * WideBvhView<Space::host>::max_depth + 1) * WideNode::width +
         WaitingNodes::capacity;
@@ -235,8 +235,8 @@ class WidePacketWalk {
             const void* const wanted[2] = {&node,
                                            below_[is_inner].from + below_[is_inner].bytes * ref};
             prefetch(wanted[is_met], sizeof(WideNode));
-            // Written in any case, and counted where there is something: by sums and products, of
-            // which compilers make no branches.
+            // Written in any case, and counted where there is something: by sums and products,
+            // which compilers do not turn into branches.
             stack_[waiting_] = {ref, lanes};
             waiting_ += is_inner & is_met;
             for (std::uint32_t t = 0; t < Round::leaf_size; ++t)

@@ -18,8 +18,8 @@ namespace mir {
 // by at most
 //   |t d - (plane - from)| <= 3 e |plane - from| + e |plane| + e |from| <= 12 e M    (unfused)
 //                          <= 4 e |plane - from| + e |from|             <= 13.5 e M  (fused),
-// since ends and planes lie within 1.5 M but for terms in e^2. So for d > 0
-//   t_near d <= low - from + 13.5 e M <= t_x d - 0.5 e M, and likewise on the other side.
+// since ends and planes lie within 1.5 M except for terms in e^2. So for d > 0
+//   t_near d <= low - from + 13.5 e M <= t_x d - 0.5 e M, and the same on the other side.
 // A d nearer to zero than 2^-50 reach becomes one of that length: it moves X by less than
 // 2^-48 M, which the 0.5 e M cover, and no product overflows. (Where 2^-110 m is longer than that,
 // coordinates are so small that no product of two distances differs from zero.) Nothing here is

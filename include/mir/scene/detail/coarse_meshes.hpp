@@ -54,8 +54,8 @@ inline std::string metres(double length) { return number_text(length, 3) + " m";
 /// and words one sentence about all of them.
 class CoarseMeshes {
  public:
-    /// `reach`: largest coordinate of a corner; `edge`: median_edge(). Both in one unit, `unit` of
-    /// which are a metre of the world.
+    /// `reach`: largest coordinate of a corner; `edge`: median_edge(). Both in one unit; `unit` of
+    /// it are a metre of the world.
     void look_at(const std::string& name, double reach, double edge, double unit) {
         const double steps = edge / float_step(reach);
         if (!(steps > 0.0 && steps < least_steps)) return;

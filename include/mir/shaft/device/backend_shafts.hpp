@@ -32,8 +32,8 @@ struct BackendShaftOptions {
 
 /// Fills words of visibility on a backend by shafts. The better neighbours lie together, the
 /// faster. Holds the memory between the stages: 35 bytes for each 32 luxels and each VPL of a batch
-/// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 32
-/// bytes for each luxel. One queue at a time.
+/// at most; 24 of them are for leaves and stop growing at BackendShaftOptions::leaves; and 32 bytes
+/// for each luxel. One queue at a time.
 template <Backend B>
 class BackendShafts {
  public:

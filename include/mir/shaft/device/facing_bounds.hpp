@@ -152,8 +152,8 @@ MIR_HD void each_luxel(const LaneGroup& group, SoaView<const Hit> hits, std::uin
 
 /// What can be said of all luxels and a VPL at once. Host and device may differ in how often that
 /// is nothing. With m = q - centre the two numbers that faces() compares with zero are (q - p) . n
-/// = m . n - (p - centre) . n and (q - p) . n_q = m . n_q - (p - centre) . n_q, of which the bounds
-/// know the ranges. Where luxels and VPL lie on the same side of one plane, as on a wall, rounding
+/// = m . n - (p - centre) . n and (q - p) . n_q = m . n_q - (p - centre) . n_q, whose ranges the
+/// bounds know. Where luxels and VPL lie on the same side of one plane, as on a wall, rounding
 /// leaves both near zero; but with one normal for all they are the same number, which is not
 /// positive and negative at once.
 [[nodiscard]] MIR_HD inline Facing facing_of(const FacingBounds& luxels, const Vpl& vpl) {

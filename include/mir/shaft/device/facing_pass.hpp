@@ -29,8 +29,8 @@ struct FacingPass {
         return luxels / block_luxels * runs(batch);
     }
 
-    /// Group `i` < groups(). Block i / r and the VPLs from 32 (i % r) of the batch on, of which r
-    /// are runs of 32.
+    /// Group `i` < groups(). Block i / r and the VPLs from 32 (i % r) of the batch on; there are r
+    /// runs of 32.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace&) const {
         const std::uint32_t block = i / runs(batch);
         const FacingRecord& record = records[block];

@@ -34,7 +34,7 @@ struct PageOrder {
     /// luxel moves.
     std::uint32_t* places = nullptr;
 
-    static constexpr std::uint32_t stays = 0xFFFFFFFFu;  ///< in place of a number
+    static constexpr std::uint32_t stays = 0xFFFFFFFFu;  ///< instead of a number
 
     /// Page `i`.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {

@@ -14,7 +14,7 @@ namespace mir {
 inline constexpr std::uint32_t cluster_luxels = 32;
 inline constexpr std::uint32_t block_luxels = 256;  ///< of a block
 
-/// A box of which one axis leans. Points are measured along it from a plane that is tilted against
+/// A box with one leaning axis. Points are measured along it from a plane that is tilted against
 /// the other two. On a sloping surface it is as thin as the surface is flat.
 struct TiltedAxis {
     static constexpr std::uint32_t none = 3;  ///< no axis leans
@@ -112,8 +112,8 @@ MIR_HD inline float least_at(AffineRow row, const SoaView<const Hit>& hits, std:
     return least;
 }
 
-/// Record of luxels, of which there are some, whose box does not lean. `front` is a row through the
-/// origin, `least` or more at all of them; it is moved to where records want it.
+/// Record of one or more luxels whose box does not lean. `front` is a row through the origin,
+/// `least` or more at all of them; it is moved to where records want it.
 MIR_HD inline ClusterRecord upright_record(const ClusterSum& sum, AffineRow front, float least,
                                            float sigma) {
     ClusterRecord cluster;

@@ -23,7 +23,7 @@ struct alignas(16) Pyramid {
     float sigma;         ///< of the scene, metres
     Vec3 half;           ///< half edges: the box keeps within -+ half of local coordinates
     std::uint32_t axis;  ///< that leans: TiltedAxis
-    Vec3 slope;          ///< likewise
+    Vec3 slope;          ///< as above
 
     /// Local coordinates: the difference from the centre, on the axis that leans from the tilted
     /// plane through the centre.
@@ -167,14 +167,14 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
 
 }  // namespace detail
 
-/// Tests one triangle against all segments from the pyramid's apex to its box, in about 100
-/// operations without a division. None is left out early: lanes of a device that test different
-/// triangles would wait for the one that needs them all. Partial when the apex lies within sigma of
-/// the triangle's plane.
-/// Source: Reshetov, "Faster ray packets - triangle intersection through vertex culling", 2007,
-/// turned round: affine functions of the triangle over the base in place of planes over vertices.
-/// `planes` say what is sure of single segments: where the apex is that near, misses by the plane
-/// alone.
+/// Tests one triangle against all segments from the pyramid's apex to its box, in about
+/// 100 operations without a division. None is left out early: lanes of a device that
+/// test different triangles would wait for the one that needs them all. Partial when
+/// the apex lies within sigma of the triangle's plane. Source: Reshetov, "Faster ray
+/// packets - triangle intersection through vertex culling", 2007, turned round: affine
+/// functions of the triangle over the base instead of planes over vertices. `planes`
+/// say what is sure of single segments: where the apex is that near, misses by the
+/// plane alone.
 template <class Margins = OcclusionMargins>
 [[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p,
                                          ShadowPlanes& planes) {

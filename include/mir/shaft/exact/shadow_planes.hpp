@@ -43,7 +43,7 @@ MIR_HD inline float loose_dot(Vec3 a, Vec3 b) {
     return loose::mul_add(a.z, b.z, loose::mul_add(a.y, b.y, strict::mul(a.x, b.x)));
 }
 
-/// Value of a row at a point, likewise: no worse than row_at().
+/// Value of a row at a point, no worse than row_at().
 MIR_HD inline float loose_at(AffineRow row, Vec3 p) {
     return strict::add(loose_dot({row.x, row.y, row.z}, p), row.w);
 }

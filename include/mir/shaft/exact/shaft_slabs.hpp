@@ -16,7 +16,7 @@ namespace mir {
 /// cluster's box [l, h] lies above the VPL, t (l - q) <= X - q <= t (h - q): so t is at least the
 /// share at which the step h - q passes the child's lower plane and at most that at which l - q
 /// passes the upper one, each with 0.5 e M to spare, which is more than steps that are lengthened
-/// to the shortest one move a point. Below likewise. Where the VPL straddles the box both steps
+/// to the shortest one move a point. So below. Where the VPL straddles the box both steps
 /// give lower bounds, one for children on either side.
 struct ShaftSlabs {
     AffineRow front{0, 0, 0, 1};  ///< negative behind the cluster

@@ -93,7 +93,7 @@ __global__ void __launch_bounds__(threads_of_groups<Kernel>, resident_blocks<Ker
     __shared__ typename Kernel::Workspace spaces[groups_per_block<Kernel>];
     const std::uint32_t warp = threadIdx.x / LaneGroup::width;
     const std::uint32_t i = blockIdx.x * groups_per_block<Kernel> + warp;
-    // Where the compiler knows how to make the address anew it does so in every loop, which costs
+    // Where the compiler knows how to recompute the address it does so in every loop, which costs
     // more than the register. It still has to know that the address is of shared memory.
     void* own = spaces + warp;
     asm volatile("" : "+l"(own));

@@ -20,9 +20,9 @@
 // negative for u and v, and u + v <= 1.
 //
 // So there is a piece of the segment, thin by the plane, in which all three edges are kept by these
-// margins: that is what is asked, with 16, 12, 12 and 12 G + 8 e in place of 12.2, 7, 7 and
+// margins: that is what is asked, with 16, 12, 12 and 12 G + 8 e instead of 12.2, 7, 7 and
 // 7 G + 2 e. Not each edge by itself: pieces that keep one each may lie far apart where the
-// segment leans. m is taken where the computed s is 0, which is X but for 12.2 e m / |d| of the
+// segment leans. m is taken where the computed s is 0, which is X except for 12.2 e m / |d| of the
 // way; it changes by less than a sixteenth if |d| > 200 e |m_p - m_q|. U rounds by 2 e d m g_u, and
 // W by twice that and by 4 e d.
 //

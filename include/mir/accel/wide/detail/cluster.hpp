@@ -13,7 +13,8 @@ struct alignas(16) Cluster {
     std::uint32_t spare = 0;
 };
 
-/// Both parts as one, below the node `node`. Does not depend on their order but for zeros' signs.
+/// Both parts as one, below the node `node`. Does not depend on their order, except for zeros'
+/// signs.
 MIR_HD inline Cluster joined(const Cluster& a, const Cluster& b, std::uint32_t node) {
     return {lower_corner(a.low, b.low), node, upper_corner(a.high, b.high), 0};
 }

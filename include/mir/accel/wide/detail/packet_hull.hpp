@@ -22,7 +22,7 @@ namespace mir::detail {
 /// between the steps to the lowest and the highest of them. The share at which the highest passes
 /// the lower plane is no later than t, and that at which the lowest passes the upper one no
 /// earlier: each belongs to a segment that goes farther, or less far, while X keeps 0.5 e M to
-/// spare. Below likewise. Where points lie on both sides, both are bounds from below, one for
+/// spare. So below. Where points lie on both sides, both are bounds from below, one for
 /// children on either side.
 class PacketHull {
  public:
