@@ -87,7 +87,8 @@ class BackendRenderer final : public Renderer {
         const bool by_vpls = settings.integrator == Integrator::vpl;
         const BackendStructures structures =
             by_vpls ? structures_of(placed.geometry.is_masked(), settings) : tree_alone;
-        RenderJob job(placed, settings);
+        const RenderSettings decided = with_light_sum(settings, backend_features);
+        RenderJob job(placed, decided);
         RenderResult result = by_vpls ? render_there(job, structures) : render_here(job);
         result.statistics.acceleration = structures.name;
         return result;

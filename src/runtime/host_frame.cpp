@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/host_frame.hpp"
 
+#include "mir/cuts/deviation_cut.hpp"
 #include "mir/direct_light.hpp"
 #include "mir/film/film.hpp"
 #include "mir/film/guides.hpp"
 #include "mir/glossy_light.hpp"
 #include "mir/normalise/response.hpp"
+#include "mir/reconstruct_cuts.hpp"
 #include "mir/reshade.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/shading/glossy_shading.hpp"
@@ -93,6 +95,13 @@ class HostFrame final : public RenderFrame {
     }
     [[nodiscard]] LayerPtr light(const FrameBand& band, Vpls vpls, VplKernel kernel,
                                  Monitor* monitor) override;
+    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
+                                         Monitor* monitor) override {
+        return host_layer(reconstruct_cuts(HostBand<B>::of(band).gbuffer, tree, rays().visibility(),
+                                           VplShading<B>{bound}, DeviationCut{job_.settings.picks},
+                                           {job_.settings.seed, band.first_row}, job_.executor,
+                                           monitor));
+    }
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 

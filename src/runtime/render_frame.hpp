@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/cuts/vpl_tree.hpp"
 #include "mir/data/image.hpp"
 #include "mir/data/image_response.hpp"
 #include "mir/data/vpl_record.hpp"
@@ -116,6 +117,12 @@ class RenderFrame {
     /// `monitor`, which may be null, counts pairs of luxel and VPL.
     [[nodiscard]] virtual LayerPtr light(const FrameBand& band, VplSpan<Space::host> vpls,
                                          VplKernel kernel, Monitor* monitor) = 0;
+    /// Light of the VPLs of a tree by cuts of RenderSettings::picks, under `bound`.
+    /// @throws Error(unsupported) of frames without FrameFeature::cuts.
+    [[nodiscard]] virtual LayerPtr light_by_cuts(const FrameBand& /*band*/, const VplTree& /*tree*/,
+                                                 float /*bound*/, Monitor* /*monitor*/) {
+        throw without(FrameFeature::cuts);
+    }
     /// sum += layer.
     virtual void add(FrameLayer& sum, const FrameLayer& layer) = 0;
     /// Sum of the luminance of each row's luxels, from left to right, W m^-2 sr^-1.

@@ -37,16 +37,17 @@ void keep_statistics(RenderJob& job, const SampledVpls& sampled) {
     s.health = records.health;
     const bool by_sampler = sampled.normalisation == Normalisation::none && !records.health;
     s.normalisation =
-        to_string(by_sampler ? NormalisationPolicy::none : job.settings.normalisation);
+        to_string(by_sampler ? NormalisationPolicy::none : job.settings.normalisation_policy());
     s.vpls = job.result.vpls.size();
     s.luxels = job.rays.grid.luxels().area();
-    s.contributions = saturating_mul(s.luxels, s.vpls);
+    s.contributions =
+        saturating_mul(s.luxels, std::min<std::uint64_t>(s.vpls, job.settings.gathered_vpls()));
 }
 
 bool must_normalise(const RenderSettings& settings, Normalisation normalisation) {
     return normalisation == Normalisation::image_response &&
-           (settings.normalisation == NormalisationPolicy::full ||
-            settings.normalisation == NormalisationPolicy::prepass);
+           (settings.normalisation_policy() == NormalisationPolicy::full ||
+            settings.normalisation_policy() == NormalisationPolicy::prepass);
 }
 
 /// Every VPL meets every luxel once per layer, and once more each time that bits are found.
@@ -118,8 +119,10 @@ void add_mean(RenderFrame& frame, const FrameLayer& layer, double RenderStatisti
 LayerPtr removed_light(RenderFrame& frame, const FrameBand& band, const VplLight& light) {
     const RenderJob& job = frame.job();
     const auto stage = job.clock.measure(&StageSeconds::light_budget);
-    if (job.settings.bound.kind == BoundPolicy::Kind::none || job.settings.vsl.enabled)
-        return frame.black(band);
+    const bool removes =
+        job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
+    // Cuts meet too few VPLs to tell; paths do (RenderSettings::measure_missing).
+    if (!removes || job.settings.sum == LightSum::cuts) return frame.black(band);
     LayerPtr removed = light.removed(frame, band);
     add_mean(frame, *removed, &RenderStatistics::removed_luminance);
     return removed;
@@ -180,7 +183,7 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
     if (normalises) kept = normalise_vpls(frame, bands, bound, sampled.records);
     keep_radii(frame);
     keep_lobes(frame, sampled.records, normalises);
-    const VplLight light(s, bound, vpls);
+    const VplLight light(s, bound, vpls, job.executor);
     check_picture(s, std::size_t{first_bounce_layer} + light.bounces() + (s.removed_layer ? 1 : 0));
     measure_what_is_missing(frame, bound);
     for (std::uint32_t i = 0; i < bands.count(); ++i) {

@@ -99,6 +99,18 @@ TEST_CASE("A renderer over a backend says what rendered") {
     CHECK(s.triangles > 0);
 }
 
+TEST_CASE("A renderer over a backend without cuts sums many VPLs where the sum is not said") {
+    RenderSettings s = small_picture();
+    s.image = {4, 4};
+    s.sampler = mir::SamplerKind::instant_radiosity;
+    s.vpls = mir::most_vpls_summed + 100;
+    const mir::RenderStatistics found = Machine(0).render(s).statistics;
+    CHECK(found.vpls > mir::most_vpls_summed);
+    CHECK(found.contributions == found.luxels * found.vpls);
+    s.sum = mir::LightSum::all;
+    CHECK(Machine(0).render(s).statistics.contributions == found.contributions);
+}
+
 TEST_CASE("A renderer over a backend tries smaller tiles while memory is short, with equal bits") {
     const mir::RenderResult wanted = Machine(0).render(small_picture());
     Machine tight(2);  // tiles of 1024, 512, 256

@@ -71,6 +71,25 @@ inline void check_glossy(const RenderSettings& s) {
             "VPLs are spheres or have lobes (not both are made); leave --vsl or --glossy out");
 }
 
+/// Cuts stand for points under a bound, of VPLs whose light is known before luxels are met.
+inline void check_cuts(const RenderSettings& s) {
+    expects(s.picks >= 1 && s.picks <= 65536,
+            "VPLs that a luxel picks must be 1 to 65536; 128 are usual");
+    if (s.sum != LightSum::cuts) return;
+    expects(s.integrator == Integrator::vpl,
+            "only VPLs are cut (there are none); leave --sum out or use --integrator vpl");
+    expects(!s.vsl.enabled && !s.glossy.enabled,
+            "spheres and lobes are gathered from all VPLs (their visibility is stored); use --sum "
+            "all, or leave --vsl and --glossy out");
+    expects(!s.removed_layer,
+            "a layer of what the bound removed needs all VPLs at each luxel; use --sum all or "
+            "leave the layer out");
+    expects(s.sampler != SamplerKind::metropolis ||
+                s.normalisation_policy() != NormalisationPolicy::prepass,
+            "a prepass meets all luxels where few are lit (cuts are to leave that out); use "
+            "--normalise proposal or --sum all");
+}
+
 /// A tile may fill the last blocks of the image, but no more.
 inline void check_tile(const std::optional<Extent>& tile, Extent luxels) {
     expects(!tile || (tile->width > 0 && tile->height > 0),
@@ -162,6 +181,7 @@ inline void check(const RenderSettings& settings) {
     detail::check_removed(settings);
     detail::check_vsl(settings);
     detail::check_glossy(settings);
+    detail::check_cuts(settings);
     detail::check_micro(settings);
 }
 
