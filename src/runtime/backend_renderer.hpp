@@ -134,7 +134,7 @@ class BackendRenderer final : public Renderer {
 inline constexpr std::array<std::pair<const char*, BackendScheduler>, 3> backend_schedulers{
     {{"os", BackendScheduler::os}, {"rc", BackendScheduler::rc}, {"rcvp", BackendScheduler::rcvp}}};
 
-/// A backend for the Registry, with `kind` and name as users write it, whose renderers are made
+/// A backend for the Registry, with `kind` and the name that users write. Its renderers are made
 /// over the machine that open() returns. `require` and `is_present` as of Registry::Backend.
 template <class Open>
 [[nodiscard]] Registry::Backend registered_backend(BackendKind kind, std::string name,

@@ -7,9 +7,9 @@
 
 namespace mir {
 
-/// Cuts the luxels of an image into bands of rows, so that memory does not grow with the image, and
-/// has a frame make them one by one. Bands never cut blocks or pixels: nothing but memory depends
-/// on them.
+/// Cuts the luxels of an image into bands of rows for a frame. The frame makes them one by one, so
+/// that memory does not grow with the image. Bands never cut blocks or pixels: nothing but memory
+/// depends on them.
 class ImageBands {
  public:
     /// `vpls`: number of VPLs whose visibility will be stored, 0 for none. Bands become lower until

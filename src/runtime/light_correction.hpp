@@ -22,7 +22,8 @@ class LightCorrection {
     template <Executor E>
     LightCorrection(const Image<Rgb>& estimate, const Image<Rgb>& truth, E& executor);
 
-    /// Factor at a place on the film, from (0, 0) to (1, 1), between `least` and 1 / `least`.
+    /// Factor at a place on the film, between `least` and 1 / `least`. Places run from (0, 0) to
+    /// (1, 1).
     [[nodiscard]] Rgb operator()(float u, float v) const;
 
     static constexpr float least = 0.125f;  ///< no channel is changed by more

@@ -49,7 +49,8 @@ class DiscRender {
     using Radiance = std::vector<SurfelRadiance>;
     using Luxels = BlockedGBuffer<typename B::Params>;
 
-    /// The discs, and where they lie if rays go to the triangles, now or for a check.
+    /// The discs, and their places on triangles for rays to these. Rays go there now or for a
+    /// check.
     struct Discs {
         SurfelTree tree;
         std::optional<SurfelPlaces> places;
@@ -270,7 +271,7 @@ void DiscRender<B>::correct(Image<Rgb>& light, const LuxelBand& rows) {
     });
 }
 
-/// The sum of all bounces, and behind it each of them, the direct light first, where asked for.
+/// The sum of all bounces and each of them, where asked for. The direct light comes first.
 template <Bsdf B>
 void DiscRender<B>::append_indirect(const FrameBand& band, const Sources& sources,
                                     std::vector<LayerPtr>& layers) {

@@ -45,7 +45,7 @@ class FrameLayer {
     virtual ~FrameLayer() = default;
 };
 
-/// A sum over luxels of what each VPL does to them: ResponseSum, where their frame keeps them.
+/// A sum over luxels of what each VPL does to them. ResponseSum, where their frame keeps them.
 class FrameResponse {
  public:
     FrameResponse() = default;
@@ -69,11 +69,11 @@ struct FrameTraits {
     bool on_host;             ///< rays() and luxels cost the host nothing beyond their use
 };
 
-/// The machine that makes a picture, asked band by band: a virtual call costs nothing where it is
+/// The machine that makes a picture, asked band by band. A virtual call costs nothing where it is
 /// for a million luxels. HostFrame works in the host's memory, BackendFrame in that of a Backend.
-/// Bands and layers go back to the frame that made them. Sums and their order are those of the
-/// free functions of the same names, so that frames give the same bits. One thread at a time; the
-/// job must outlive it.
+/// Bands and layers go back to the frame that made them. Sums and their order are those of the free
+/// functions of the same names, so that frames give the same bits. One thread at a time; the job
+/// must outlive it.
 class RenderFrame {
  public:
     RenderFrame(RenderJob& job, FrameTraits traits) : job_(job), traits_(traits) {}
@@ -137,15 +137,15 @@ class RenderFrame {
     /// VplLobes::widened_share.
     /// @throws Error(unsupported) of frames without FrameFeature::lobes.
     virtual float keep_lobes(const VplRecords& /*records*/) { throw without(FrameFeature::lobes); }
-    /// Adds what `bound` removed, traced back, to the layers of a band (FilmLayer), and returns it.
+    /// Adds what `bound` removed, traced back, to a band's layers (FilmLayer). Returns it.
     /// @throws Error(unsupported) of frames without FrameFeature::residual.
     [[nodiscard]] virtual LayerPtr add_residual(const FrameBand& /*band*/, float /*bound*/,
                                                 std::vector<LayerPtr>& /*layers*/) {
         throw without(FrameFeature::residual);
     }
 
-    /// Puts the layers of a band on the film, in the order of FilmLayer, and its guides into the
-    /// result. Bands come from top to bottom, none higher than the first.
+    /// Puts a band's layers on the film and its guides into the result. Layers come in the order of
+    /// FilmLayer. Bands come from top to bottom, none higher than the first.
     virtual void put(const FrameBand& band, std::vector<LayerPtr> layers) = 0;
     /// The images of the layers, once every band was put there; leaves the frame without.
     [[nodiscard]] virtual std::vector<Image<Rgb>> develop() = 0;

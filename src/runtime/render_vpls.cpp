@@ -50,7 +50,7 @@ bool must_normalise(const RenderSettings& settings, Normalisation normalisation)
             settings.normalisation_policy() == NormalisationPolicy::prepass);
 }
 
-/// Every VPL meets every luxel once per layer, and once more each time that bits are found.
+/// Every VPL meets every luxel once per layer, and once per finding of bits.
 void plan_progress(RenderJob& job, bool stored, bool kept) {
     if (job.monitor == nullptr) return;
     const std::uint64_t layers =

@@ -22,7 +22,7 @@ inline float hill(float t) {
 /// t^4.
 inline float fourth(float t) { return t * t * t * t; }
 
-/// The car below its windows: a superellipsoid of exponent 4 whose top follows the line of bonnet
+/// The car below its windows: a superellipsoid of exponent 4. Its top follows the line of bonnet
 /// and boot. Swells over the wheels, is creased below the windows and drawn in above the sills.
 struct LowerHull {
     /// Below 0 inside, above 0 outside, about linear along rays from the inside.
@@ -46,8 +46,8 @@ struct LowerHull {
         return w;
     }
 
-    /// Height of the middle line before it is rounded off towards nose and tail, with two folds
-    /// along the bonnet.
+    /// Height of the middle line before it is rounded off towards the ends. It has two folds along
+    /// the bonnet.
     static float deck(float x, float z) {
         static constexpr std::array<float, 11> height{0.80f,  0.86f,  0.92f, 0.955f, 0.98f, 0.985f,
                                                       0.985f, 0.985f, 1.0f,  1.03f,  1.01f};

@@ -9,7 +9,7 @@
 
 namespace mir::builtin {
 
-/// A line across a panel, in the coordinates (a, b) of a Core or (x, z) of a deck.
+/// A line across a panel. In the coordinates (a, b) of a Core or (x, z) of a deck.
 struct Rib {
     Vec2 low{0};   ///< lower end
     Vec2 high{0};  ///< upper end
@@ -74,7 +74,7 @@ Mesh deck_panel(std::string name, std::uint32_t material, float from_height, con
     return sheet(std::move(name), material, g, cut.thickness, cut.inset);
 }
 
-/// Four-sided panel: `low` and `high` give its first and last `a` at heights `b0` and `b1`.
+/// Four-sided panel. `low` and `high` give its first and last `a` at heights `b0` and `b1`.
 inline std::vector<Rib> strip(Vec2 low, Vec2 high, float b0, float b1) {
     return {{{low.x, b0}, {high.x, b1}}, {{low.y, b0}, {high.y, b1}}};
 }

@@ -30,8 +30,8 @@ struct SurfaceGrid {
     }
 };
 
-/// Vertices around the border of a grid, in the order in which its front has them clockwise: one
-/// line, or two when the grid is a loop.
+/// Vertices around the border of a grid, clockwise from its front. One line, or two when the grid
+/// is a loop.
 inline std::vector<std::vector<std::uint32_t>> border(const SurfaceGrid& g) {
     std::vector<std::uint32_t> low;
     std::vector<std::uint32_t> high;

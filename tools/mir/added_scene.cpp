@@ -29,7 +29,7 @@ mir::Mesh ground_mesh(const mir::Bounds& bounds, std::uint32_t material) {
     return mesh;
 }
 
-/// `bounds` are counted from `origin`, which is a place of the file as those of `added` are.
+/// `bounds` count from `origin`, a place of the file like those of `added`.
 /// @throws mir::Error(invalid_argument) unless it looks somewhere.
 mir::Camera camera_of(const AddedScene& added, const mir::Bounds& bounds, mir::DVec3 origin) {
     const mir::Vec3 eye(*added.eye - origin);

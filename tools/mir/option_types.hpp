@@ -13,7 +13,7 @@
 
 namespace mirtool {
 
-/// A number within [low, high], which `text` says in words; CLI11's own check prints bounds with
+/// A number within [low, high], which `text` says in words. CLI11's own check prints bounds with
 /// hundreds of digits.
 CLI::Validator between(double low, double high, const std::string& text);
 

@@ -9,7 +9,7 @@
 
 namespace mir::blocks {
 
-/// Radiance of the luxels of a group while VPLs are added to it, structure of arrays.
+/// Radiance of the luxels of a group, structure of arrays. VPLs are added to it.
 struct alignas(64) GroupRadiance {
     float r[group_size] = {};
     float g[group_size] = {};
@@ -57,11 +57,11 @@ template <DistanceShading F, std::uint32_t First, std::uint32_t Lanes>
     for (std::uint32_t k = 0; k < Lanes; ++k) ahead.find<F>(k, hits.load(k), vpl);
 }
 
-/// Adds the VPL to the luxels of a run whose bit is set in `lit`, which is the group's. Every lane
-/// is computed, so that the loop becomes one pass over vector registers. A root and a quotient wait
-/// for one another at the beginning of most shadings, and no processor looks far enough ahead to
-/// begin with the next VPL meanwhile: a DistanceShading finds ways and inverse distances of this
-/// VPL in `ahead`, which is then given those of the `next`.
+/// Adds the VPL to the luxels of a run whose `lit` bit is set. Every lane is computed, so that the
+/// loop becomes one pass over vector registers. A root and a quotient wait for one another at the
+/// beginning of most shadings, and no processor looks far enough ahead to begin with the next VPL
+/// meanwhile: a DistanceShading finds ways and inverse distances of this VPL in `ahead`, which is
+/// then given those of the `next`.
 template <std::uint32_t First, std::uint32_t Lanes, Shading F>
 [[gnu::always_inline]] inline void add_shaded(LaneRun<First, Lanes>, SoaView<const Hit> hits,
                                               SoaView<const typename F::Surface> surfaces, Vpl vpl,

@@ -62,7 +62,7 @@ struct HitBlock {
     }
 };
 
-/// The same with bounds of the luxels that count, for tests that throw whole blocks away.
+/// The same with bounds of the luxels that count, for rejecting whole blocks.
 struct BoundedHitBlock : HitBlock {
     BlockBounds bounds;
 
@@ -153,8 +153,9 @@ class BlockSight {
     const V& visibility_;
 };
 
-/// Finds the luxels of the block that count and see a VPL, from what is known; true if there are
-/// some. Both in one go: masks are stored half a vector at a time, and who reads them as one waits.
+/// Finds the luxels of the block that count and see a VPL. It knows visibility already; true if
+/// there are some. Both in one go: masks are stored half a vector at a time, and who reads them as
+/// one waits.
 template <KnownVisibility V>
 [[gnu::always_inline]] inline bool find_known(const HitBlock& block, VplIndex j, const V& known,
                                               BlockMask& lit) {

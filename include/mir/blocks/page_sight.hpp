@@ -25,7 +25,7 @@ inline void append_pages(std::vector<PlacedPage>& all, TileIndex index, const Ti
     for (std::uint32_t i = 0; i < pages.count(); ++i) all.push_back({index, pages[i]});
 }
 
-/// Which luxels of a page count, face and see VPLs, by a BlockVisibility that is asked for 256
+/// Which luxels of a page count, face and see VPLs, by a BlockVisibility. It is asked for 256
 /// luxels at a time: blocks of the image, or clusters where packets of the image reach across
 /// surfaces and once the page turned out to be worth sorting. The bits are those of the page's
 /// blocks, block by block. Nothing is prepared for VPLs that nobody faces.
@@ -73,8 +73,8 @@ class PageSight {
         return seen;
     }
 
-    /// Luxels of block `b` of the page that see the `k`-th of the VPLs that were asked for last.
-    /// Only for those that look() returned a bit of: others may have no value.
+    /// Luxels of block `b` of the page that see the `k`-th VPL asked for last. Only for those that
+    /// look() returned a bit of: others may have no value.
     [[nodiscard]] BlockMask seen(std::uint32_t b, std::uint32_t k) const {
         return clusters_.get(b, k);
     }
@@ -84,8 +84,8 @@ class PageSight {
     /// until then as sorting costs (docs/decisions/002).
     static constexpr std::uint32_t parted_packets_of_sort = 64;
 
-    /// 256 luxels of the page, and, once one of them faces a VPL, what the visibility knows of
-    /// them, which may refer to them: so it neither copies nor moves.
+    /// 256 luxels of the page and, once one faces a VPL, the prepared block. The block may refer to
+    /// them, so it neither copies nor moves.
     struct Cluster {
         BoundedHitBlock luxels;
         std::optional<typename V::Block> known;

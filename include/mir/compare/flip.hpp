@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// Pixels per degree of visual angle of FLIP's usual observer, 67.02: 0.7 m in front of a screen of
+/// Pixels per degree of visual angle of FLIP's usual observer, 67.02. 0.7 m in front of a screen of
 /// 0.7 m with 3840 pixels across.
 inline constexpr float default_pixels_per_degree = 3840.0f * pi / 180.0f;
 
@@ -121,9 +121,10 @@ inline FlipFilters checked_flip_filters(float pixels_per_degree) {
 
 }  // namespace detail
 
-/// LDR-FLIP: for each pixel how much an observer notices who flips between two pictures on a
-/// display, 0 (nothing) to 1. Numbers are linear light of the display, not sRGB codes, and are
-/// clamped to 0..1. Symmetric. The result does not depend on the executor.
+/// LDR-FLIP: how visible the difference of two pictures is, pixel by pixel. It says how much an
+/// observer notices who flips between them on a display, 0 (nothing) to 1. Numbers are linear light
+/// of the display, not sRGB codes, and are clamped to 0..1. Symmetric. The result does not depend
+/// on the executor.
 /// @throws Error(invalid_input) as check_comparable(); Error(invalid_argument) when
 ///         `pixels_per_degree` is not within 1 to 1000.
 /// Source: Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom and Fairchild, "FLIP: A Difference

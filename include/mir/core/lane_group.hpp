@@ -9,11 +9,11 @@
 
 namespace mir {
 
-/// Thirty-two lanes that work in step: a warp of the device, a loop on the host. Kernels of
+/// Thirty-two lanes in step: a warp of the device, a loop on the host. Kernels of
 /// Backend::Queue::for_each_group() are written for all lanes at once: what differs from lane to
 /// lane is a PerLane, what each lane does a function of the lane's number, and everything else is
-/// the same for all, loops above all. Source, and the results of kernels that only combine lanes
-/// by the members below, are the same on both.
+/// the same for all, loops above all. Source, and the results of kernels that only combine lanes by
+/// the members below, are the same on both.
 ///
 /// Every member must be called by all lanes together: never inside of each(), nor behind a
 /// condition that differs between lanes.
@@ -110,7 +110,7 @@ class LaneGroup {
 #endif
     }
 
-    /// For each lane the value of the lane whose number, 0 to width - 1, it has in `from`.
+    /// For each lane the value of the lane that `from` names. Numbers are 0 to width - 1.
     [[nodiscard]] MIR_HD PerLane<std::uint32_t> gather(const PerLane<std::uint32_t>& values,
                                                        const PerLane<std::uint32_t>& from) const {
         PerLane<std::uint32_t> gathered;

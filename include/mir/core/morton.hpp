@@ -9,7 +9,7 @@ namespace mir {
 
 namespace detail {
 
-/// Bits of the cells of a point of the unit cube, 2^bits on each axis, interleaved.
+/// Interleaved bits of the cells of a point of the unit cube. Each axis has 2^bits cells.
 MIR_HD inline std::uint64_t morton_code(Vec3 p, int bits) {
     const auto cells = static_cast<float>(1 << bits);
     std::uint64_t code = 0;

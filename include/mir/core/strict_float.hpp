@@ -10,7 +10,7 @@ namespace mir::loose {
 // Operations whose last bits may differ between host and device: for decisions that carry their own
 // margin, such as the order in which a traversal visits cells.
 
-/// 1 / a with a relative error of at most 2^-22; `a` between 2^-120 and 2^120 in size.
+/// 1 / a with a relative error of at most 2^-22. `a` between 2^-120 and 2^120 in size.
 [[nodiscard]] MIR_HD inline float rough_reciprocal(float a) {
 #if defined(__CUDA_ARCH__)
     float estimate = 0.0f;
@@ -21,7 +21,7 @@ namespace mir::loose {
 #endif
 }
 
-/// 1 / a with a relative error below 2^-23; `a` between 2^-120 and 2^120 in size.
+/// 1 / a with a relative error below 2^-23. `a` between 2^-120 and 2^120 in size.
 [[nodiscard]] MIR_HD inline float reciprocal(float a) {
 #if defined(__CUDA_ARCH__)
     const float estimate = rough_reciprocal(a);

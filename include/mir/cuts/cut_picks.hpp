@@ -39,8 +39,8 @@ class CutPicks {
                                                                   << 28;
     }
 
-    /// Sixteenth of a node from which a group picks, before the digital shift of the node. Groups
-    /// are the places in squares of 4 x 4 luxels: those of each square of 2 x 2 get a quarter each.
+    /// Sixteenth of a node from which a group picks, before the digital shift. Groups are the
+    /// places in squares of 4 x 4 luxels: those of each square of 2 x 2 get a quarter each.
     [[nodiscard]] static constexpr std::uint32_t stratum(std::uint32_t group) {
         const std::uint32_t x = group % 4;
         const std::uint32_t y = group / 4;

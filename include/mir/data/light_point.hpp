@@ -32,8 +32,8 @@ struct LightPoint {
     [[nodiscard]] MIR_HD float pdf_start() const { return pdf / static_cast<float>(sides); }
 };
 
-/// Density per m^2 of a receiver with cosine `cosine` at the squared distance `d2`, of a direction
-/// drawn with density `pdf` per steradian.
+/// Density per m^2 of a receiver for a direction drawn with density `pdf`. The receiver has cosine
+/// `cosine` at the squared distance `d2`; `pdf` is per steradian.
 MIR_HD inline double per_receiver_area(float pdf, float cosine, float d2) {
     return static_cast<double>(cosine) / static_cast<double>(d2) * static_cast<double>(pdf);
 }

@@ -46,7 +46,8 @@ class TapTable {
     /// The same along y.
     [[nodiscard]] Range y(std::uint32_t cy) const { return ranges_[columns_ + cy]; }
 
-    /// Sets weights[i] to the weight for `tap` of a luxel at `offsets[i]`, in (0, 1), in its pixel.
+    /// Sets weights[i] to the weight for `tap` of a luxel at `offsets[i]`. Offsets are in (0, 1),
+    /// in the pixel.
     void weigh(std::uint32_t tap, std::span<const float> offsets, double* weights) const {
         if (filter_.kind == FilterKind::box) {
             for (std::size_t i = 0; i < offsets.size(); ++i)

@@ -22,7 +22,7 @@ struct FusedKernel {
     F shade;                ///< not asked for VPLs that are hidden
     SoaView<Rgb> radiance;  ///< W m^-2 sr^-1 by blocked index
 
-    /// Threads in flight pay more than registers: GPUs are to hold as many blocks of 256 at least.
+    /// Threads in flight pay more than registers. GPUs are to hold as many blocks of 256 at least.
     static constexpr std::uint32_t resident_blocks = 5;
 
     /// Luxel `i` (blocked index) against all VPLs; an empty luxel gets black.

@@ -30,8 +30,8 @@ struct BlockResponse {
     G luxels;                        ///< of the tile
     P vpls;                          ///< whose intensities are not read
     VisibilityWords<G::space> seen;  ///< of the tile: which luxels face and see which VPL
-    /// A device asks it for all lanes, black luxels among them, and throws away what is not lit.
-    /// Luxels that it says to reflect nothing are not counted as lit.
+    /// A device asks for all lanes, black luxels too, and drops unlit ones. Luxels that it says to
+    /// reflect nothing are not counted as lit.
     F shade;
     std::uint32_t first_block = 0;  ///< of the tile
     std::uint32_t blocks_x = 0;     ///< of the tile
@@ -106,7 +106,7 @@ struct BlockResponse {
         }
     }
 
-    /// Adds luxels first_luxel to first_luxel + 15, each to its lane of the sums; `own_lit` has a
+    /// Adds luxels first_luxel to first_luxel + 15, each to its lane of the sums. `own_lit` has a
     /// bit for each that sees the VPL of a lane of the group.
     MIR_HD void add_sixteen(const LaneGroup& group, LuxelIndex first_luxel,
                             const PerLaneVpls& own_vpls, const PerLaneBits& own_lit,
@@ -143,7 +143,8 @@ struct BlockResponse {
         });
     }
 
-    /// Adds the VPLs in places `at` and `at` + 1 of the workspace, one to each half of the group.
+    /// Adds the VPLs in places `at` and `at` + 1 of the workspace. Each goes to one half of the
+    /// group.
     MIR_HD void add_pair(const LaneGroup& group, const PerLaneLuxels& prepared, std::uint32_t at,
                          Workspace& space) const {
         group.each_apart([&](std::uint32_t lane) {

@@ -31,9 +31,9 @@ inline std::uint64_t next_bootstrap_size(const PathLuminance& p, const Bootstrap
 
 }  // namespace detail
 
-/// Draws paths, more each time, until the relative error asked for is reached and some hundred
-/// paths carry light, or max_paths are drawn. All weights are 0 only when none of a million paths
-/// (or of max_paths) carries any. `draw(first, weights, places)` fills in paths from `first` on, on
+/// Draws paths, more each time, until the relative error is reached. Some hundred paths must carry
+/// light; max_paths is the limit. All weights are 0 only when none of a million paths (or of
+/// max_paths) carries any. `draw(first, weights, places)` fills in paths from `first` on, on
 /// whatever machine.
 template <class Draw>
 Bootstrap grow_bootstrap(const BootstrapOptions& options, const Draw& draw) {

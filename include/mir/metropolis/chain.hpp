@@ -108,8 +108,8 @@ class PathChain {
     [[nodiscard]] MIR_HD const WeightMoments& large_step_weights() const {
         return state_.large_weights;
     }
-    /// True when on a device a number of an acceptance was negative or not finite, where the host
-    /// throws.
+    /// True when on a device an acceptance had a negative or infinite number. The host throws
+    /// there.
     [[nodiscard]] MIR_HD bool is_broken() const { return state_.is_broken; }
 
  private:

@@ -30,8 +30,8 @@ struct SliceReport {
     bool has_ended = false;     ///< no slice of it is left
 };
 
-/// Where a chain in a kernel writes: a column of two tables, so that what all chains leave empty is
-/// the tables' end.
+/// Where a chain in a kernel writes: a column of two tables. What all chains leave empty is the
+/// tables' end.
 struct ChainColumn {
     VplRecord* records = nullptr;    ///< of the chain: the j-th at records[j columns]
     TraceSample* samples = nullptr;  ///< as above

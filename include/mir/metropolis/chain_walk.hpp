@@ -44,7 +44,7 @@ struct ChainExtent {
     }
 };
 
-/// Runs chains, each from its start to its last record and in slices of any length, which leave no
+/// Runs chains, each from its start to its last record. Slices may have any length and leave no
 /// trace in the result. `intensity(path)` is what the record of a path gets. The same on host and
 /// device, except for where records go. `Suffix` is a SuffixProposal.
 template <class Generator, class Suffix, class Intensity>

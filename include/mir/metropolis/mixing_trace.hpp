@@ -61,7 +61,7 @@ class MixingTrace {
 
     /// States between two that are kept.
     [[nodiscard]] std::uint64_t stride() const { return rhythm_.stride(); }
-    /// One number along all states kept: 0 to 2 are x, y and z of x_v, metres; 3 is log Y(R), 4 is
+    /// One number along all states kept. 0 to 2 are x, y and z of x_v, metres; 3 is log Y(R), 4 is
     /// k.
     [[nodiscard]] std::vector<double> values(std::size_t scalar) const {
         std::vector<double> values;

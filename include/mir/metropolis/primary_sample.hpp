@@ -54,10 +54,10 @@ MIR_HD inline LargeStep large_step(std::uint32_t chain, std::uint32_t step,
     return {Stream::mutation, detail::mutation_index(chain, step, attempt + 1)};
 }
 
-/// State of a Markov chain in primary sample space: a point of [0, 1)^400 whose coordinates are
-/// computed when they are asked for. It is a pure function of seed, chain, the large step it
-/// descends from and the small steps accepted since, so equal on any machine; what is cached never
-/// shows. Proposals are views that write nothing: rejecting one costs nothing.
+/// State of a Markov chain in primary sample space, a point of [0, 1)^400. Coordinates are computed
+/// when they are asked for. It is a pure function of seed, chain, the large step it descends from
+/// and the small steps accepted since, so equal on any machine; what is cached never shows.
+/// Proposals are views that write nothing: rejecting one costs nothing.
 ///
 /// A value of 5.3 kB without memory elsewhere. Copies are independent. Not to be used by two
 /// threads at once.

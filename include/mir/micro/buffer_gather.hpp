@@ -152,8 +152,8 @@ struct BufferGather {
     }
 };
 
-/// Calls f with the least `Side`, as a std::integral_constant, that has room for buffers of `side`
-/// texels: small ones leave a GPU room for more groups.
+/// Calls f with the least `Side` that has room for buffers of `side` texels. It is a
+/// std::integral_constant; small ones leave a GPU room for more groups.
 template <class F>
 decltype(auto) with_buffer_side(std::uint32_t side, const F& f) {
     if (side <= 8) return f(std::integral_constant<std::uint32_t, 8>{});

@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// Luxels of a tile, padding included, and where the light that each of them gathers goes.
+/// Luxels of a tile, padding included, and where their gathered light goes.
 template <class G>
 struct GatherTile {
     /// What a luxel gathers with.

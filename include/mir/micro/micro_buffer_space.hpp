@@ -18,9 +18,9 @@ struct MicroPoint {
     Vec2 jitter{0};  ///< place of the directions inside their texels, [0, 1)^2
 };
 
-/// What a group works in that draws MicroBuffers of up to `Side` texels in each direction; `Lobes`:
-/// those of LobeTexels too. Nodes wait on a stack of `Waiting` places: fewer make lanes idle, never
-/// fail; more leave room for fewer groups.
+/// Workspace of a group that draws MicroBuffers. They have up to `Side` texels in each direction;
+/// `Lobes`: those of LobeTexels too. Nodes wait on a stack of `Waiting` places: fewer make lanes
+/// idle, never fail; more leave room for fewer groups.
 template <std::uint32_t Side, bool Lobes = true, std::uint32_t Waiting = 320>
 struct MicroBufferSpace {
     /// What waits when nodes are taken one at a time. Up to 63 that were unsure before, and one for

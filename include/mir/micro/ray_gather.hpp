@@ -50,8 +50,8 @@ struct GatherRays {
     Rays rays;
     GatherOptions options;
 
-    /// What a ray that leaves `from` meets, whose direction the point `u` of the unit square picks
-    /// above the plane.
+    /// What a ray from `from` meets. The point `u` of the unit square picks its direction above the
+    /// plane.
     [[nodiscard]] SurfelHit along(const Hit& from, Vec2 u) const {
         const LocalDirection d = gather_direction(options.directions, u);
         return along(from, Frame::around(from.normal).to_world(d.w), d);

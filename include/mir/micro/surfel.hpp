@@ -30,8 +30,8 @@ struct alignas(16) Surfel {
         return corner1 == Vec3(0.0f) && corner2 == Vec3(0.0f);
     }
 
-    /// True when a point of the plane, `off` away from the centre, is at most `margin` metres
-    /// outside of each edge of the piece.
+    /// True when a point of the plane is inside the piece, up to `margin`. The point is `off` away
+    /// from the centre, at most `margin` metres outside of each edge.
     [[nodiscard]] MIR_HD bool in_piece(Vec3 off, float margin) const {
         const Vec3 corner0 = -(corner1 + corner2);
         return left_of(corner0, corner1, off, margin) && left_of(corner1, corner2, off, margin) &&

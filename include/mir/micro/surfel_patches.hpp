@@ -25,8 +25,8 @@ struct SurfelPatchOptions {
 /// approach for realistic image synthesis", IEEE CG&A 6(3), 1986).
 class SurfelPatches {
  public:
-    /// The largest nodes that keep to `options`, and whose sphere is that of a patch of the largest
-    /// area; single discs may be larger. The tree must outlive it.
+    /// The largest nodes within `options` and the sphere of a largest patch. Single discs may be
+    /// larger. The tree must outlive it.
     explicit SurfelPatches(const SurfelTree& tree, const SurfelPatchOptions& options = {})
         : tree_(&tree) {
         for (std::uint32_t i = 0; i < tree.nodes().size();) {
@@ -74,8 +74,8 @@ class SurfelPatches {
     std::vector<std::uint32_t> nodes_;
 };
 
-/// Calls visit(patch) for the number of every patch that reflects light, in any order, from any
-/// thread.
+/// Calls visit(patch) for every patch that reflects light. In any order, from any thread; `patch`
+/// is its number.
 template <class Visit, Executor E>
 void for_each_reflecting_patch(const SurfelPatches& patches, E& executor, const Visit& visit) {
     constexpr std::size_t part = 64;

@@ -10,7 +10,7 @@ namespace mir {
 
 namespace detail {
 
-/// Length with every rounding of the tests below inside, for a node at `to_centre`: 64 units of
+/// Length with every rounding of the tests below inside, for a node at `to_centre`. 64 units of
 /// rounding of the distances that they are made of.
 MIR_HD inline float padded_radius(const SurfelNode& node, Vec3 to_centre) {
     const float distance = fabsf(to_centre.x) + fabsf(to_centre.y) + fabsf(to_centre.z);
@@ -22,11 +22,11 @@ MIR_HD inline bool is_above(const SurfelRay& ray, Vec3 to_centre) {
     return glm::dot(ray.normal, to_centre) >= 0.0f;
 }
 
-/// True when nothing below a node is above the tangent plane of `normal` through the point that the
-/// node's centre is `to_centre` away from; never true of what a ray above the plane may meet. The
-/// sphere is asked first. Most nodes that it cuts belong to the wall that gathers, whose discs lie
-/// in the plane: they are in a slab across the axis, whose extent along the plane's normal is |cos|
-/// thickness + sin radius.
+/// True when nothing below a node is above a tangent plane. The plane is that of `normal` through
+/// the point that the node's centre is `to_centre` away from; never true of what a ray above the
+/// plane may meet. The sphere is asked first. Most nodes that it cuts belong to the wall that
+/// gathers, whose discs lie in the plane: they are in a slab across the axis, whose extent along
+/// the plane's normal is |cos| thickness + sin radius.
 MIR_HD inline bool lies_below(const SurfelNode& node, Vec3 normal, Vec3 to_centre, float padded) {
     const float height = glm::dot(normal, to_centre);
     if (height < -padded) return true;
@@ -42,9 +42,9 @@ MIR_HD inline void take_nearer(SurfelHit& hit, float t, std::uint32_t node, bool
     if (t < hit.t || (t == hit.t && node < hit.node)) hit = {t, node, front};
 }
 
-/// True when a leaf's disc is met `off` away from its centre, `cosine` being that of the ray and
-/// the normal. The edges of a piece are padded by the rounding of that place, which grows as the
-/// ray grazes, and by that of the centre: no ray passes between two pieces. A ray below the tangent
+/// True when a leaf's disc is met `off` away from its centre. `cosine` is that of the ray and the
+/// normal. The edges of a piece are padded by the rounding of that place, which grows as the ray
+/// grazes, and by that of the centre: no ray passes between two pieces. A ray below the tangent
 /// plane, where shading normals may lead one, meets nothing above it, and no light enters there.
 MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, float cosine,
                                const SurfelRay& ray) {
@@ -57,8 +57,8 @@ MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, flo
     return disc.in_piece(off, rounding / fabsf(cosine));
 }
 
-/// A node as a disc of its radius across its axis, and what all rays from one point share that meet
-/// it: of a leaf, the disc itself, as far as it lies in its piece.
+/// A node as a disc of its radius across its axis. It holds what all rays from one point share that
+/// meet it: of a leaf, the disc itself, as far as it lies in its piece.
 struct SeenDisc {
     Vec3 to_centre{0};                       ///< from the point, metres
     float radius2 = 0.0f;                    ///< square of the radius, square metres

@@ -9,7 +9,7 @@
 
 namespace mir::detail {
 
-/// Which rows of an image a sum of responses has seen, and how sums become means.
+/// Which rows a sum of responses has seen, and how sums become means.
 class ResponseBands {
  public:
     ResponseBands(Extent luxels, std::uint32_t vpls) : luxels_(luxels), vpls_(vpls) {}

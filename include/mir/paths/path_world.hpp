@@ -15,7 +15,7 @@
 
 namespace mir {
 
-/// What full paths run through, in memory of space `S`: a value of views that may be passed to a
+/// What full paths run through, in memory of space `S`. A value of views that may be passed to a
 /// kernel. The scene data must outlive it. On the host `R` may be any RayCaster, elsewhere it is a
 /// PointFinder. Const use from any thread.
 template <Bsdf B, class R, Visibility V, Space S = Space::host>
@@ -34,11 +34,11 @@ struct PathWorld {
     CameraOptics camera;                              ///< what paths start from
     float aspect = 1.0f;                              ///< width / height of the film
     float bound = std::numeric_limits<float>::max();  ///< of the geometry term x1, x2; m^-2
-    /// In which areas behind x2 are measured, m^2: a power of four by the size of the scene. A
-    /// product over 64 vertices, each with its 1 / m^2, stays a number in scenes of any size.
+    /// Unit of areas behind x2, m^2. A power of four by the size of the scene. A product over 64
+    /// vertices, each with its 1 / m^2, stays a number in scenes of any size.
     double area_unit = 1.0;
 
-    /// Views that lie in space `S`; `geometry_bound`, m^-2, limits the geometry term between x1 and
+    /// Views that lie in space `S`. `geometry_bound`, m^-2, limits the geometry term between x1 and
     /// x2.
     /// @throws Error(invalid_argument) as check_bound(), and for an aspect ratio that is none.
     PathWorld(const GeometryView<S>& geometry_view, const LightTableView<S>& light_table,

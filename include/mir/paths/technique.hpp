@@ -9,8 +9,8 @@
 
 namespace mir {
 
-/// One way to build a path of k edges: s vertices from the light (0: the camera's part runs into a
-/// lamp, 1: light sample, more: light path), k - s from the camera, x1 always among them.
+/// One way to build a path of k edges. s vertices come from the light (0: the camera's part runs
+/// into a lamp, 1: light sample, more: light path), k - s from the camera, x1 always among them.
 struct Technique {
     std::uint32_t edges = 2;       ///< k, at least 2
     std::uint32_t from_light = 1;  ///< s, 0 to k - 1

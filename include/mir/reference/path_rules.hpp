@@ -22,13 +22,13 @@ concept PathRules = requires(float x, Rgb throughput) {
 
 /// The balance heuristic and roulette by throughput. Model of PathRules.
 struct BalanceRules {
-    /// Weight of a point found with density `own` > 0 that another technique finds with density
-    /// `other`; densities are of one measure and count samples (n p). Source: Veach and Guibas,
-    /// "Optimally combining sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
+    /// Weight of a point found with density `own` > 0, `other` being another technique's. Densities
+    /// are of one measure and count samples (n p). Source: Veach and Guibas, "Optimally combining
+    /// sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
     static float mis(float own, float other) { return 1.0f / (1.0f + other / own); }
 
-    /// Density per steradian, seen from a point at squared distance `d2` (m^2), of a surface point
-    /// with density `per_area` (m^-2) whose normal makes `cosine` with the line of sight.
+    /// Density per steradian of a surface point with density `per_area` (m^-2). It is seen from
+    /// squared distance `d2` (m^2); its normal makes `cosine` with the line of sight.
     static float per_steradian(float per_area, float d2, float cosine) {
         return per_area * d2 / cosine;
     }

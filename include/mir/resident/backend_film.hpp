@@ -46,9 +46,9 @@ class BackendFilm {
             images_.push_back(Image<Rgb>::unwritten(grid.pixels));
     }
 
-    /// Adds a band of complete luxel rows, radiance in W m^-2 sr^-1, a layer for each of the
-    /// film's, and develops the pixels that no later band reaches. Bands come from top to bottom
-    /// without gaps. All work is done when it returns.
+    /// Adds a band of complete luxel rows and develops finished pixels. Radiance is in W m^-2
+    /// sr^-1, a layer for each of the film's; no later band reaches a finished pixel. Bands come
+    /// from top to bottom without gaps. All work is done when it returns.
     /// @throws Error(invalid_argument) when band or layers do not fit; what the backend throws,
     ///         after which no band fits any more.
     void add_rows(Queue& queue, std::uint32_t first_row, std::vector<BackendLayer<B>>& layers);

@@ -33,7 +33,7 @@ bool shows_mesh(const Scene& scene, const Predicate& holds) {
 
 }  // namespace detail
 
-/// True when something in the scene could shine: a light, or a triangle that is placed.
+/// True when something in the scene could shine: a light or a placed triangle.
 inline bool has_light(const Scene& scene) {
     bool listed = false;
     for_each_listed_light(scene, [&listed](const auto&) { listed = true; });

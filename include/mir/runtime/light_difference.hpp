@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// How far an estimate of light lies from the truth, in units of the mean light.
+/// How far an estimate of light lies from the truth, over mean light.
 struct LightDifference {
     double mean = 0.0;            ///< 0.05: 5 % too bright in the mean
     double standard_error = 0.0;  ///< of `mean`

@@ -56,8 +56,8 @@ struct EnvironmentView {
     }
 
  private:
-    /// Cosine and sine of half the angle between +y and the upper edge of row `y`. Of the half
-    /// angle, because texels at the poles would drown in the rounding of a cosine next to 1.
+    /// Cosine and sine of half the angle between +y and row `y`'s upper edge. Of the half angle,
+    /// because texels at the poles would drown in the rounding of a cosine next to 1.
     [[nodiscard]] MIR_HD Vec2 edge(std::uint32_t y) const {
         return unit_circle(static_cast<float>(y) / (4.0f * static_cast<float>(height)));
     }

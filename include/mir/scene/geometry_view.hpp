@@ -46,9 +46,9 @@ struct GeometryView {
         return n / long_length(n);
     }
 
-    /// Place of the point of a triangle at barycentrics of its second and third corner, metres. In
-    /// double precision, rounded once: it lies in the triangle's plane to a unit of rounding at the
-    /// place, however large the triangle is.
+    /// Point of a triangle at barycentrics of its second and third corner, metres. In double
+    /// precision, rounded once: it lies in the triangle's plane to a unit of rounding at the place,
+    /// however large the triangle is.
     [[nodiscard]] MIR_HD Vec3 position(std::uint32_t triangle, Vec2 barycentrics) const {
         const TriangleIndices& t = triangles[triangle];
         const Vec3 a = positions[t[0]];
@@ -74,10 +74,10 @@ struct GeometryView {
         return larger(least_offset(position), smaller(ray_offset, 0x1p-13f * seen_from));
     }
 
-    /// Place on a triangle where segments may leave: position(), moved in the triangle's plane so
-    /// that it keeps off the edges by four times `offset`, metres, and by what barycentrics round.
-    /// A point by an edge would, once lifted, lie in the neighbour's plane or behind it. Triangles
-    /// that are too narrow keep a quarter of each height.
+    /// Place on a triangle where segments may leave. It is position(), moved in the triangle's
+    /// plane so that it keeps off the edges by four times `offset`, metres, and by what
+    /// barycentrics round. A point by an edge would, once lifted, lie in the neighbour's plane or
+    /// behind it. Triangles that are too narrow keep a quarter of each height.
     [[nodiscard]] MIR_HD Vec3 place(std::uint32_t triangle, Vec2 barycentrics, float offset) const {
         return position(triangle, barycentrics) + shift_off_edges(triangle, barycentrics, offset);
     }
@@ -86,8 +86,8 @@ struct GeometryView {
     [[nodiscard]] MIR_HD VertexAttributes attributes(std::uint32_t triangle,
                                                      Vec2 barycentrics) const;
 
-    /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
-    /// travels along `direction`, from so far that only the scene's size decides how much it is
+    /// Point of a triangle at barycentrics of its second and third corner. A ray that travels
+    /// along `direction` sees it, from so far that only the scene's size decides how much it is
     /// lifted.
     [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
                                                     Vec3 direction) const {

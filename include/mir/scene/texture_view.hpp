@@ -54,7 +54,7 @@ struct TextureView {
     }
 
  private:
-    /// A coordinate in [0, 1]; 0 when it is no number or too large to have a fraction.
+    /// A coordinate in [0, 1]. 0 when it is no number or too large to have a fraction.
     [[nodiscard]] MIR_HD static float wrapped(float u, Wrap wrap) {
         float t = u;
         if (wrap == Wrap::repeat) t = u - floorf(u);

@@ -67,9 +67,9 @@ struct GgxOutgoing {
         return {cos_o, a2, rest, part * smith_root(cos_o, a2, rest), part * cos_o};
     }
 
-    /// pi / alpha^2 over this is height-correlated Smith masking and shadowing over
-    /// 4 (n.wi)(n.wo); `cos_i` is n.wi, not negative.
-    /// Source: Heitz, "Understanding the masking-shadowing function", JCGT 3(2), 2014, eq. 99.
+    /// pi / alpha^2 over this is height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo).
+    /// `cos_i` is n.wi, not negative. Source: Heitz, "Understanding the masking-shadowing
+    /// function", JCGT 3(2), 2014, eq. 99.
     [[nodiscard, gnu::always_inline]] MIR_HD float smith_sum(float cos_i) const {
         return Rounding::mul_add(cos_i, root_part, cos_part * smith_root(cos_i, alpha2, rest));
     }

@@ -14,8 +14,8 @@ namespace mir {
 
 namespace detail {
 
-/// What GGX lobes reflect of light that comes alike from everywhere, f0 GgxShares::f0 + f90
-/// GgxShares::f90, by alpha: light that microfacets would scatter twice is lost.
+/// What GGX lobes reflect of light from everywhere, by alpha. It is f0 GgxShares::f0 + f90
+/// GgxShares::f90: light that microfacets would scatter twice is lost.
 struct GgxShares {
     double f0 = 0.0;
     double f90 = 0.0;

@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// Light of the emissive triangles at a luxel, estimated from `samples` points chosen by power:
-/// f L_e cos cos / (d^2 p) averaged over the samples. The samples of all luxels of a pixel are one
+/// Light of the emissive triangles at a luxel, from `samples` points. They are chosen by power: f
+/// L_e cos cos / (d^2 p) averaged over the samples. The samples of all luxels of a pixel are one
 /// Kronecker sequence with a random shift per pixel: each point is uniform, so the estimate is
 /// unbiased, and together they are spread evenly over the lamps. Host and device.
 template <Bsdf B, Visibility V>

@@ -36,8 +36,8 @@ inline std::uint64_t exr_rows_of_chunk(Imf::Compression method) {
     return method == Imf::DWAB_COMPRESSION ? 256 : 32;
 }
 
-/// How a file is cut into parts that are compressed by themselves, those of the largest level if
-/// there are several. Each has a place in a table.
+/// How a file is cut into parts that are compressed by themselves. They are those of the largest
+/// level if there are several. Each has a place in a table.
 struct ExrChunks {
     std::uint64_t count;
     std::uint64_t pixels;  ///< of a whole one, or a row of tiles, beyond the image's edge too

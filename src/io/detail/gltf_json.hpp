@@ -32,8 +32,8 @@ inline bool is_read_extension(std::string_view name) {
     return std::find(known.begin(), known.end(), name) != known.end();
 }
 
-/// Builds the values of a glTF file that something may be read from, as nlohmann's parser meets
-/// them, and counts them. Everything else, most of `extras`, the inside of animations and of
+/// Builds and counts the values of a glTF file, for nlohmann's parser. They are those that
+/// something may be read from. Everything else, most of `extras`, the inside of animations and of
 /// unknown extensions, takes no memory, whatever its size.
 class GltfJsonBuilder {
  public:
@@ -194,7 +194,7 @@ inline bool GltfJsonBuilder::key(std::string& name) {
     return true;
 }
 
-/// The parser's complaint, with the place in the text and nothing that a terminal could obey.
+/// The parser's complaint, with the place in the text, safe for terminals.
 inline bool GltfJsonBuilder::parse_error(std::size_t position, const std::string&,
                                          const nlohmann::detail::exception& why) {
     // The last character that was read is the one that is wrong.

@@ -11,7 +11,7 @@
 
 namespace mir::detail {
 
-/// Converts the materials of one file and counts what they ask for and do not get.
+/// Converts the materials of a file and counts what they do not get.
 class GltfMaterials {
  public:
     GltfMaterials(const tinygltf::Model& model, GltfImages& images, SceneReport& report)

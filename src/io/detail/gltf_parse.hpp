@@ -23,8 +23,8 @@ void make_named_list(const GltfDocument& document, const char* kind, std::vector
     for (std::size_t i = 0; i < list.size(); ++i) list[i].name = document.element(kind, i).name();
 }
 
-/// Gives the lists of `model` their lengths, and names to those elements that a picture knows even
-/// when it does not need them; returns it.
+/// Gives the lists of `model` their lengths, and names to some elements. These are the ones that a
+/// picture knows even when it does not need them; returns it.
 inline tinygltf::Model& make_lists(const GltfDocument& document, tinygltf::Model& model) {
     make_named_list(document, "node", model.nodes);
     make_named_list(document, "mesh", model.meshes);

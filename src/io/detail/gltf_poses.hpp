@@ -16,7 +16,7 @@
 
 namespace mir::detail {
 
-/// Tells how the meshes of nodes are shaped in the scene as it stands, at rest.
+/// Tells how the meshes of nodes are shaped at rest. That is how the scene stands.
 class GltfPoses {
  public:
     /// Both must outlive this.

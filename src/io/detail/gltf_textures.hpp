@@ -18,8 +18,8 @@ class GltfTextures {
     GltfTextures(const tinygltf::Model& model, GltfImages& images, SceneReport& report)
         : model_(model), images_(images), report_(report) {}
 
-    /// The texture `index` with the extensions of its use, and the set of coordinates that it
-    /// wants. No texture, and counted, when its image cannot be had.
+    /// The texture `index`, its extensions, and its set of coordinates. Extensions are those of its
+    /// use. No texture, and counted, when its image cannot be had.
     /// @throws Error(invalid_input) on an index or a number that means nothing.
     [[nodiscard]] Texture convert(const std::string& name, int index, int set,
                                   const tinygltf::ExtensionMap& extensions,

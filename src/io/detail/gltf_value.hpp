@@ -134,7 +134,7 @@ class GltfValue {
     }
 
  private:
-    /// A key, an element of an array, or a place of its own, which has `named`.
+    /// A key, an element of an array, or a place with `named`.
     struct Step {
         const char* name = nullptr;
         std::size_t index = 0;

@@ -25,14 +25,14 @@
 
 namespace mir::detail {
 
-/// Roughness whose GGX lobe is as wide as a Phong lobe of the given exponent: alpha^2 =
-/// 2 / (exponent + 2). Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction
+/// Roughness whose GGX lobe is as wide as a Phong lobe. With the given exponent alpha^2 = 2 /
+/// (exponent + 2). Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction
 /// through rough surfaces", EGSR 2007, section 5.2.
 inline float roughness_of_phong(float exponent) {
     return std::sqrt(std::sqrt(2.0f / (exponent + 2.0f)));
 }
 
-/// The names in a list between blanks; a backslash before a blank makes it a part of the name.
+/// The names in a list between blanks. A backslash before a blank makes it a part of the name.
 inline std::vector<std::string> library_names(std::string_view list) {
     std::vector<std::string> names;
     bool open = false;

@@ -30,7 +30,7 @@ MIR_HD inline AxisStep axis_step(float from, float to, float shortest) {
     return {inverse, strict::mul(from, inverse)};
 }
 
-/// Step to a face `size` metres away, not less than 0, on the side of `sign`, 1 or -1.
+/// Step to a face `size` >= 0 metres away on the side of `sign`, +-1.
 MIR_HD inline AxisStep face_step(float from, float size, float sign, float shortest) {
     const float inverse = sign * loose::reciprocal(larger(size, shortest));
     return {inverse, strict::mul(from, inverse)};

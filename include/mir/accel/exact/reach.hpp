@@ -26,7 +26,7 @@ struct CutSegment {
 
 namespace detail {
 
-/// Share of the segment from a to b before the cube begins; 2 when it never does.
+/// Share of the segment from a to b before the cube begins. 2 when it never does.
 MIR_HD inline float share_outside(float a, float b, float reach) {
     if (fabsf(a) <= reach) return 0.0f;
     const float gap = strict::sub(a, copysignf(reach, a));
@@ -81,7 +81,7 @@ MIR_HD inline CubePassage cube_passage(const Ray& ray, float reach) {
             {passes(o.x, d.x, 1.0f), passes(o.y, d.y, 1.0f), passes(o.z, d.z, 1.0f)}};
 }
 
-/// Point of the ray where it passes the faces at `t`; `side` is -1 where it enters, 1 where it
+/// Point of the ray where it passes the faces at `t`. `side` is -1 where it enters, 1 where it
 /// leaves.
 MIR_HD inline Vec3 passage_point(const Ray& ray, float t, Vec3 t_of_faces, float side,
                                  float reach) {

@@ -11,7 +11,7 @@ namespace mir {
 
 namespace detail {
 
-/// A triangle as affine frame, double precision: a point is corner + u e1 + v e2 + s normal.
+/// A triangle as affine frame, double precision. A point is corner + u e1 + v e2 + s normal.
 struct TriangleFrame {
     Double3 corner{0};
     Double3 e1{0};
@@ -92,8 +92,8 @@ MIR_HD bool is_solid(const TriangleRows& rows, Vec3 from, Vec3 to, const RowsAtE
 
 }  // namespace detail
 
-/// The same of triangle number `triangle`, which `mask` may say not to be there where it is
-/// crossed: an Opaque or an AlphaMaskView.
+/// The same of triangle number `triangle` with holes by `mask`. The mask is an Opaque or an
+/// AlphaMaskView.
 template <class Mask>
 [[nodiscard]] MIR_HD bool hits_segment(const TriangleRows& rows, Vec3 from, Vec3 to,
                                        std::uint32_t triangle, const Mask& mask) {
@@ -110,7 +110,7 @@ template <class Mask>
 
 namespace detail {
 
-/// True when the segment meets the triangle behind the share `t`, wherever in its thin piece.
+/// True when the segment meets the triangle's thin piece behind the share `t`.
 MIR_HD inline bool crosses_behind(Vec3 from, Vec3 to, float s_from, float s_to, float t) {
     const float d = strict::sub(s_from, s_to);
     const float behind = strict::sub(strict::div(s_from, d), t);
@@ -120,9 +120,9 @@ MIR_HD inline bool crosses_behind(Vec3 from, Vec3 to, float s_from, float s_to, 
 
 }  // namespace detail
 
-/// Replaces `best` when the segment crosses triangle number `triangle` before it, or at the same
-/// computed place and with a smaller number: the first crossing then does not depend on the order
-/// in which triangles are asked. Crosses exactly when hits_segment() with the same mask says so.
+/// Replaces `best` when the segment crosses triangle number `triangle` before it. At the same
+/// computed place the smaller number wins, so the first crossing does not depend on the order in
+/// which triangles are asked. Crosses exactly when hits_segment() with the same mask says so.
 template <class Mask = Opaque>
 MIR_HD void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std::uint32_t triangle,
                         TriangleHit& best, const Mask& mask = {}) {

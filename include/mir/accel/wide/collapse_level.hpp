@@ -39,8 +39,8 @@ struct StartAtRoot {
     }
 };
 
-/// Kernel over the nodes of a level and one index more, so that sums of what it writes include all:
-/// chooses children and counts those that are no leaves.
+/// Kernel over the nodes of a level: chooses children and counts inner ones. One index more makes
+/// sums of what it writes include all.
 struct ChooseChildren {
     ChildChoice choice;
     WideNotes notes;

@@ -51,7 +51,7 @@ struct MakeBoxes {
     }
 };
 
-/// Kernel over places along the curve: a leaf of the binary tree and a cluster of its own for each.
+/// Kernel over places along the curve: makes a leaf and a cluster of each.
 struct PlaceLeaves {
     const Cluster* boxes = nullptr;             ///< by reference
     const std::uint32_t* references = nullptr;  ///< by place

@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Triangles of some leaves of one node, in the order of their places in the hierarchy.
+/// Triangles of some leaves of one node, in the order of the hierarchy.
 struct LeafTriangles {
     std::uint32_t first[2];  ///< place of bit 0 of either word
     std::uint32_t bits[2];   ///< bit k of a word: the triangle at first + k

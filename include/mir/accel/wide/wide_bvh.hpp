@@ -13,8 +13,8 @@ namespace mir {
 /// makes one of a scene.
 class WideBvh {
  public:
-    /// Of parts that keep what WideBvhView promises: a root at least, and as many `indices` as
-    /// `triangles`.
+    /// Of parts that keep what WideBvhView promises. There is a root at least, and as many
+    /// `indices` as `triangles`.
     WideBvh(std::vector<WideNode> nodes, std::vector<TriangleRows> triangles,
             std::vector<std::uint32_t> indices, float reach)
         : nodes_(std::move(nodes)),

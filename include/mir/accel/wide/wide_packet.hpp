@@ -115,9 +115,9 @@ inline void prefetch(const void* from, std::size_t bytes) {
 /// Place of a triangle that is none.
 inline constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
 
-/// Some packets that walk together, and which of their lanes have met a triangle: a bit for each
-/// lane, packet after packet. `Hull` says which children of a node the lanes may meet at all,
-/// met<Set>(node), and spares asking all lanes about the others.
+/// Packets that walk together, and a bit for each lane that met a triangle. Bits come packet after
+/// packet. `Hull` says which children of a node the lanes may meet at all, met<Set>(node), and
+/// spares asking all lanes about the others.
 template <InstructionSet Set, class Hull, std::uint32_t Packets = 1>
 class WidePacketWalk {
  public:
@@ -136,8 +136,8 @@ class WidePacketWalk {
             slabs_[p].set(origin, points[p], lanes_of_packet(active, p), bvh.reach);
     }
 
-    /// Lanes of `active` that meet no triangle below some nodes, which another walk down left to
-    /// this one.
+    /// Lanes of `active` that meet no triangle below the nodes of another walk. That walk left
+    /// these nodes to this one.
     std::uint32_t run(const WaitingNodes& roots) {
         for (std::uint32_t g = 0; g < roots.groups() && open_ != 0; ++g) {
             Round round;
@@ -164,8 +164,8 @@ class WidePacketWalk {
         std::uint32_t lanes;
     };
 
-    /// Nodes are visited some at a time, so that loops are long and know their lengths before they
-    /// begin: a processor guesses wrong once a loop, not once a node.
+    /// Nodes are visited some at a time, in long loops of known length. A processor guesses wrong
+    /// once a loop, not once a node.
     static constexpr std::uint32_t nodes_at_once = 8;
     /// A round takes from the stack only what lies above what an earlier one has left there, that
     /// is, nodes below those that the earlier one put. So the shallowest node that it puts lies
@@ -217,7 +217,7 @@ class WidePacketWalk {
         round.parents[round.parent_count++] = &node;
     }
 
-    /// Puts those of the listed children that open lanes meet on the stack, or lists their
+    /// Puts children that open lanes meet on the stack, or lists their
     /// triangles.
     void meet_lanes(Round& round) {
         for (std::uint32_t i = 0; i < round.child_count; ++i) {
@@ -292,7 +292,7 @@ class WidePacketWalk {
 
 }  // namespace detail
 
-/// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
+/// Bit i: bit i of `active` is set and point i sees the origin. These are the bits of
 /// !is_hidden(bvh, origin, point i, mask). Thread-safe.
 template <InstructionSet Set = InstructionSet::baseline>
 [[nodiscard]] std::uint32_t visible_in_packet(const WideBvhView<Space::host>& bvh, Vec3 origin,

@@ -84,8 +84,8 @@ MIR_HD inline MetChildren met_children(const WideNode& node, const SlabSegment& 
     return met;
 }
 
-/// Slots of children in the order in which they are to be visited, the next one in the lowest four
-/// bits: the slot plus one, so that zero says that there is none left.
+/// Slots of children in the order of visits, next one in the lowest four bits. A slot stands plus
+/// one, so that zero says that there is none left.
 struct ChildQueue {
     std::uint32_t slots;
 
@@ -132,10 +132,10 @@ MIR_HD bool visit_children(const WideNode& node, const SlabSegment& segment, Lea
     return false;
 }
 
-/// The walk: calls `leaf(first, count)` for the leaves along the segment until one returns true,
-/// which the walk then returns. `leaf.end()` is the fraction of the segment up to which leaves
-/// matter. A node is on the stack only while one of its children is visited, so the stack holds
-/// nodes of one path alone and never more than the tree is deep.
+/// The walk: calls `leaf(first, count)` along the segment until one returns true. The walk then
+/// returns that. `leaf.end()` is the fraction of the segment up to which leaves matter. A node is
+/// on the stack only while one of its children is visited, so the stack holds nodes of one path
+/// alone and never more than the tree is deep.
 template <Space S, class Leaf>
 MIR_HD bool walk(const WideBvhView<S>& bvh, Vec3 from, Vec3 to, Leaf& leaf) {
     const SlabSegment segment(from, to, bvh.reach);

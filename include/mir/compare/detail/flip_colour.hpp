@@ -27,7 +27,7 @@ inline Rgb rgb_of_xyz(Vec3 xyz) {
             glm::dot(Vec3(0.052873939f, -0.203976959f, 1.151103020f), xyz)};
 }
 
-/// L*, a*, b* or Y, Cx, Cz from the three numbers that CIELAB and YCxCz each make of X, Y and Z.
+/// L*, a*, b* or Y, Cx, Cz from the numbers made of X, Y, Z. CIELAB and YCxCz each make three.
 inline Vec3 opponent_of(Vec3 f) {
     return {116.0f * f.y - 16.0f, 500.0f * (f.x - f.y), 200.0f * (f.y - f.z)};
 }

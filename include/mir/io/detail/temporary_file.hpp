@@ -71,9 +71,9 @@ class LockedFile {
     int descriptor_ = -1;
 };
 
-/// An empty file `.NAME.N.tmp` beside the file NAME that it is going to replace, with the first N
-/// that no other writer has. Removed with the object, unless it was renamed. What killed processes
-/// left over of NAME is removed first: nobody has it locked.
+/// An empty file `.NAME.N.tmp` beside the file NAME that it will replace. N is the first that no
+/// other writer has. Removed with the object, unless it was renamed. What killed processes left
+/// over of NAME is removed first: nobody has it locked.
 class TemporaryFile {
  public:
     /// `error()` says why there is none.
@@ -103,8 +103,8 @@ class TemporaryFile {
     [[nodiscard]] int error() const { return error_; }
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
-    /// Gives the file its final name, and the permissions of the file that had it before; a second
-    /// call does nothing.
+    /// Gives the file its final name, and the former file's permissions. A second call does
+    /// nothing.
     std::error_code rename(const std::filesystem::path& target) {
         std::error_code failure;
         if (!renamed_ && permissions_) file_.set_permissions(*permissions_);

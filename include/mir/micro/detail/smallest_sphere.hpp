@@ -80,11 +80,11 @@ class BallBasis {
     Ball ball_;
 };
 
-/// Centre of a sphere around discs that is at most a thousandth larger than the smallest: the
-/// farthest point of any disc is added until none lies outside. Every ball on the way is the
-/// smallest around points of the discs, thus not larger than the sphere that is looked for.
-/// Sources: Welzl, "Smallest enclosing disks (balls and ellipsoids)", LNCS 555, 1991, with the
-/// pivots of Gaertner, "Fast and robust smallest enclosing balls", ESA 1999.
+/// Centre of a sphere around discs, a thousandth larger than the smallest at most. The farthest
+/// point of any disc is added until none lies outside. Every ball on the way is the smallest around
+/// points of the discs, thus not larger than the sphere that is looked for. Sources: Welzl,
+/// "Smallest enclosing disks (balls and ellipsoids)", LNCS 555, 1991, with the pivots of Gaertner,
+/// "Fast and robust smallest enclosing balls", ESA 1999.
 inline Double3 smallest_sphere_centre(std::span<const Surfel> surfels) {
     const Double3 start(surfels[0].position);
     BallBasis basis(farthest_point(surfels[farthest_disc(surfels, start).index], start));

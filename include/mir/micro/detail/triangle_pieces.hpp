@@ -33,7 +33,7 @@ inline PiecePlace piece_place(std::uint64_t index, std::uint32_t level) {
     return p;
 }
 
-/// The piece of 4^level that a point of the triangle lies in; `b` are the weights of the second and
+/// The piece of 4^level that a point of the triangle lies in. `b` are the weights of the second and
 /// third corner. Inverse of piece_place().
 inline std::uint64_t piece_at(Vec2 b, std::uint32_t level) {
     std::uint64_t index = 0;

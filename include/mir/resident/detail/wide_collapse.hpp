@@ -6,7 +6,7 @@
 
 namespace mir::detail {
 
-/// Chooses which nodes of a binary tree become those of a wide one, level by level.
+/// Chooses which binary nodes become those of a wide tree, level by level.
 template <Backend B>
 class WideCollapse {
  public:

@@ -25,7 +25,7 @@ struct FaceCorner {
     [[nodiscard]] auto key() const { return std::tuple(place.x, place.y, place.z, level, front); }
 };
 
-/// Direction that comes out of the surfaces that meet in a place, with a component of one along
+/// Direction that comes out of the surfaces that meet in a place. It has a component of one along
 /// that normal which it is furthest from. Zero where they turn too far from each other for that.
 [[nodiscard]] inline Vec3 outwards(std::span<const FaceCorner> corners) {
     Vec3 sum(0.0f);
@@ -38,7 +38,7 @@ struct FaceCorner {
     return least > 0.5f ? mean / least : Vec3(0.0f);
 }
 
-/// Where the corners of lifted faces lie, in the order of their triangles' corners: `step` metres a
+/// Where the corners of lifted faces lie, in the order of their triangles' corners. `step` metres a
 /// level before the lamp. Faces of one level that meet in a corner still meet there, unless they
 /// turn by more than 120 degrees.
 [[nodiscard]] inline std::vector<std::array<Vec3, 3>> lifted_corners(

@@ -98,8 +98,8 @@ class Recentring {
         }
     }
 
-    /// Vertices that lie far from the origin of their mesh would be rounded there once more on
-    /// their way to the world: their distance is to become part of the placement.
+    /// Moves vertices that lie far from the origin of their mesh. They would be rounded there once
+    /// more on their way to the world: their distance is to become part of the placement.
     void find_far_vertices(const Scene& scene) {
         if (!world_.is_usable()) return;
         const double far = near_sizes * world_.size();

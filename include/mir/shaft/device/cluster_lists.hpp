@@ -7,16 +7,16 @@
 
 namespace mir {
 
-/// Decides pairs of 32 luxels and a VPL by the leaves that their shafts, or those of their blocks,
-/// meet: kernel for groups, a few pairs at a time. First a triangle per lane against the pyramid of
-/// its pair, then, pair by pair, a luxel per lane against the triangles that are partial. Pairs
-/// with too many triangles are queued.
+/// Decides pairs of 32 luxels and a VPL by the leaves met. They are those of their shafts, or of
+/// their blocks': kernel for groups, a few pairs at a time. First a triangle per lane against the
+/// pyramid of its pair, then, pair by pair, a luxel per lane against the triangles that are
+/// partial. Pairs with too many triangles are queued.
 template <Space S, VplSet P>
 struct ClusterLists {
     /// As BlockShafts::resident_blocks.
     static constexpr std::uint32_t resident_blocks = 9;
 
-    /// What a group works in: little, because it is taken from the cache of nodes and triangles.
+    /// Workspace of a group: little, since it shares the cache of nodes and triangles.
     struct Workspace {
         KeptPlanes planes;                                   ///< of triangles that are partial
         std::uint32_t triangles[ListBatch::most_triangles];  ///< of all pairs, by place
@@ -118,8 +118,8 @@ struct ClusterLists {
         return words[std::size_t{batch.clusters[lane]} * vpls.size() + batch.vpls[lane]];
     }
 
-    /// Tests the triangles from `first` on, one per lane, and ends the pairs whose last one is
-    /// among them. Returns which one is next.
+    /// Tests the triangles from `first` on, one per lane. Ends the pairs whose last one is among
+    /// them. Returns which one is next.
     MIR_HD std::uint32_t test(const LaneGroup& group, const ListBatch& batch, std::uint32_t first,
                               Progress& progress, Workspace& space) const {
         const LaneGroup::PerLane<std::uint32_t> list = batch.lists_from(group, first);

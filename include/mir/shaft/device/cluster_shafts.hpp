@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// Looks for the leaves of pairs of 32 luxels and a VPL whose block has no list: kernel for
+/// Looks for the leaves of pairs of 32 luxels and a VPL. Their block has no list: kernel for
 /// groups, a cluster per lane, four blocks at a time. Leaves the words of clear pairs, facing
 /// masks, as they are. Pairs with leaves are queued with them, those whose search gave up or for
 /// which there is no room without.

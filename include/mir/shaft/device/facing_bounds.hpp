@@ -18,7 +18,7 @@ inline constexpr float infinite = std::numeric_limits<float>::infinity();
 
 }  // namespace detail
 
-/// What faces() says of a VPL and all luxels of a run that are not empty.
+/// What faces() says of a VPL and all nonempty luxels of a run.
 enum class Facing : std::uint8_t {
     none,  ///< true of no luxel
     some,  ///< neither is shown
@@ -90,7 +90,7 @@ MIR_HD inline MiddleOfRange middle_of(const LaneGroup& group,
     return {middle, larger(most - middle, middle - least)};
 }
 
-/// Calls f(lane, hit) for the luxels of a run that are not empty, every 32nd of them a lane's.
+/// Calls f(lane, hit) for the nonempty luxels of a run. Every 32nd of them is a lane's.
 template <class F>
 MIR_HD void each_luxel(const LaneGroup& group, SoaView<const Hit> hits, std::uint32_t first,
                        std::uint32_t count, const F& f) {

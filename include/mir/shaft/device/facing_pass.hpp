@@ -77,7 +77,7 @@ struct FacingPass {
     static_assert(FacingRecord::words % at_once == 0);
     using Words = LaneGroup::PerLane<std::uint32_t>[at_once];
 
-    /// Gives the lanes whose bit is set in `open` the words of some clusters and their VPL, first +
+    /// Gives the lanes of `open` the words of some clusters and their VPL. That is first +
     /// lane.
     MIR_HD void vote(const LaneGroup& group, std::uint32_t cluster, VplIndex first,
                      std::uint32_t open, Words& word) const {

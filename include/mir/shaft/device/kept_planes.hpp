@@ -15,15 +15,15 @@ struct PlaneRange {
     [[nodiscard]] MIR_HD bool empty() const { return first == end; }
 };
 
-/// Planes of up to 32 triangles in the memory of a group, each written by one lane and read by all.
-/// Rows stand in arrays of their own: 32 lanes that write whole planes, 64 bytes apart, meet in few
-/// banks of the device's memory and take four times as long.
+/// Planes of up to 32 triangles in the memory of a group. Each is written by one lane and read by
+/// all. Rows stand in arrays of their own: 32 lanes that write whole planes, 64 bytes apart, meet
+/// in few banks of the device's memory and take four times as long.
 class KeptPlanes {
  public:
     static constexpr std::uint32_t capacity = LaneGroup::width;  ///< planes
 
-    /// Writes the planes of a triangle, which is known by its place in the hierarchy, to place
-    /// `at`.
+    /// Writes the planes of a triangle to place `at`. The triangle is known by its place in the
+    /// hierarchy.
     MIR_HD void put(std::uint32_t at, const SurePlanes& planes, std::uint32_t triangle) {
         beyond_[at] = planes.beyond;
         u_[at] = planes.u;

@@ -16,8 +16,8 @@ namespace mir {
 /// the first half of the planes and the others the second, so that one is read for two luxels.
 class PairSegments {
  public:
-    /// Of the luxels from `first_luxel` on and the VPL of `pyramid`, which is that of the planes
-    /// and has to stay.
+    /// Segments of the luxels from `first_luxel` on and the VPL of `pyramid`. The pyramid is that
+    /// of the planes and has to stay.
     MIR_HD PairSegments(const LaneGroup& group, const SoaView<const Hit>& hits,
                         std::uint32_t first_luxel, const Pyramid& pyramid)
         : group_(group), pyramid_(pyramid) {
@@ -32,9 +32,9 @@ class PairSegments {
         });
     }
 
-    /// Luxels of `lit`, a bit each, that none of the triangles in `range`, which is not empty,
-    /// hides. `triangles` are all by their place in the hierarchy. To be called once. Triangles
-    /// that are not sure are asked exactly, and last: by then most of the segments are hidden.
+    /// Luxels of `lit`, a bit each, that no triangle in `range` hides. The range is not empty.
+    /// `triangles` are all by their place in the hierarchy. To be called once. Triangles that are
+    /// not sure are asked exactly, and last: by then most of the segments are hidden.
     [[nodiscard]] MIR_HD std::uint32_t lit_behind(const KeptPlanes& planes, PlaneRange range,
                                                   const TriangleRows* triangles,
                                                   std::uint32_t lit) {
@@ -97,8 +97,8 @@ class PairSegments {
         return bits >> 31;
     }
 
-    /// Of the `count` planes of half `h` those that leave a luxel of `lit` open, or the lane's
-    /// other one.
+    /// Planes of half `h` that leave a luxel of `lit` open. There are `count`; the luxel is the
+    /// lane's or its other one.
     [[nodiscard]] MIR_HD std::uint32_t unsure_of(std::uint32_t h, std::uint32_t count,
                                                  std::uint32_t lit) const {
         return group_.any_bits([&](std::uint32_t lane) {

@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// What one triangle does to the segments between a VPL and the points of a cluster's box, as
-/// hits_segment() computes it.
+/// What one triangle does to the segments of a VPL and a box. The box holds the points of a
+/// cluster; hits_segment() decides.
 enum class Occlusion : std::uint8_t {
     none,     ///< it hits none of them
     partial,  ///< neither is shown
@@ -64,9 +64,9 @@ struct alignas(16) Pyramid {
     return p;
 }
 
-/// How far from 0 a bound must be for hits_segment() to say what its sign says: of the distance
-/// from the plane in units of sigma, of the edges in those of edge_margins(). docs/shafts.md
-/// derives 1.94 of the 2, 2.49 of the 2.5 for misses and 0.992 of the 1 for hits.
+/// How far from 0 a bound must be for hits_segment() to agree. The distance from the plane is in
+/// units of sigma, the edges in those of edge_margins(). docs/shafts.md derives 1.94 of the 2, 2.49
+/// of the 2.5 for misses and 0.992 of the 1 for hits.
 struct OcclusionMargins {
     static constexpr float plane = 2.0f;      ///< of the distance from the plane
     static constexpr float edge = 2.5f;       ///< of U, V and W, to be sure of a miss
@@ -144,11 +144,11 @@ MIR_HD inline EdgeMargins edge_margins(const TriangleRows& rows, const Pyramid& 
             strict::mul(sigma, loose::mul_add(2.0f, strict::add(varied_u, varied_v), at_apex))};
 }
 
-/// Whether all segments that cross a plane do so outside of the same edge (negative) or inside all
-/// edges (positive). S is the VPL's depth, s'(p) the distance of p beyond the plane. With
-///   U(p) = u(q) s'(p) + S u(p), V(p) = v(q) s'(p) + S v(p), W(p) = s'(p) + S - U(p) - V(p)
-/// the segment to p crosses inside when none is negative. They are affine in p, so their ranges
-/// over a box are known. Fills `planes`; inside it asks for `hit` of the margins.
+/// Whether all segments that cross a plane agree about edges. They pass outside of the same edge
+/// (negative) or inside all edges (positive). S is the VPL's depth, s'(p) the distance of p beyond
+/// the plane. With U(p) = u(q) s'(p) + S u(p), V(p) = v(q) s'(p) + S v(p), W(p) = s'(p) + S - U(p)
+/// - V(p) the segment to p crosses inside when none is negative. They are affine in p, so their
+/// ranges over a box are known. Fills `planes`; inside it asks for `hit` of the margins.
 MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
                                   const AffineForm& beyond, const ApexRows& apex,
                                   EdgeMargins margins, float hit, ShadowPlanes& planes) {
@@ -167,14 +167,14 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
 
 }  // namespace detail
 
-/// Tests one triangle against all segments from the pyramid's apex to its box, in about
-/// 100 operations without a division. None is left out early: lanes of a device that
-/// test different triangles would wait for the one that needs them all. Partial when
+/// Tests one triangle against all segments of a pyramid. They go from the apex to its box,
+/// in about 100 operations without a division. None is left out early: lanes of a device
+/// that test different triangles would wait for the one that needs them all. Partial when
 /// the apex lies within sigma of the triangle's plane. Source: Reshetov, "Faster ray
 /// packets - triangle intersection through vertex culling", 2007, turned round: affine
-/// functions of the triangle over the base instead of planes over vertices. `planes`
-/// say what is sure of single segments: where the apex is that near, misses by the
-/// plane alone.
+/// functions of the triangle over the base instead of planes over vertices. `planes` say
+/// what is sure of single segments: where the apex is that near, misses by the plane
+/// alone.
 template <class Margins = OcclusionMargins>
 [[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p,
                                          ShadowPlanes& planes) {

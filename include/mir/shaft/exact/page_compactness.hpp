@@ -7,8 +7,8 @@
 
 namespace mir {
 
-/// Sizes of runs of neighbouring luxels, from which is told whether each keeps to one surface. It
-/// decides speed alone.
+/// Sizes of runs of neighbouring luxels: whether each keeps to one surface. It decides speed
+/// alone.
 struct RunSizes {
     float count = 0.0f;     ///< runs that are no points
     float sum = 0.0f;       ///< of their diagonals, metres

@@ -15,7 +15,7 @@ struct alignas(16) PlainRow {
     float w;  ///< value at the origin
 };
 
-/// How far from 0 U, V and W must be for hits_segment() to compute numbers of their signs, metres.
+/// Least |U|, |V| and |W| for hits_segment() to agree in sign, metres.
 struct EdgeMargins {
     /// Where one is larger, metres, coefficients of its plane might be infinite, or no numbers.
     static constexpr float largest = 1e30f;
@@ -69,16 +69,16 @@ MIR_HD inline float least(float a, float b, float c, float d) {
 
 }  // namespace detail
 
-/// ShadowPlanes scaled and shifted so that their margins of hits lie at 1 and those of misses at
-/// -1: one number tells what is sure of a segment. Without defaults.
+/// ShadowPlanes in units of their margins, hits at 1 and misses at -1. One number tells what is
+/// sure of a segment. Without defaults.
 struct SurePlanes {
     PlainRow beyond;  ///< s'
     PlainRow u;       ///< U; constant and nearer to 0, as V and W, where nothing is sure of it
     PlainRow v;       ///< V
     PlainRow w;       ///< W
 
-    /// Above 1 where hits_segment() is true for the end with local coordinates `end`, metres,
-    /// whatever is rounded, and below -1 where it is false. No number where `end` is none.
+    /// Above 1 where hits_segment() is surely true, below -1 where false. The end has the local
+    /// coordinates `end`, metres. No number where `end` is none.
     [[nodiscard]] MIR_HD float at(Vec3 end) const {
         return detail::least(detail::quick_at(beyond, end), detail::quick_at(u, end),
                              detail::quick_at(v, end), detail::quick_at(w, end));
@@ -87,8 +87,8 @@ struct SurePlanes {
 
 namespace detail {
 
-/// Margins of a plane for hits and for misses, as shares of the one for misses: what lies between
-/// them is open.
+/// Margins of a plane for hits and for misses, over those for misses. What lies between them is
+/// open.
 struct OpenRange {
     float hit;  ///< of the margin, above 0 and at most 1
 

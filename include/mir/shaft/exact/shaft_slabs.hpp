@@ -48,8 +48,8 @@ MIR_HD inline void set_axis(ShaftSlabs& s, int axis, float apex, float low, floa
 
 }  // namespace detail
 
-/// Slabs of a cluster that has luxels and a VPL at `apex`, both within `reach`, that of the
-/// hierarchy; metres. `sigma` as for the cluster.
+/// Slabs of a cluster with luxels and a VPL at `apex`, metres. Both lie within `reach`, that of the
+/// hierarchy. `sigma` as for the cluster.
 [[nodiscard]] MIR_HD inline ShaftSlabs make_shaft_slabs(const ClusterRecord& cluster, Vec3 apex,
                                                         float sigma, float reach) {
     ShaftSlabs s;
@@ -146,8 +146,8 @@ MIR_HD ChildRow front_values(const Node& node, const ShaftSlabs& s) {
 
 }  // namespace detail
 
-/// Slots of a WideNode or a QuantisedNode whose boxes hold a point of a segment of the shaft within
-/// its half-space, bit k for slot k; false ones of others may be set, those of empty slots among
+/// Slots whose boxes hold a point of the shaft within its half-space. Bit k is for slot k of a
+/// WideNode or a QuantisedNode; false ones of others may be set, those of empty slots among
 /// them.
 template <class Node>
 [[nodiscard]] MIR_HD std::uint32_t met_slots(const Node& node, const ShaftSlabs& s) {

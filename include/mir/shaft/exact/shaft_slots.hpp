@@ -25,7 +25,7 @@ class SlotShaft {
         foremost_[2] = shaft.front.z > 0.0f ? 5 : 4;
     }
 
-    /// Bit k where meets_box() is true of the box of child k, with the same operations; what it
+    /// Bit k where meets_box() is true of the box of child k. The operations are the same; what it
     /// says of empty slots means nothing.
     template <InstructionSet Set = InstructionSet::baseline>
     [[nodiscard]] std::uint32_t met(const WideNode& node) const {

@@ -56,7 +56,7 @@ MIR_HD inline std::uint32_t pop_slot(std::uint32_t& slots) {
 
 }  // namespace detail
 
-/// Calls `leaf(first, count)` for the leaves whose boxes a shaft meets, until one call returns true
+/// Calls `leaf(first, count)` for the leaves that a shaft meets. It ends when one call returns true
 /// or more than `most_nodes` nodes would be visited. If the walk is complete, and cluster and VPL
 /// lie within reach, those leaves hold all triangles that hits_segment() accepts for some segment
 /// of the shaft. A node is on the stack only while one of its children is visited, so that the

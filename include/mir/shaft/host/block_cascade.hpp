@@ -101,8 +101,8 @@ class BlockCascade {
         return open;
     }
 
-    /// Packets from `g` on, which are a cluster, below the nodes that wait, after the triangles
-    /// that blocked the packets before.
+    /// Asks a cluster of packets, from `g` on, below the nodes that wait. The triangles that
+    /// blocked the packets before come first.
     template <std::uint32_t Packets>
     [[nodiscard]] std::uint32_t walk(const BlockRecords::Cluster& cluster, std::uint32_t g,
                                      std::uint32_t open) {

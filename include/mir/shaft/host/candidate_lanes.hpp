@@ -59,7 +59,7 @@ struct CandidateLanes {
     }
 };
 
-/// Margin of U, V and W of lanes for misses, in units of sigma (1 + |u| + |v| at the apex +
+/// Margin of U, V and W of lanes for misses. In units of sigma (1 + |u| + |v| at the apex +
 /// gradients times lengths): docs/shafts.md derives 4.2.
 inline constexpr float lane_margin = 4.5f;
 /// Share of it that hits need: docs/shafts.md derives 2.9 of 4.5.

@@ -13,9 +13,9 @@
 
 namespace mir {
 
-/// The luxels of one page, optionally sorted into compact packets, with masks of the VPLs they see.
-/// Masks are written in sorted order and read in blocked order. The order decides speed, never
-/// bits. The planes of the tile must outlive it. For one thread.
+/// The luxels of one page, optionally sorted, with masks of VPLs they see. Sorting makes packets
+/// compact. Masks are written in sorted order and read in blocked order. The order decides speed,
+/// never bits. The planes of the tile must outlive it. For one thread.
 class PageClusters {
  public:
     static constexpr std::uint32_t most_vpls = 16;  ///< whose masks are kept

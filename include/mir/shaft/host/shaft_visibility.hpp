@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Answers from a wide bounding volume hierarchy in host memory, segment by segment, for packets,
+/// Answers from a wide bounding volume hierarchy in host memory. Segment by segment, for packets,
 /// and for blocks of luxels by shafts. Model of BlockVisibility. All faces give the bits of
 /// hits_segment() asked of every triangle. A shaft is decided by whole triangles, so where some are
 /// masked blocks are asked by packets. The hierarchy must outlive it. Thread-safe.

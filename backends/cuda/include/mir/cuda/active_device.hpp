@@ -5,8 +5,8 @@
 
 namespace mir::cuda {
 
-/// Makes a device the calling thread's current one and gives the thread its former device back at
-/// the end: several backends, and a host program's own CUDA code, live side by side.
+/// Makes a device the calling thread's current one, and restores the former at the end. Several
+/// backends, and a host program's own CUDA code, can so live side by side.
 class ActiveDevice {
  public:
     /// @throws Error(no_device) when the device cannot be used.

@@ -87,7 +87,8 @@ inline const char* reason_and_remedy(cudaError_t status) {
 
 }  // namespace detail
 
-/// What to tell about a failed call: "`doing` failed", CUDA's name for it, likely reason, remedy.
+/// Message of a failed call: "`doing` failed", CUDA's name for it, likely reason, remedy. "`doing`
+/// failed", CUDA's name for it, likely reason, remedy.
 [[nodiscard]] inline std::string failure_sentence(cudaError_t status, const std::string& doing) {
     return doing + " failed (CUDA says " + cudaGetErrorName(status) + ": " +
            cudaGetErrorString(status) + "; " + detail::reason_and_remedy(status);

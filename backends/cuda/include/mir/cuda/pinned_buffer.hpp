@@ -36,9 +36,9 @@ class PinnedBuffer {
     std::size_t size_ = 0;
 };
 
-/// Standard allocator of pinned memory, so that a BlockedGBuffer goes to the GPU without a stop on
-/// the way: `BlockedGBuffer<Params, PinnedAllocator<std::uint32_t>>`. Backend::pinned() makes one.
-/// Keeps the memory's source alive. Thread-safe.
+/// Standard allocator of pinned memory. A BlockedGBuffer then goes to the GPU without a stop:
+/// `BlockedGBuffer<Params, PinnedAllocator<std::uint32_t>>`. Backend::pinned() makes one. Keeps the
+/// memory's source alive. Thread-safe.
 template <class T>
 class PinnedAllocator {
  public:

@@ -51,7 +51,7 @@ MIR_AVX512 [[gnu::always_inline]] inline __m512 row_at_512(const AffineRow& row,
                          _mm512_set1_ps(row.w));
 }
 
-/// A triangle as segments from one point see it: row_at() there, the same in all lanes.
+/// A triangle seen from one point: row_at() there, the same in all lanes.
 struct Origin512 {
     __m512 u;
     __m512 v;

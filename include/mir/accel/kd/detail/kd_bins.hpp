@@ -142,7 +142,8 @@ inline KdBorder best_border(const KdBins& bins, const KdGrid& grid, const KdCost
     return border;
 }
 
-/// Appends the keys of all begins (last bit set) and ends in the bins around a border.
+/// Appends the keys of all begins and ends in the bins around a border. The last bit of a begin is
+/// set.
 inline void collect_events(std::span<const KdFragment> fragments, const KdGrid& grid,
                            const KdBorder& border, RawArray<std::int32_t>& keys) {
     std::size_t n = keys.size();

@@ -51,8 +51,8 @@ struct ClusterPlan {
     /// References for which to keep memory.
     [[nodiscard]] std::uint32_t room() const { return std::max(references, 1u); }
 
-    /// Whether a round may look for the nearest clusters, see above, when there are no more than
-    /// that many, which is at least 2.
+    /// Whether a round may look for the nearest of at most that many clusters. They are at least 2;
+    /// see above.
     [[nodiscard]] bool may_search(std::uint32_t rounds, std::uint32_t clusters) const {
         return rounds + 1 + ceil_log2(clusters - 1) <= 3 * max_depth;
     }

@@ -12,9 +12,9 @@
 
 namespace mir::detail {
 
-/// The segments from one origin to the points of a packet, as the eight children of a node are
-/// tested against all of them at once. A child that it refuses no segment meets; whoever walks for
-/// long asks each segment about the others only.
+/// The segments from one origin to the points of a packet, tested together. A node's eight children
+/// are tested against all of them at once. A child that it refuses no segment meets; whoever walks
+/// for long asks each segment about the others only.
 ///
 /// Why no child is refused that a segment needs. Let the segment go d along an axis and hold X, of
 /// the share t, which lies in the child's box by 14 e M (wide_traverse.hpp, whose bounds of
