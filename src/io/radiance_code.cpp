@@ -15,8 +15,8 @@ namespace mir {
 namespace detail {
 namespace {
 
-/// Pixel of a radiance code: sum of the channels on a logarithmic scale, and the shares of red and
-/// green in it. A sum of 0 is black.
+/// Pixel of a radiance code: logarithm of the sum of the channels, and shares. The shares are those
+/// of red and green in it. A sum of 0 is black.
 struct RadianceCode {
     std::uint16_t sum = 0;
     std::uint8_t red = 0;

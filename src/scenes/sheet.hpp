@@ -57,8 +57,9 @@ inline void add_rim(Mesh& m, std::span<const std::uint32_t> line, std::uint32_t 
     connect(m, first, static_cast<std::uint32_t>(line.size()), 2, Wrap::columns);
 }
 
-/// Closed sheet: the grid lowered by `inset` along its normals as front, a back `thickness`
-/// (metres) behind it, and edges. Front and back are smooth, edges are sharp.
+/// Closed sheet with front, back and edges. The front is the grid lowered by `inset` along its
+/// normals, the back lies `thickness` (metres) behind it. Front and back are smooth, edges are
+/// sharp.
 inline Mesh sheet(std::string name, std::uint32_t material, const SurfaceGrid& g, float thickness,
                   float inset = 0.0f) {
     Mesh m = empty_mesh(std::move(name), material);

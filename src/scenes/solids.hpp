@@ -80,7 +80,7 @@ inline void connect(Mesh& m, std::uint32_t first, std::uint32_t columns, std::ui
         }
 }
 
-/// Rounded box: the points of a ball in the norm of exponent 4, carried by `shape` (columns: half
+/// Rounded box: the points of a ball in the norm of exponent 4. `shape` carries them (columns: half
 /// axes and centre, right-handed). 2 segments (rings - 1) triangles, smooth.
 inline Mesh cushion(std::string name, std::uint32_t material, const Mat4& shape,
                     std::uint32_t segments, std::uint32_t rings) {

@@ -175,7 +175,7 @@ namespace mir::strict {
 #endif
 }
 
-/// 1 / a, rounded once, of a number from 2^-110 to 2^110 in size; see usual_sqrt().
+/// 1 / a, rounded once, of a number from 2^-110 to 2^110 in size. See usual_sqrt().
 [[nodiscard]] MIR_HD inline float usual_reciprocal(float a) {
 #if defined(__CUDA_ARCH__)
     const float estimate = loose::rough_reciprocal(a);

@@ -9,10 +9,11 @@
 
 namespace mir {
 
-/// The picks of one block: a number for each node of a cut and each group of luxels, by which the
-/// node picks a VPL. Numbers of one node are stratified over the groups: neighbouring luxels, and
-/// those of a pixel before all, pick from parts of the node that lie far apart, so that their mean
-/// is better than that of independent picks. Each number alone is uniform.
+/// The picks of one block: a number for each node and group. The nodes are those of a cut, the
+/// groups those of luxels; by the number the node picks a VPL. Numbers of one node are stratified
+/// over the groups: neighbouring luxels, and those of a pixel before all, pick from parts of the
+/// node that lie far apart, so that their mean is better than that of independent picks. Each
+/// number alone is uniform.
 class CutPicks {
  public:
     /// `numbers` names the block. The cut may have 2^31 nodes.

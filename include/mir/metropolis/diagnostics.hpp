@@ -105,11 +105,11 @@ class Spread {
 
 }  // namespace detail
 
-/// Split R-hat: the factor by which the spread of the scalar might still shrink, near 1 once the
-/// chains, cut in halves, agree; 1.05 and more is a warning.
-/// Defined for every input: infinity when there are no chains or one has fewer than four steps
-/// (nothing is known), or when all halves are constant but differ; 1 when all values are equal. The
-/// latter cannot tell a constant scalar from a chain that never moved: look at its acceptance too.
+/// Split R-hat: the factor by which a scalar's spread might still shrink. It is near 1 once the
+/// chains, cut in halves, agree; 1.05 and more is a warning. Defined for every input: infinity when
+/// there are no chains or one has fewer than four steps (nothing is known), or when all halves are
+/// constant but differ; 1 when all values are equal. The latter cannot tell a constant scalar from
+/// a chain that never moved: look at its acceptance too.
 /// @throws Error(invalid_argument) when a value is not below 1e140 in magnitude.
 /// Source: Gelman et al., "Bayesian Data Analysis", third edition, section 11.4.
 inline double split_r_hat(const Traces& traces) {

@@ -43,7 +43,7 @@ class TraceRhythm {
     std::uint64_t seen_ = 0;
 };
 
-/// Numbers along one chain that judge its mixing: x, y and z of x_v, log Y(R) and k.
+/// Numbers along one chain that judge its mixing. They are x, y and z of x_v, log Y(R) and k.
 class MixingTrace {
  public:
     static constexpr std::size_t scalars = 5;  ///< numbers kept of each state

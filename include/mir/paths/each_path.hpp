@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// Independent paths: path i is a function of Random(seed, stream, i), first <= i < end.
+/// Independent paths first to end - 1. Path i is a function of Random(seed, stream, i).
 struct PathRange {
     std::uint64_t seed = 0;             ///< of all paths
     Stream stream = Stream::bootstrap;  ///< what the paths are for

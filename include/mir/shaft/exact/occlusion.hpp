@@ -25,8 +25,8 @@ struct alignas(16) Pyramid {
     std::uint32_t axis;  ///< that leans: TiltedAxis
     Vec3 slope;          ///< as above
 
-    /// Local coordinates: the difference from the centre, on the axis that leans from the tilted
-    /// plane through the centre.
+    /// Local coordinates: the difference from the centre. On the axis that leans it is that from
+    /// the tilted plane through the centre.
     [[nodiscard]] MIR_HD Vec3 local(Vec3 p) const {
         Vec3 d = p - centre;
         const float rise = detail::loose_dot(slope, d);

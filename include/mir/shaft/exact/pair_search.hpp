@@ -38,7 +38,7 @@ struct SearchLimits {
 
 namespace detail {
 
-/// Leaf visitor: lists what is partial, stops at what covers all and when the list is full.
+/// Leaf visitor that lists what is partial. It stops at what covers all and when the list is full.
 template <Space S>
 struct ListPartial {
     const WideBvhView<S>& bvh;

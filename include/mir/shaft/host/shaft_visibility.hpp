@@ -42,7 +42,7 @@ struct ShaftVisibility {
         return {BlockRecords(luxels, bvh.reach, sigma_of_reach(bvh.reach)), set};
     }
 
-    /// Not inlined: it is compiled for each instruction set once, and not again for every caller.
+    /// Not inlined: compiled once for each instruction set, not for every caller.
     [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& seen) const {
         run_with(b.instructions, [&](auto set) {
             if (mask.exists())

@@ -61,7 +61,7 @@ struct ClusterPlan {
 /// 1 / length, but finite.
 inline float finite_inverse(float length) { return smaller(1.0f / length, 0x1p120f); }
 
-/// Nodes of the binary tree are counted in 32 bits, and a triangle is split once on average at
+/// Checks that 32 bits count the binary tree's nodes. A triangle is split once on average at
 /// most.
 /// @throws Error(limit_exceeded)
 inline void check_triangle_count(std::size_t triangles, const WideBvhOptions& options) {
