@@ -168,9 +168,9 @@ class WidePacketWalk {
     /// once a loop, not once a node.
     static constexpr std::uint32_t nodes_at_once = 8;
     /// A round takes from the stack only what lies above the remains of earlier rounds. These are
-    /// nodes below those that the earlier round put. So the shallowest node that it puts lies deeper
-    /// than the shallowest of those, and the stack holds nodes of no more rounds than there are
-    /// levels.
+    /// nodes below those that the earlier round put. So the shallowest node that it puts lies
+    /// deeper than the shallowest of those, and the stack holds nodes of no more rounds than there
+    /// are levels.
     static constexpr std::uint32_t most_waiting =
         (nodes_at_once * WideBvhView<Space::host>::max_depth + 1) * WideNode::width +
         WaitingNodes::capacity;
