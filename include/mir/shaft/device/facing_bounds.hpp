@@ -39,7 +39,8 @@ struct FacingBounds {
     bool has_one_normal = false;  ///< `normal` is that of every luxel that is a number
 };
 
-/// Numbers by which facing_of() keeps away from zero. docs/shafts.md derives 29 e of `relative`.
+/// Numbers by which facing_of() keeps away from zero. docs/shaft_proofs.md derives 29 e of
+/// `relative`.
 struct FacingMargins {
     static constexpr float relative = 0x1p-18f;  ///< 64 e, of the sum of absolute products
     static constexpr float absolute = 1e-30f;    ///< for products that vanish, metres

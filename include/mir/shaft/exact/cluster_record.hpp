@@ -43,8 +43,9 @@ struct alignas(16) ClusterRecord {
     TiltedAxis tilt;              ///< of the box where it leans
 };
 
-/// True when the proofs of docs/shafts.md hold for the cluster's luxels. Segments to others may be
-/// cut (reach.hpp), and are then none of the shaft's. False when a coordinate is not a number.
+/// True when the proofs of docs/shaft_proofs.md hold for the cluster's luxels. Segments to others
+/// may be cut (reach.hpp), and are then none of the shaft's. False when a coordinate is not a
+/// number.
 [[nodiscard]] MIR_HD inline bool within_reach(const ClusterRecord& cluster, float reach) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(fabsf(cluster.low[axis]) <= reach) || !(fabsf(cluster.high[axis]) <= reach))
@@ -139,8 +140,8 @@ MIR_HD inline TiltedAxis tilted_axis(AffineRow n) {
 }
 
 /// Gives a record with a box the axis that leans, if that helps. The box must become thinner. `low`
-/// and `high` bound tilt.along() at its luxels. docs/shafts.md says what the other conditions are
-/// for.
+/// and `high` bound tilt.along() at its luxels. docs/shaft_proofs.md says what the other conditions
+/// are for.
 MIR_HD inline void set_tilt(ClusterRecord& cluster, TiltedAxis tilt, float low, float high,
                             float sigma) {
     if (tilt.axis == TiltedAxis::none) return;

@@ -65,8 +65,8 @@ struct alignas(16) Pyramid {
 }
 
 /// How far from 0 a bound must be for hits_segment() to agree. The distance from the plane is in
-/// units of sigma, the edges in those of edge_margins(). docs/shafts.md derives 1.94 of the 2, 2.49
-/// of the 2.5 for misses and 0.992 of the 1 for hits.
+/// units of sigma, the edges in those of edge_margins(). docs/shaft_proofs.md derives 1.94 of the
+/// 2, 2.49 of the 2.5 for misses and 0.992 of the 1 for hits.
 struct OcclusionMargins {
     static constexpr float plane = 2.0f;      ///< of the distance from the plane
     static constexpr float edge = 2.5f;       ///< of U, V and W, to be sure of a miss

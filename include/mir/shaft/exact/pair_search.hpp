@@ -61,8 +61,9 @@ struct ListPartial {
 
 }  // namespace detail
 
-/// Whether the proofs of docs/shafts.md hold for a scene of that reach. Products overflow in larger
-/// ones. Scenes too small for them have no triangles (WorldGeometry drops those without area).
+/// Whether the proofs of docs/shaft_proofs.md hold for a scene of that reach. Products overflow in
+/// larger ones. Scenes too small for them have no triangles (WorldGeometry drops those without
+/// area).
 [[nodiscard]] MIR_HD inline bool is_proved_scale(float reach) { return reach <= reach_of(1e18f); }
 
 /// Looks for the triangles that hit segments between a cluster and a VPL. The VPL is at `apex`,

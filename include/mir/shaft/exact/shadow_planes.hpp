@@ -107,7 +107,7 @@ MIR_HD inline PlainRow in_margins(const PlainRow& row, float margin, OpenRange r
 
 /// Planes by which hits_segment() is sure to hit above 1 and to miss below -1. `plane` is the
 /// margin of s' for hits, metres, 2^-120 or more like the others, and `hit` the share of the other
-/// margins that hits need. docs/shafts.md derives them.
+/// margins that hits need. docs/shaft_proofs.md derives them.
 [[nodiscard]] MIR_HD inline SurePlanes in_margins(const ShadowPlanes& planes, float plane,
                                                   float hit) {
     const detail::OpenRange range{hit};

@@ -60,9 +60,9 @@ struct CandidateLanes {
 };
 
 /// Margin of U, V and W of lanes for misses. In units of sigma (1 + |u| + |v| at the apex +
-/// gradients times lengths): docs/shafts.md derives 4.2.
+/// gradients times lengths): docs/shaft_proofs.md derives 4.2.
 inline constexpr float lane_margin = 4.5f;
-/// Share of it that hits need: docs/shafts.md derives 2.9 of 4.5.
+/// Share of it that hits need: docs/shaft_proofs.md derives 2.9 of 4.5.
 inline constexpr float lane_hit_share = 3.0f / 4.5f;
 
 /// Makes sixteen triangles ready. No point of a cluster that will be asked about is farther from
