@@ -60,15 +60,17 @@ RenderResult render_paths(RenderFrame& frame) {
     s.camera_paths = saturating_mul(s.luxels, job.settings.path.samples);
     s.emitted_power = static_cast<float>(job.lights.power());
     const ImageBands bands(frame, 0);
-    for (std::uint32_t i = 0; i < bands.count(); ++i) {
-        job.begin_band(i, bands.count());
-        const BandPtr band = bands.make(i);
+    job.begin_bands(bands.count());
+    frame.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
+        job.begin_band();
+        const BandPtr band = bands.make(by, i);
         std::vector<LayerPtr> layers;
-        for (Image<Rgb>& image : layers_of(trace(frame, *band), by_bounce))
-            layers.push_back(layers.size() == coverage_layer ? frame.coverage(*band)
+        for (Image<Rgb>& image : layers_of(trace(by, *band), by_bounce))
+            layers.push_back(layers.size() == coverage_layer ? by.coverage(*band)
                                                              : host_layer(std::move(image)));
-        frame.put(*band, std::move(layers));
-    }
+        turn.wait();
+        by.put(*band, std::move(layers), turn.seam());
+    });
     const auto stage = job.clock.measure(&StageSeconds::film);
     take_layers(frame.develop(), false, job.result, job.executor);
     return job.take_result();

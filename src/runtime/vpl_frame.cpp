@@ -58,6 +58,7 @@ AnyExecutor& VplFrame::executor() { return parts_->job.executor; }
 
 RenderResult render_vpls(VplFrame& frame, const SampledVpls& sampled) {
     VplFrame::Parts& parts = *frame.parts_;
+    parts.job.clock.follow_this_thread();
     RenderResult result = render_vpls(*parts.frame, sampled, parts.bound);
     RenderStatistics& s = result.statistics;
     s.backend = "cpu";

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mir {
 
@@ -21,6 +22,12 @@ enum class BackendKind {
     automatic,  ///< a GPU where the build and the machine have one, else the processor
     cpu,
     cuda
+};
+
+/// Which GPUs make a picture together, the same for any number of them.
+struct DeviceChoice {
+    bool all = false;                         ///< every one that is usable, else by number
+    std::vector<std::uint32_t> numbers = {};  ///< as list_devices() counts them; none: the first
 };
 
 /// What finds out where rays end.
@@ -170,6 +177,7 @@ struct RenderSettings {
     std::uint64_t seed = 0;                                ///< of all random numbers
     unsigned threads = 0;                                  ///< 0: every core
     BackendKind backend = BackendKind::automatic;          ///< which machine renders
+    DeviceChoice devices{};                                ///< of a backend with several
     Acceleration acceleration = Acceleration::automatic;   ///< what finds out where rays end
     std::string scheduler{};  ///< name in the Registry; empty: the backend's default
     /// Luxels scheduled together, rounded up to whole blocks of 16 x 16. Not larger than the image
