@@ -29,8 +29,8 @@ namespace mir {
 template <Backend M>
 class BackendRenderer final : public Renderer {
  public:
-    /// `name` is that of the scheduler; the rest as of BackendMachines, whose machines are kept
-    /// from image to image.
+    /// `name` is that of the scheduler; the rest as of BackendMachines. The machines are kept from
+    /// image to image.
     BackendRenderer(std::string name, BackendScheduler scheduler, OpenMachine<M> open,
                     UsableMachines usable)
         : name_(std::move(name)),

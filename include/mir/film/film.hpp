@@ -97,12 +97,12 @@ class Film {
         return develop(executor, layer);
     }
 
-    /// What another film needs to go on below the rows added so far, which are rows of whole
-    /// pixels. It develops the pixels from FilmSeam::first_row on, this one those above.
+    /// What another film needs to go on below the rows added so far. They are rows of whole pixels.
+    /// It develops the pixels from FilmSeam::first_row on, this one those above.
     /// @throws Error(invalid_argument) when a band was added in part.
     [[nodiscard]] FilmSeam seam() const;
 
-    /// Goes on below another film of the same image, filter and layers, which left `seam`: only
+    /// Goes on below another film of the same image, filter and layers. That film left `seam`: only
     /// pixels from there on mean anything.
     /// @throws Error(invalid_argument) when the seam is not one of such a film, lies above rows
     ///         that were added, or a band was added in part.

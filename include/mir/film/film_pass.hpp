@@ -102,7 +102,7 @@ struct FilmPass {
     }
 };
 
-/// Kernel over the pixels of a FilmSeam in row order: copies their sums from a film.
+/// Kernel over a FilmSeam's pixels in row order: copies their sums from a film.
 struct LeaveSeam {
     FilmSums from;                ///< of the film that ends
     std::uint32_t first_row = 0;  ///< of pixels

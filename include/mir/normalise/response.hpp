@@ -108,7 +108,7 @@ void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shad
 
 }  // namespace detail
 
-/// Sums over the luxels of each row of blocks of a band, in the order of ResponseSum: those of all
+/// Sums over the luxels of each row of blocks of a band. In the order of ResponseSum: those of all
 /// VPLs, row after row from top to bottom. Otherwise as ResponseSum::add_band().
 /// @throws Error(invalid_argument) when VPLs or bits do not fit or tiles cut blocks.
 template <TiledGBuffer G, VplSet P, KnownVisibility V, Shading F, Executor E>

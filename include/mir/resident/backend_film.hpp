@@ -58,13 +58,13 @@ class BackendFilm {
     /// @throws Error(invalid_argument) when an error ended add_rows(); what the backend throws.
     [[nodiscard]] FilmSeam seam(Queue& queue);
 
-    /// Goes on below another film, which may be one of the host or of another machine
-    /// (Film::go_on()). Only pixels from there on mean anything.
+    /// Goes on below another film, of the host or of another machine (Film::go_on()). Only pixels
+    /// from there on mean anything.
     /// @throws Error(invalid_argument) when the seam does not fit, or pixels are not at home; what
     ///         the backend throws.
     void go_on(Queue& queue, const FilmSeam& seam);
 
-    /// Rows of luxels added so far, those above the seam that it went on from included.
+    /// Rows of luxels added so far. Those above the seam that it went on from count.
     [[nodiscard]] std::uint32_t rows() const { return luxel_rows_; }
 
     /// Copies what was developed last to the images.

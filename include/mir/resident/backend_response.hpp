@@ -33,7 +33,7 @@ class BackendResponse {
           chunk_(choose_chunk(luxels, vpls, partial_sums)),
           partial_(backend.template buffer<ImageResponse>(chunk_.sums())) {}
 
-    /// Sums for each row of blocks of a band, from top to bottom, those of all VPLs. `seen` holds
+    /// Sums for each row of blocks of a band, from top to bottom. Those of all VPLs. `seen` holds
     /// the visibility of this band and these VPLs, whose intensities are not read. All work is done
     /// when it returns.
     /// @throws Error(invalid_argument) when VPLs or visibility do not fit or tiles cut blocks; what
@@ -74,7 +74,7 @@ class BackendResponse {
         std::uint32_t vpls = 0;
     };
 
-    /// Writes the sums of a part to `rows`, which is the place of its first row and VPL.
+    /// Writes the sums of a part to `rows`, its first row and VPL.
     template <TiledGBuffer G, VplSet P, Shading F>
     void sum_part(Queue& queue, const G& gbuffer, P vpls, const BackendVisibility<B>& seen,
                   const F& shading, const Part& part, ImageResponse* rows);
