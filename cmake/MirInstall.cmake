@@ -28,4 +28,11 @@ install(FILES ${PROJECT_BINARY_DIR}/mirConfig.cmake ${PROJECT_BINARY_DIR}/mirCon
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(TARGET mir_tool)
     install(TARGETS mir_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    set(manual ${PROJECT_BINARY_DIR}/tools/manual)
+    install(FILES ${manual}/mir.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    install(FILES ${manual}/bash/mir
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${manual}/zsh/_mir DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    install(FILES ${manual}/fish/mir.fish
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 endif()

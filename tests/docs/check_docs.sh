@@ -143,14 +143,16 @@ section() {
 }
 
 check_options() {
-    for command in '' render info export compare devices; do
+    for command in '' render info export compare devices manual; do
         title=mir${command:+ $command}
+        # Without a command --help-all would tell the options of all.
+        help=--help${command:+-all}
         # shellcheck disable=SC2086
-        "$mir" $command --help | grep -E '^ +-' | sed 's/  *[^ -].*//' |
+        "$mir" $command $help | grep -E '^  -' | sed 's/  *[^ -].*//' |
             grep -oE -e '--[a-z][a-z-]*' | sort -u >"$work/help"
         section "$title" | grep -E '^\| `-' | cut -d'|' -f2 | grep -oE -e '--[a-z][a-z-]*' |
             sort -u >"$work/page"
-        [ -s "$work/help" ] || complain "$title --help shows no option"
+        [ -s "$work/help" ] || complain "$title $help shows no option"
         diff "$work/help" "$work/page" >"$work/diff" ||
             complain "options of '$title' (<) and docs/command_line.md (>) differ:
 $(grep '^[<>]' "$work/diff")"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "manual/command_facts.hpp"
 #include "options.hpp"
 
 namespace mirtool {
@@ -11,5 +12,8 @@ using Parsed = std::variant<Command, int>;
 
 /// Parses the arguments. Help and version go to stdout, complaints to stderr.
 Parsed parse(int argc, char** argv);
+
+/// All commands, arguments and options, as parse() knows them.
+CommandFacts program_facts();
 
 }  // namespace mirtool

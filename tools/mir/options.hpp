@@ -103,7 +103,14 @@ struct DevicesOptions {
     bool json = false;
 };
 
-using Command =
-    std::variant<RenderOptions, InfoOptions, ExportOptions, CompareOptions, DevicesOptions>;
+/// `mir manual`.
+struct ManualOptions {
+    enum class Language { man, bash, zsh, fish };
+
+    Language language = Language::man;
+};
+
+using Command = std::variant<RenderOptions, InfoOptions, ExportOptions, CompareOptions,
+                             DevicesOptions, ManualOptions>;
 
 }  // namespace mirtool

@@ -106,8 +106,8 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
     mir::check_scene(loaded.scene, o.settings);
     if (o.quiet) return;
     for (const auto& [what, times] : loaded.report.ignored)
-        std::fprintf(stderr, "mir: %s: ignored: %s (%llu)\n", shown(o.scene).c_str(), what.c_str(),
-                     static_cast<unsigned long long>(times));
+        std::fprintf(stderr, "mir: %s: ignored: %s\n", shown(o.scene).c_str(),
+                     ignored_text(what, times).c_str());
     if (!camera)
         std::fprintf(stderr, "mir: %s: no usable camera; %s (--eye chooses another view)\n",
                      shown(o.scene).c_str(),

@@ -41,7 +41,7 @@ struct SceneReport {
     Bounds bounds;                      ///< of all instances, metres, from Scene::origin on
 
     /// Features that change the picture and are not supported, with the number of their uses.
-    /// Nothing is dropped without an entry here.
+    /// Nothing is dropped without an entry here. visible_effect() says how that looks.
     std::map<std::string, std::uint64_t> ignored;
     std::vector<std::string> notes;  ///< sentences on choices that the reader made
     /// Sentences of recentre(): what is too fine for 32-bit numbers where it lies. The picture may
