@@ -10,9 +10,10 @@ set(CPACK_PACKAGE_CONTACT "${MIR_PACKAGE_MAINTAINER}")
 set(CPACK_PACKAGE_VENDOR "the mir authors")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_VERBATIM_VARIABLES ON)
-set(CPACK_THREADS 0)
+# More threads cut what xz compresses at other places.
+set(CPACK_THREADS 1)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_GENERATOR "DEB;TXZ")
+set(CPACK_GENERATOR "DEB;TGZ")
 set(CPACK_COMPONENTS_ALL development documents)
 set(CPACK_DEBIAN_COMPONENTS development debian_development)
 if(TARGET mir_tool)
@@ -25,12 +26,14 @@ string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" system)
 set(CPACK_PACKAGE_FILE_NAME mir-${PROJECT_VERSION}-${system})
 
 # --- the sources ---------------------------------------------------------------------------------
-set(CPACK_SOURCE_GENERATOR TXZ)
+set(CPACK_SOURCE_GENERATOR TGZ)
 set(CPACK_SOURCE_PACKAGE_FILE_NAME mir-${PROJECT_VERSION})
-# What .gitignore names.
-set(CPACK_SOURCE_IGNORE_FILES "/[.]git/" "/build[^/]*/" "/out/" "/[.](cache|clangd|idea|vscode)/"
-    "/__pycache__/" "[.]py[co]$" "[.]swp$" "~$" "/CMakeUserPresets[.]json$"
-    "/compile_commands[.]json$" "/[.]DS_Store$")
+# What .gitignore names. CPack matches whole paths.
+string(REGEX REPLACE "([][+.*()^$?|\\])" "\\\\\\1" root "^${PROJECT_SOURCE_DIR}/")
+string(REGEX REPLACE "^\\\\\\^" "^" root "${root}")
+set(CPACK_SOURCE_IGNORE_FILES "${root}([.]git|build|out)/" "${root}(.*/)?[.](cache|clangd|idea|vscode)/"
+    "${root}(.*/)?__pycache__/" "[.]py[co]$" "[.]swp$" "~$" "/[.]DS_Store$"
+    "${root}(CMakeUserPresets|compile_commands)[.]json$")
 
 # --- Debian --------------------------------------------------------------------------------------
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -45,17 +48,17 @@ endforeach()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME mir)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_COMPONENT_GROUP_PROGRAM_DESCRIPTION "renderer with virtual point lights
- mir renders glTF, OBJ and PLY files into OpenEXR pictures. It lights them by
- virtual point lights that Metropolis sampling places where they matter to the
- camera, on processors and on GPUs.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "renderer with virtual point lights
+mir renders glTF, OBJ and PLY files into OpenEXR pictures. It lights them by
+virtual point lights that Metropolis sampling places where they matter to the
+camera.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmir-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
-set(CPACK_COMPONENT_GROUP_DEVELOPMENT_DESCRIPTION "renderer with virtual point lights - development files
- mir is a C++20 library of Metropolis Instant Radiosity. It renders whole
- pictures and lends its stages one by one to renderers of others. This package
- has headers, static libraries, and files for CMake and pkg-config.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "renderer with virtual point lights - development files
+mir is a C++20 library of Metropolis Instant Radiosity. It renders whole
+pictures, and gives its stages one by one to other renderers. This package has
+headers, static libraries, and files for CMake and pkg-config.")
 
 # What the headers and static libraries need of whoever compiles and links against them.
 set(needs libglm-dev)
@@ -100,5 +103,6 @@ endif()
 
 configure_file(${PROJECT_SOURCE_DIR}/cmake/cpack_options.cmake.in
                ${PROJECT_BINARY_DIR}/cpack_options.cmake @ONLY)
+set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/repack.cmake)
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_BINARY_DIR}/cpack_options.cmake)
 include(CPack)
