@@ -11,7 +11,7 @@ namespace mir {
 
 /// Features of the frames of host_frame(), Embree apart.
 inline constexpr FrameFeatures host_features{FrameFeature::residual, FrameFeature::spheres,
-                                             FrameFeature::lobes};
+                                             FrameFeature::lobes, FrameFeature::cuts};
 
 /// A frame in the host's memory (HostBand, HostLayer): VPLs light luxels in the order of a
 /// scheduler. What is passed in must outlive it.

@@ -62,7 +62,7 @@ bool needs_probe(const RenderSettings& s) {
     if (has_nothing_to_sample(s)) return false;
     if (s.sampler == SamplerKind::instant_radiosity) return s.vpl_roulette;
     return s.sampler == SamplerKind::bidirectional ||
-           s.normalisation == NormalisationPolicy::proposal;
+           s.normalisation_policy() == NormalisationPolicy::proposal;
 }
 
 /// Calls use(sampler) with the one that the settings name, chains without a probe apart.

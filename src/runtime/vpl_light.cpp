@@ -13,29 +13,41 @@ Kind kind_of(const RenderSettings& s) {
 
 }  // namespace
 
-VplLight::VplLight(const RenderSettings& settings, float bound, const VplList& vpls)
+VplLight::VplLight(const RenderSettings& settings, float bound, const VplList& vpls,
+                   AnyExecutor executor)
     : vpls_(vpls),
       lit_{kind_of(settings), bound},
       removed_{settings.glossy.enabled ? Kind::removed_of_lobes : Kind::removed, bound} {
-    if (!settings.bounce_layers) return;
-    // What is traced back may have bounced more often than any VPL.
-    layers_ = settings.compensate > 0 ? settings.bounce_limit() : vpls.max_bounce();
-    for (std::uint8_t b = 1; b <= vpls.max_bounce(); ++b) bounces_.push_back(vpls.bounce(b));
+    if (settings.bounce_layers) {
+        // What is traced back may have bounced more often than any VPL.
+        layers_ = settings.compensate > 0 ? settings.bounce_limit() : vpls.max_bounce();
+        for (std::uint8_t b = 1; b <= vpls.max_bounce(); ++b) bounces_.push_back(vpls.bounce(b));
+    }
+    if (settings.sum != LightSum::cuts) return;
+    if (layers_ == 0) trees_.emplace_back(vpls.span(), executor);
+    for (const std::vector<Vpl>& bounce : bounces_) trees_.emplace_back(span_of(bounce), executor);
 }
 
 void VplLight::append_layers(RenderFrame& frame, const FrameBand& band, Monitor* monitor,
                              std::vector<LayerPtr>& layers) const {
     if (layers_ == 0) {
-        layers.push_back(frame.light(band, vpls_.span(), lit_, monitor));
+        layers.push_back(light(frame, band, 0, monitor));
         return;
     }
     const std::size_t sum = layers.size();
     layers.push_back(frame.black(band));
-    for (const std::vector<Vpl>& bounce : bounces_) {
-        layers.push_back(frame.light(band, span_of(bounce), lit_, monitor));
+    for (std::size_t i = 0; i < bounces_.size(); ++i) {
+        layers.push_back(light(frame, band, i, monitor));
         frame.add(*layers[sum], *layers.back());
     }
     while (layers.size() <= sum + layers_) layers.push_back(frame.black(band));
+}
+
+/// Of all VPLs, or of those of one bounce where there are layers of these.
+LayerPtr VplLight::light(RenderFrame& frame, const FrameBand& band, std::size_t list,
+                         Monitor* monitor) const {
+    if (!trees_.empty()) return frame.light_by_cuts(band, trees_[list], lit_.bound, monitor);
+    return frame.light(band, layers_ == 0 ? vpls_.span() : span_of(bounces_[list]), lit_, monitor);
 }
 
 }  // namespace mir

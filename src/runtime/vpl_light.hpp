@@ -9,11 +9,13 @@
 
 namespace mir {
 
-/// Light that the VPLs of a render send through the luxels of a band. `vpls` must outlive it.
+/// Light that the VPLs of a render send through the luxels of a band: of all, or by cuts of trees
+/// over them. `vpls` must outlive it.
 class VplLight {
  public:
     /// Under `bound`, m^-2, as points, spheres or with lobes, as the settings say.
-    VplLight(const RenderSettings& settings, float bound, const VplList& vpls);
+    VplLight(const RenderSettings& settings, float bound, const VplList& vpls,
+             AnyExecutor executor);
 
     /// Bounces that get a layer of their own.
     [[nodiscard]] std::size_t bounces() const { return layers_; }
@@ -29,11 +31,15 @@ class VplLight {
     }
 
  private:
+    [[nodiscard]] LayerPtr light(RenderFrame& frame, const FrameBand& band, std::size_t list,
+                                 Monitor* monitor) const;
+
     const VplList& vpls_;
     VplKernel lit_;
     VplKernel removed_;
     std::size_t layers_ = 0;
     std::vector<std::vector<Vpl>> bounces_;
+    std::vector<VplTree> trees_;  ///< of all VPLs, or of those of each bounce; none without cuts
 };
 
 }  // namespace mir

@@ -131,6 +131,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
     out["light_paths"] = s.light_paths;
     out["camera_paths"] = s.camera_paths;
     out["vpls"] = s.vpls;
+    out["picks"] = o.settings.wants_cuts() && s.backend == "cpu" ? o.settings.picks : 0;
     out["surfels"] = s.surfels;
     out["patches"] = s.patches;
     out["contributions"] = s.contributions;

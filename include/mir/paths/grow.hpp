@@ -174,7 +174,7 @@ MIR_HD bool close_path(const World& world, Numbers& u, std::uint32_t from_light,
 
 /// Whether the edge from x_i to x_(i+1) is free.
 template <class World>
-MIR_HD bool edge_is_free(const World& world, const Path& path, std::uint32_t i) {
+MIR_HD_CALL bool edge_is_free(const World& world, const Path& path, std::uint32_t i) {
     Vec3 to = path.position(i + 1);
     if (i + 1 == path.edges() && path.light.origin == LightOrigin::outside)
         to = world.lights.sphere.outside(path.position(i), -path.x(i + 1).normal);

@@ -176,13 +176,13 @@ class PathMeasurer {
 /// Measures x2 .. x_k alone: `leaving`, `from_light`, `from_eye` from x3 on, and the light's own
 /// densities. x0 and x1 are not read. False when no light can leave x2.
 template <class World>
-MIR_HD bool measure_suffix(const World& world, const Path& path, PathMeasure& m) {
+MIR_HD_CALL bool measure_suffix(const World& world, const Path& path, PathMeasure& m) {
     return detail::PathMeasurer<World>(world, path).run_suffix(m);
 }
 
 /// Measures a path of 2 to max_path_edges edges. False when no light can pass along it.
 template <class World>
-MIR_HD bool measure_path(const World& world, const Path& path, PathMeasure& m) {
+MIR_HD_CALL bool measure_path(const World& world, const Path& path, PathMeasure& m) {
     return detail::PathMeasurer<World>(world, path).run(m);
 }
 

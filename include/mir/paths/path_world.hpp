@@ -67,21 +67,21 @@ struct PathWorld {
                     sight, seen_from.optics(), film_aspect, geometry_bound) {}
 
     /// Writes the first surface along a ray as a path vertex; false when there is none.
-    [[nodiscard]] MIR_HD bool hit(const Ray& ray, PathVertex& vertex) const {
+    [[nodiscard]] MIR_HD_CALL bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find_point(luxels.caster, ray, p)) return false;
         vertex = vertex_at(p, luxels.surfaces.shading_normal(p));
         return true;
     }
     /// The same of a camera ray: the vertex is a luxel.
-    [[nodiscard]] MIR_HD bool hit_luxel(const Ray& ray, PathVertex& vertex) const {
+    [[nodiscard]] MIR_HD_CALL bool hit_luxel(const Ray& ray, PathVertex& vertex) const {
         const SeenLuxel seen = luxels(ray);
         if (seen.is_background) return false;
         vertex = vertex_at(seen.point, luxels.normal(seen));
         return true;
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.
-    [[nodiscard]] MIR_HD typename B::Params params(const PathVertex& v) const {
+    [[nodiscard]] MIR_HD_CALL typename B::Params params(const PathVertex& v) const {
         if (geometry.texture_coordinates == nullptr && geometry.colors == nullptr)
             return luxels.surfaces.params(v.material);
         return luxels.surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics));

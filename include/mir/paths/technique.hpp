@@ -111,8 +111,8 @@ MIR_HD inline double technique_density(const PathMeasure& m, std::uint32_t k, st
 
 /// Density with which the table's techniques together build the path: what the balance heuristic
 /// divides by (Veach 1997, section 9.2).
-MIR_HD inline double mixture_density(const PathMeasure& m, std::uint32_t k,
-                                     const TechniqueTable& table) {
+MIR_HD_CALL inline double mixture_density(const PathMeasure& m, std::uint32_t k,
+                                          const TechniqueTable& table) {
     double density = 0.0;
     for (std::uint32_t s = 0; s < k; ++s) {
         const double probability = table.probability_of({k, s});
@@ -122,8 +122,8 @@ MIR_HD inline double mixture_density(const PathMeasure& m, std::uint32_t k,
 }
 
 /// The same for x3 .. x_k alone, x2 being given: the techniques that reach x2 from the camera.
-MIR_HD inline double suffix_density(const PathMeasure& m, std::uint32_t k,
-                                    const TechniqueTable& table) {
+MIR_HD_CALL inline double suffix_density(const PathMeasure& m, std::uint32_t k,
+                                         const TechniqueTable& table) {
     double density = 0.0;
     for (std::uint32_t s = 0; s + 2 <= k; ++s) {
         const double probability = table.probability_of({k, s});
