@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The installed bill of materials names what was found, with versions; spdx-tools finds it valid where
-# it can be had (VALIDATE).
+# The installed bill of materials names what was found, with versions.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 
 install_mir(${SCRATCH}/prefix)
