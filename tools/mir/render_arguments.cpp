@@ -61,6 +61,16 @@ void add_scene_parts(CLI::App& app, RenderOptions& o) {
     eye->excludes("--camera");
 }
 
+void add_layers(CLI::App& app, RenderOptions& o) {
+    app.add_option("--aov", o.layers,
+                   "Layers of the EXR beside the picture: albedo, normal, position, depth, "
+                   "direct, indirect, emission, or all of these; bounces, removed (by the bound); "
+                   "or none (default: albedo,normal,depth)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(layer_names))
+        ->each([&o](const std::string& name) { o.no_layers |= name == "none"; });
+}
+
 void add_output(CLI::App& app, RenderOptions& o) {
     app.add_option("-o,--output", o.output, "Picture to write (default SCENE.exr)");
     app.add_option("--png", o.preview, "Preview to write (default: beside the EXR)");
@@ -71,13 +81,6 @@ void add_output(CLI::App& app, RenderOptions& o) {
                                "Tone curve of the preview (default agx)");
     app.add_option("--exposure", o.exposure, "Exposure of the preview, EV (default: automatic)")
         ->check(between(-100, 100, "-100 to 100"));
-    app.add_option("--aov", o.layers,
-                   "Layers of the EXR beside the picture: albedo, normal, position, depth, "
-                   "direct, indirect, emission, or all of these; bounces, removed (by the bound); "
-                   "or none (default: albedo,normal,depth)")
-        ->delimiter(',')
-        ->check(CLI::IsMember(layer_names))
-        ->each([&o](const std::string& name) { o.no_layers |= name == "none"; });
     app.add_flag("--record-seconds", o.record_seconds,
                  "Store the render time in the EXR (its bytes then differ every time)");
     app.add_flag("--json", o.json, "Print statistics as JSON on stdout");
@@ -113,6 +116,10 @@ void add_passes(CLI::App& app, PassOptions& p) {
                    "Start no further pass once the relative error, from the spread of the passes, "
                    "is so small; 0.01 is one percent")
         ->check(between(1e-6, 1, "0.000001 to 1"));
+}
+
+/// What of the passes is kept in files while they go on.
+void add_kept_passes(CLI::App& app, PassOptions& p) {
     app.add_option("--save-every", p.save_every,
                    "Write the picture of the passes so far every so many seconds (default 10)")
         ->check(between(0, 3.2e7, "0 to 32000000 seconds"));
@@ -150,15 +157,21 @@ void add_execution(CLI::App& app, RenderOptions& o) {
 
 }  // namespace
 
-void add_render(CLI::App& app, RenderOptions& options) {
-    add_output(app, options);
-    add_report(app, options);
+void add_picture(CLI::App& app, RenderOptions& options) {
     add_image(app, options);
+    add_layers(app, options);
     add_scene_parts(app, options);
     add_environment(app, options.environment);
     add_light(app, options.settings);
     add_passes(app, options.passes);
     add_execution(app, options);
+}
+
+void add_render(CLI::App& app, RenderOptions& options) {
+    add_output(app, options);
+    add_report(app, options);
+    add_kept_passes(app, options.passes);
+    add_picture(app, options);
 }
 
 }  // namespace mirtool
