@@ -69,7 +69,9 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override;
     [[nodiscard]] BandPtr trace(const ProbeRays& probes) override;
     void find_visible(FrameBand& band, VplSpan<Space::host> vpls) override;
-    [[nodiscard]] ResponsePtr response(Extent luxels, std::uint32_t vpls, float bound) override;
+    [[nodiscard]] std::vector<ImageResponse> row_responses(const FrameBand& band,
+                                                           VplSpan<Space::host> vpls,
+                                                           float bound) override;
 
     [[nodiscard]] LayerPtr black(const FrameBand& band) override;
     [[nodiscard]] LayerPtr direct(const FrameBand& band, DirectSamples samples) override;
@@ -80,7 +82,7 @@ class BackendFrame final : public RenderFrame {
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 
-    void put(const FrameBand& band, std::vector<LayerPtr> layers) override;
+    void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) override;
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
 
  private:
@@ -107,7 +109,6 @@ class BackendFrame final : public RenderFrame {
         BackendFilm<M> film;      ///< pixels of every layer
         BackendGuides<M> guides;  ///< those of the last band that are not at home yet
     };
-    class Response;
 
     [[nodiscard]] static const Band& of(const FrameBand& band) {
         return dynamic_cast<const Band&>(band);

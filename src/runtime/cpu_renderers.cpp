@@ -2,6 +2,7 @@
 #include "mir/core/instruction_set.hpp"
 #include "mir/runtime/all_renderers.hpp"
 #include "runtime/checked_render.hpp"
+#include "runtime/host_frame.hpp"
 #include "runtime/host_tracing.hpp"
 #include "runtime/render_on_host.hpp"
 
@@ -13,8 +14,9 @@ class CpuRenderer : public Renderer {
     CpuRenderer(std::string_view name, HostScheduler scheduler)
         : name_(name), scheduler_(scheduler) {}
 
-    RenderResult render(const Scene& scene, const RenderSettings& settings,
+    RenderResult render(const Scene& scene, const RenderSettings& wanted,
                         Monitor* monitor) const override {
+        const RenderSettings settings = with_light_sum(wanted, host_features);
         CheckedRender checked(scene, settings, monitor, std::launch::deferred);
         const HostTracing tracing = trace_on_host(checked.placed(), settings);
         RenderJob job(checked.placed(), settings);

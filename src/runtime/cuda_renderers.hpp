@@ -5,9 +5,9 @@
 
 namespace mir {
 
-/// Adds the compiled renderers of the first GPU: "rcvp" (default), "rc" and "os". No GPU has to be
-/// there; Registry::make() says so when one is wanted. Defined in backends/cuda/src/, in builds
-/// that have it.
+/// Adds the compiled renderers of GPUs: "rcvp" (default), "rc" and "os". No GPU has to be there;
+/// Registry::make() says so when one is wanted. Defined in backends/cuda/src/, in builds that have
+/// it.
 void add_cuda_to(Registry& registry);
 
 /// Appends the GPUs of this machine, or why there is none. Defined as add_cuda_to().

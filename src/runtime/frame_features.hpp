@@ -77,4 +77,11 @@ class FrameFeatures {
     return "";
 }
 
+/// The settings with LightSum::automatic decided for frames with these features.
+[[nodiscard]] inline RenderSettings with_light_sum(RenderSettings s, FrameFeatures features) {
+    if (s.sum == LightSum::automatic)
+        s.sum = s.wants_cuts() && features.has(FrameFeature::cuts) ? LightSum::cuts : LightSum::all;
+    return s;
+}
+
 }  // namespace mir

@@ -27,25 +27,6 @@ namespace {
 
 using Vpls = VplSpan<Space::host>;
 
-/// ResponseSum over bands of the host.
-template <Bsdf B>
-class HostResponse final : public FrameResponse {
- public:
-    HostResponse(Extent luxels, std::uint32_t vpls, float bound, AnyExecutor executor)
-        : sum_(luxels, vpls), shading_{bound}, executor_(executor) {}
-
-    void add(const FrameBand& band, Vpls vpls) override {
-        const auto& here = HostBand<B>::of(band);
-        sum_.add_band(here.gbuffer, vpls, here.visibility->view(), shading_, executor_);
-    }
-    [[nodiscard]] std::vector<ImageResponse> mean() override { return sum_.mean(); }
-
- private:
-    ResponseSum sum_;
-    VplShading<B> shading_;
-    AnyExecutor executor_;
-};
-
 /// The stages of a render on the host, by the model of its surfaces.
 template <Bsdf B>
 class HostFrame final : public RenderFrame {
@@ -77,8 +58,11 @@ class HostFrame final : public RenderFrame {
         here.visibility.emplace(here.gbuffer.tiles(), vpls.size(), job_.settings.limits);
         traced_.fill_visibility(*here.visibility, LuxelsOf<B>{here.gbuffer}, vpls, job_.executor);
     }
-    [[nodiscard]] ResponsePtr response(Extent luxels, std::uint32_t vpls, float bound) override {
-        return std::make_unique<HostResponse<B>>(luxels, vpls, bound, job_.executor);
+    [[nodiscard]] std::vector<ImageResponse> row_responses(const FrameBand& band, Vpls vpls,
+                                                           float bound) override {
+        const auto& here = HostBand<B>::of(band);
+        return block_row_responses(here.gbuffer, vpls, here.visibility->view(),
+                                   VplShading<B>{bound}, job_.executor);
     }
 
     [[nodiscard]] LayerPtr black(const FrameBand& band) override {
@@ -119,7 +103,7 @@ class HostFrame final : public RenderFrame {
                                              band.first_row, bound, images));
     }
 
-    void put(const FrameBand& band, std::vector<LayerPtr> layers) override;
+    void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) override;
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
 
  private:
@@ -224,14 +208,16 @@ std::vector<double> HostFrame<B>::row_luminances(const FrameLayer& layer) {
 }
 
 template <Bsdf B>
-void HostFrame<B>::put(const FrameBand& band, std::vector<LayerPtr> layers) {
+void HostFrame<B>::put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) {
     {
         const auto stage = job_.clock.measure(&StageSeconds::film);
         if (!film_)
             film_.emplace(job_.rays.grid, job_.settings.filter, job_.settings.seed, layers.size());
         std::vector<const Image<Rgb>*> images;
         for (const LayerPtr& layer : layers) images.push_back(&HostLayer::of(*layer));
+        if (seam != nullptr && seam->luxel_rows != film_->rows()) film_->go_on(*seam);
         film_->add_rows(job_.executor, band.first_row, std::span<const Image<Rgb>* const>(images));
+        if (seam != nullptr) *seam = film_->seam();
     }
     const auto stage = job_.clock.measure(&StageSeconds::guides);
     add_guides<B>(job_.result.guides, HostBand<B>::of(band).gbuffer, band.first_row, job_.rays.grid,

@@ -32,6 +32,9 @@ Acceleration structure_of(const WorldGeometry& geometry, const RenderSettings& s
 }  // namespace
 
 std::string reason_against_tracing(const RenderSettings& settings) {
+    if (!settings.devices.numbers.empty())
+        return "GPUs were chosen by their numbers (the processor is none of them); leave --devices "
+               "out, or use --backend cuda";
     if (settings.acceleration != Acceleration::embree || embree_tracing() != nullptr) return "";
     return "Embree traces no ray of this build (it was configured without it); use --accel bvh, or "
            "build it in with MIR_WITH_EMBREE=ON";

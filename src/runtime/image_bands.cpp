@@ -13,18 +13,41 @@ namespace {
 /// Luxels scheduled together unless the settings say.
 constexpr Extent default_tile{256, 256};
 
+/// Tells a monitor, unless that is null, of a loop as long as it lasts.
+class LoopingPairs {
+ public:
+    LoopingPairs(Monitor* monitor, std::uint64_t pairs) : monitor_(monitor), pairs_(pairs) {
+        if (monitor_ == nullptr) return;
+        monitor_->begin_loop(0);  // what the loop before has done is none of these
+        monitor_->looping_contributions += pairs_;
+    }
+    LoopingPairs(const LoopingPairs&) = delete;
+    LoopingPairs& operator=(const LoopingPairs&) = delete;
+    ~LoopingPairs() {
+        if (monitor_ != nullptr) monitor_->looping_contributions -= pairs_;
+    }
+
+ private:
+    Monitor* monitor_;
+    std::uint64_t pairs_;
+};
+
 }  // namespace
 
-ImageBands::ImageBands(RenderFrame& frame, std::uint32_t vpls)
+ImageBands::ImageBands(const RenderFrame& frame, std::uint32_t vpls)
     : frame_(frame),
       tile_(whole_blocks(frame.job().settings.tile.value_or(default_tile))),
       rows_(choose_rows(vpls)) {}
 
 std::uint32_t ImageBands::choose_rows(std::uint32_t vpls) const {
-    // Some 2 million luxels at a time; whole pixels, and whole tiles unless those are huge.
-    constexpr std::uint64_t luxels_per_band = 1u << 21;
+    // Some 2 million luxels at a time, fewer where parts of a frame would have few bands each;
+    // whole pixels, and whole tiles unless those are huge or cannot be shared out.
+    const std::uint64_t parts = frame_.traits().parts;
+    const std::uint64_t luxels_per_band =
+        parts == 1 ? 1u << 21 : std::min<std::uint64_t>(1u << 21, luxels().area() / (4 * parts));
     const std::uint64_t pixel = frame_.job().rays.grid.per_pixel_y;
-    const std::uint64_t grain = pixel * std::min<std::uint64_t>(tile_.height, 256);
+    const std::uint64_t grain =
+        pixel * (parts == 1 ? std::min<std::uint64_t>(tile_.height, 256) : BlockedLayout::side);
     const std::uint64_t rows =
         std::max<std::uint64_t>(luxels_per_band / luxels().width / grain, 1) * grain;
     const std::uint64_t least = pixel * BlockedLayout::side;
@@ -43,31 +66,28 @@ std::uint64_t ImageBands::matrix_bytes(std::uint32_t vpls) const {
     return std::min(limit, std::uint64_t{1} << 30);
 }
 
-BandPtr ImageBands::make(std::uint32_t i) const {
-    const auto stage = frame_.job().clock.measure(&StageSeconds::gbuffer);
+BandPtr ImageBands::make(RenderFrame& by, std::uint32_t i) const {
+    const auto stage = by.job().clock.measure(&StageSeconds::gbuffer);
     const std::uint32_t first_row = i * rows_;
-    return frame_.trace({luxels().width, std::min(rows_, luxels().height - first_row)}, tile_,
-                        first_row);
-}
-
-void ImageBands::find_visible(FrameBand& band, VplSpan<Space::host> vpls) const {
-    const auto stage = frame_.job().clock.measure(&StageSeconds::visibility);
-    const std::uint64_t pairs = band.extent().area() * vpls.size();
-    Monitor* const monitor = frame_.job().monitor;
-    if (monitor != nullptr) {
-        monitor->begin_loop(0);  // what the loop before has done is none of these
-        monitor->looping_contributions = pairs;
-    }
-    frame_.find_visible(band, vpls);
-    if (monitor == nullptr) return;
-    monitor->looping_contributions = 0;
-    monitor->contributions += pairs;
+    return by.trace({luxels().width, std::min(rows_, luxels().height - first_row)}, tile_,
+                    first_row);
 }
 
 bool ImageBands::fit_together(std::uint32_t vpls) const {
     const std::uint64_t padded = whole_blocks(luxels()).area();
     const std::uint64_t limit = frame_.job().settings.limits.visibility_bytes;
     return saturating_mul(padded, 8 * frame_.traits().luxel_bytes + vpls) / 8 <= limit;
+}
+
+void find_visible(RenderFrame& by, FrameBand& band, VplSpan<Space::host> vpls) {
+    const auto stage = by.job().clock.measure(&StageSeconds::visibility);
+    const std::uint64_t pairs = band.extent().area() * vpls.size();
+    Monitor* const monitor = by.job().monitor;
+    {
+        const LoopingPairs looping(monitor, pairs);
+        by.find_visible(band, vpls);
+    }
+    if (monitor != nullptr) monitor->contributions += pairs;
 }
 
 }  // namespace mir

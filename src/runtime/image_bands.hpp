@@ -8,13 +8,13 @@
 namespace mir {
 
 /// Cuts the luxels of an image into bands of rows, so that memory does not grow with the image, and
-/// has a frame make them one by one. Bands never cut blocks or pixels: nothing but memory depends
-/// on them.
+/// has frames make them. Bands never cut blocks or pixels: nothing but memory depends on them, and
+/// how much of it several frames have to do.
 class ImageBands {
  public:
     /// `vpls` of which the visibility will be stored, 0 for none: bands become lower until the
-    /// matrix of one fits into Limits::visibility_bytes.
-    ImageBands(RenderFrame& frame, std::uint32_t vpls);
+    /// matrix of one fits into Limits::visibility_bytes. `frame` is the whole one.
+    ImageBands(const RenderFrame& frame, std::uint32_t vpls);
 
     /// Bands that the image is cut into; the last may be lower than the others.
     [[nodiscard]] std::uint32_t count() const { return (luxels().height + rows_ - 1) / rows_; }
@@ -22,12 +22,8 @@ class ImageBands {
     /// Luxels of the whole image.
     [[nodiscard]] Extent luxels() const { return frame_.job().rays.grid.luxels(); }
 
-    /// Traces the camera rays of band `i`.
-    [[nodiscard]] BandPtr make(std::uint32_t i) const;
-
-    /// Traces the shadow rays of a band.
-    /// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
-    void find_visible(FrameBand& band, VplSpan<Space::host> vpls) const;
+    /// Has `by`, the frame or a part of it, trace the camera rays of band `i`.
+    [[nodiscard]] BandPtr make(RenderFrame& by, std::uint32_t i) const;
 
     /// True when all bands with their visibility of `vpls` VPLs fit into Limits::visibility_bytes.
     [[nodiscard]] bool fit_together(std::uint32_t vpls) const;
@@ -36,9 +32,13 @@ class ImageBands {
     [[nodiscard]] std::uint32_t choose_rows(std::uint32_t vpls) const;
     [[nodiscard]] std::uint64_t matrix_bytes(std::uint32_t vpls) const;
 
-    RenderFrame& frame_;
+    const RenderFrame& frame_;
     Extent tile_;
     std::uint32_t rows_;
 };
+
+/// Has the frame that made a band trace its shadow rays, in their stage.
+/// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
+void find_visible(RenderFrame& by, FrameBand& band, VplSpan<Space::host> vpls);
 
 }  // namespace mir

@@ -14,26 +14,30 @@ NormalisationReport NormalisationPass::run(VplList& vpls, double path_luminance,
     return normalise(vpls, responses, path_luminance, states);
 }
 
-void NormalisationPass::add(const FrameBand& band, VplSpan<Space::host> vpls,
-                            FrameResponse& sum) const {
-    const auto stage = frame_.job().clock.measure(&StageSeconds::response);
-    sum.add(band, vpls);
+std::vector<ImageResponse> NormalisationPass::rows(RenderFrame& by, const FrameBand& band,
+                                                   VplSpan<Space::host> vpls) const {
+    const auto stage = by.job().clock.measure(&StageSeconds::response);
+    return by.row_responses(band, vpls, bound_);
 }
 
 /// Responses over every luxel.
 std::vector<ImageResponse> NormalisationPass::over_image(VplSpan<Space::host> vpls) {
     const RenderJob& job = frame_.job();
-    const ResponsePtr sum = frame_.response(bands_.luxels(), vpls.size(), bound_);
+    ResponseSum sum(bands_.luxels(), vpls.size());
     const bool keep =
         job.settings.normalisation == NormalisationPolicy::full && bands_.fit_together(vpls.size());
-    for (std::uint32_t i = 0; i < bands_.count(); ++i) {
-        BandPtr band = bands_.make(i);
-        bands_.find_visible(*band, vpls);
-        add(*band, vpls, *sum);
-        if (keep) kept_.push_back(std::move(band));
-    }
+    if (keep) kept_.resize(bands_.count());
+    frame_.for_each_band(bands_.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
+        BandPtr band = bands_.make(by, i);
+        find_visible(by, *band, vpls);
+        const std::vector<ImageResponse> of_band = rows(by, *band, vpls);
+        turn.wait();
+        const auto stage = job.clock.measure(&StageSeconds::response);
+        sum.add_rows(band->extent(), of_band);
+        if (keep) kept_[i] = std::move(band);
+    });
     const auto stage = job.clock.measure(&StageSeconds::response);
-    return sum->mean();
+    return sum.mean();
 }
 
 /// Responses over a few luxels; over all for VPLs that few of those see.
@@ -44,10 +48,10 @@ std::vector<ImageResponse> NormalisationPass::probed(VplSpan<Space::host> vpls) 
         return frame_.trace(
             {job.rays.camera, job.aspect(), job.settings.prepass_luxels, job.settings.seed});
     }();
-    bands_.find_visible(*probes, vpls);
-    const ResponsePtr sum = frame_.response(probes->extent(), vpls.size(), bound_);
-    add(*probes, vpls, *sum);
-    std::vector<ImageResponse> responses = sum->mean();
+    find_visible(frame_, *probes, vpls);
+    ResponseSum sum(probes->extent(), vpls.size());
+    sum.add_rows(probes->extent(), rows(frame_, *probes, vpls));
+    std::vector<ImageResponse> responses = sum.mean();
     const std::vector<VplIndex> poor = poorly_measured(responses);
     if (poor.empty()) return responses;
     std::vector<Vpl> again;

@@ -26,7 +26,8 @@ class NormalisationPass {
  private:
     [[nodiscard]] std::vector<ImageResponse> over_image(VplSpan<Space::host> vpls);
     [[nodiscard]] std::vector<ImageResponse> probed(VplSpan<Space::host> vpls);
-    void add(const FrameBand& band, VplSpan<Space::host> vpls, FrameResponse& sum) const;
+    [[nodiscard]] std::vector<ImageResponse> rows(RenderFrame& by, const FrameBand& band,
+                                                  VplSpan<Space::host> vpls) const;
 
     RenderFrame& frame_;
     const ImageBands& bands_;

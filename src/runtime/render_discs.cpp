@@ -102,9 +102,10 @@ RenderResult DiscRender<B>::run() {
         const auto stage = job_.clock.measure(&StageSeconds::ledger);
         s.direct_noise = direct_noise(frame_, job_.settings.direct_samples_per_luxel());
     }
+    job_.begin_bands(bands.count());
     for (std::uint32_t i = 0; i < bands.count(); ++i) {
-        job_.begin_band(i, bands.count());
-        render_band(*bands.make(i), sources);
+        job_.begin_band();
+        render_band(*bands.make(frame_, i), sources);
     }
     const auto stage = job_.clock.measure(&StageSeconds::film);
     take_layers(frame_.develop(), false, job_.result, job_.executor);
@@ -217,7 +218,7 @@ void DiscRender<B>::render_band(const FrameBand& band, const Sources& sources) {
     RenderStatistics& s = job_.result.statistics;
     for (const double row : frame_.row_luminances(*layers[indirect_layer]))
         s.indirect_luminance += row / static_cast<double>(s.luxels);
-    frame_.put(band, std::move(layers));
+    frame_.put(band, std::move(layers), nullptr);
 }
 
 /// By the machine where there is one, else on the executor.

@@ -9,6 +9,7 @@
 #include "mir/runtime/any_engine.hpp"
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/shading/direct_samples.hpp"
+#include "runtime/band_turn.hpp"
 #include "runtime/frame_features.hpp"
 #include "runtime/render_job.hpp"
 #include "runtime/vpl_kernel.hpp"
@@ -45,28 +46,14 @@ class FrameLayer {
     virtual ~FrameLayer() = default;
 };
 
-/// A sum over luxels of what each VPL does to them: ResponseSum, where their frame keeps them.
-class FrameResponse {
- public:
-    FrameResponse() = default;
-    FrameResponse(const FrameResponse&) = delete;
-    FrameResponse& operator=(const FrameResponse&) = delete;
-    virtual ~FrameResponse() = default;
-
-    /// Adds the rows below those added before, which know the visibility of these VPLs.
-    virtual void add(const FrameBand& band, VplSpan<Space::host> vpls) = 0;
-    /// Responses in the order of the VPLs, once all rows were added.
-    [[nodiscard]] virtual std::vector<ImageResponse> mean() = 0;
-};
-
-using BandPtr = std::unique_ptr<FrameBand>;          ///< never null
-using LayerPtr = std::unique_ptr<FrameLayer>;        ///< never null
-using ResponsePtr = std::unique_ptr<FrameResponse>;  ///< never null
+using BandPtr = std::unique_ptr<FrameBand>;    ///< never null
+using LayerPtr = std::unique_ptr<FrameLayer>;  ///< never null
 
 /// What a render needs to know of a kind of frame.
 struct FrameTraits {
     std::size_t luxel_bytes;  ///< of a luxel with its surface
     bool on_host;             ///< rays() and luxels cost the host nothing beyond their use
+    std::uint32_t parts = 1;  ///< frames that work at the same time in for_each_band()
 };
 
 /// The machine that makes a picture, asked band by band: a virtual call costs nothing where it is
@@ -95,6 +82,14 @@ class RenderFrame {
     [[nodiscard]] virtual VplRecords sample_chains(const MetropolisOptions& options,
                                                    float bound) = 0;
 
+    /// Calls work(by, i, turn) for all i < bands, where `by` is a frame that this one is made of:
+    /// here itself, from top to bottom. A band goes to the same frame in every loop over so many.
+    /// @throws What the work throws, of one band if it fails for several.
+    virtual void for_each_band(std::uint32_t bands, const BandWork& work) {
+        BandTurn turn;
+        for (std::uint32_t i = 0; i < bands; ++i) work(*this, i, turn);
+    }
+
     /// Traces the camera rays of a band of `extent` luxels in tiles of `tile`.
     [[nodiscard]] virtual BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) = 0;
     /// The luxels of some probes, as a band.
@@ -102,8 +97,11 @@ class RenderFrame {
     /// Keeps with a band which luxels and VPLs see each other.
     /// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
     virtual void find_visible(FrameBand& band, VplSpan<Space::host> vpls) = 0;
-    /// An empty sum over an image of `luxels`, for points under `bound`.
-    [[nodiscard]] virtual ResponsePtr response(Extent luxels, std::uint32_t vpls, float bound) = 0;
+    /// What points under `bound` do to the luxels of a band that knows their visibility, for each
+    /// row of its blocks: block_row_responses(), which ResponseSum adds up.
+    [[nodiscard]] virtual std::vector<ImageResponse> row_responses(const FrameBand& band,
+                                                                   VplSpan<Space::host> vpls,
+                                                                   float bound) = 0;
 
     /// No light.
     [[nodiscard]] virtual LayerPtr black(const FrameBand& band) = 0;
@@ -145,9 +143,12 @@ class RenderFrame {
     }
 
     /// Puts the layers of a band on the film, in the order of FilmLayer, and its guides into the
-    /// result. Bands come from top to bottom, none higher than the first.
-    virtual void put(const FrameBand& band, std::vector<LayerPtr> layers) = 0;
-    /// The images of the layers, once every band was put there; leaves the frame without.
+    /// result. Bands come from top to bottom, none higher than the first. `seam` is null, or where
+    /// the film of the rows above ended, which may be another frame's, and becomes where this one
+    /// ends.
+    virtual void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) = 0;
+    /// The images of the layers, once every band was put there; leaves the frame without. Pixels
+    /// that films of other frames develop mean nothing.
     [[nodiscard]] virtual std::vector<Image<Rgb>> develop() = 0;
 
  private:

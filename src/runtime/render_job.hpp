@@ -56,11 +56,15 @@ struct RenderJob {
         return std::visit(use, surfaces);
     }
 
-    /// Tells the monitor that band `i` of `bands` begins.
-    void begin_band(std::uint32_t i, std::uint32_t bands) const {
+    /// Tells the monitor that a loop over so many bands begins.
+    void begin_bands(std::uint32_t bands) const {
         if (monitor == nullptr) return;
         monitor->planned_bands = bands;
-        monitor->bands = i + 1;
+        monitor->bands = 0;
+    }
+    /// Tells the monitor that a band of the loop begins.
+    void begin_band() const {
+        if (monitor != nullptr) ++monitor->bands;
     }
 
     /// The finished result; leaves the job without it.

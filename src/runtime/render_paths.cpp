@@ -7,12 +7,13 @@
 #include "runtime/host_band.hpp"
 #include "runtime/image_bands.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace mir {
 namespace {
 
-ReferenceImage trace(RenderFrame& frame) {
+/// The light of the luxels of a band.
+ReferenceImage trace(RenderFrame& frame, const FrameBand& band) {
     RenderJob& job = frame.job();
     const RenderSettings& s = job.settings;
     const auto stage = job.clock.measure(&StageSeconds::paths);
@@ -24,20 +25,13 @@ ReferenceImage trace(RenderFrame& frame) {
     wanted.samples = s.path.samples;
     wanted.replicates = 1;
     wanted.last_bounce = s.bounce_layers ? s.bounce_limit() : std::uint8_t{1};
+    wanted.rows = {band.first_row, band.extent().height};
     const AnyEngine& rays = frame.rays();
     return job.with_surfaces([&]<Bsdf B>(const SurfaceTable<B>& surfaces) {
         const PathTracer<B, AnyRayCaster, AnyVisibility> tracer(
             {job.geometry, job.lights, surfaces, rays.ray_caster(), rays.visibility()}, options);
         return trace_reference(tracer, job.rays, wanted, job.executor);
     });
-}
-
-/// Some rows of an image of luxels.
-LayerPtr rows_of(const Image<Rgb>& image, const FrameBand& band) {
-    auto rows = Image<Rgb>::unwritten(band.extent());
-    const auto first = image.pixels().begin() + std::size_t{band.first_row} * image.width();
-    std::copy_n(first, rows.pixels().size(), rows.pixels().begin());
-    return host_layer(std::move(rows));
 }
 
 /// All but the coverage, in the order of FilmLayer.
@@ -61,21 +55,22 @@ RenderResult render_paths(RenderFrame& frame) {
     const bool by_bounce = job.settings.bounce_layers;
     check_picture(job.settings,
                   first_bounce_layer + (by_bounce ? std::size_t{job.settings.bounce_limit()} : 0));
-    const ReferenceImage reference = trace(frame);
     RenderStatistics& s = job.result.statistics;
     s.luxels = job.rays.grid.luxels().area();
     s.camera_paths = saturating_mul(s.luxels, job.settings.path.samples);
     s.emitted_power = static_cast<float>(job.lights.power());
-    const std::vector<Image<Rgb>> images = layers_of(reference, by_bounce);
     const ImageBands bands(frame, 0);
-    for (std::uint32_t i = 0; i < bands.count(); ++i) {
-        const BandPtr band = bands.make(i);
+    job.begin_bands(bands.count());
+    frame.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
+        job.begin_band();
+        const BandPtr band = bands.make(by, i);
         std::vector<LayerPtr> layers;
-        for (std::size_t l = 0; l < images.size(); ++l)
-            layers.push_back(l == coverage_layer ? frame.coverage(*band)
-                                                 : rows_of(images[l], *band));
-        frame.put(*band, std::move(layers));
-    }
+        for (Image<Rgb>& image : layers_of(trace(by, *band), by_bounce))
+            layers.push_back(layers.size() == coverage_layer ? by.coverage(*band)
+                                                             : host_layer(std::move(image)));
+        turn.wait();
+        by.put(*band, std::move(layers), turn.seam());
+    });
     const auto stage = job.clock.measure(&StageSeconds::film);
     take_layers(frame.develop(), false, job.result, job.executor);
     return job.take_result();

@@ -108,59 +108,64 @@ void measure_what_is_missing(RenderFrame& frame, float bound) {
     job.result.statistics.removed = missing.removed;
 }
 
-/// Adds what a band brings to a mean luminance over the image: row by row, so that bands change
-/// nothing.
-void add_mean(RenderFrame& frame, const FrameLayer& layer, double RenderStatistics::*mean) {
-    RenderStatistics& s = frame.job().result.statistics;
-    const double share = 1.0 / static_cast<double>(s.luxels);
-    for (const double row : frame.row_luminances(layer)) s.*mean += row * share;
-}
+/// What was made of a band, by a frame that others may work beside.
+struct BandLight {
+    std::vector<LayerPtr> layers;  ///< in the order of FilmLayer
+    // Luminances of rows, of layers that tell the result their means.
+    std::vector<double> indirect;
+    std::vector<double> removed;   ///< none where nothing is
+    std::vector<double> residual;  ///< likewise
+};
 
 /// The light that the bound removed from a band, by the VPLs.
-LayerPtr removed_light(RenderFrame& frame, const FrameBand& band, const VplLight& light) {
-    const RenderJob& job = frame.job();
+LayerPtr removed_light(RenderFrame& by, const FrameBand& band, const VplLight& light,
+                       std::vector<double>& rows) {
+    const RenderJob& job = by.job();
     const auto stage = job.clock.measure(&StageSeconds::ledger);
     const bool removes =
         job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
     // Cuts meet too few VPLs to tell; paths do (RenderSettings::measure_missing).
-    if (!removes || job.settings.sum == LightSum::cuts) return frame.black(band);
-    LayerPtr removed = light.removed(frame, band);
-    add_mean(frame, *removed, &RenderStatistics::removed_luminance);
+    if (!removes || job.settings.sum == LightSum::cuts) return by.black(band);
+    LayerPtr removed = light.removed(by, band);
+    rows = by.row_luminances(*removed);
     return removed;
 }
 
-void add_residual(RenderFrame& frame, const FrameBand& band, float bound,
-                  std::vector<LayerPtr>& layers) {
-    RenderJob& job = frame.job();
-    if (job.settings.compensate == 0) return;
-    const auto stage = job.clock.measure(&StageSeconds::residual);
-    add_mean(frame, *frame.add_residual(band, bound, layers),
-             &RenderStatistics::residual_luminance);
-    job.result.statistics.residual_paths +=
-        band.extent().area() * job.settings.compensate_per_luxel();
-}
-
-void render_band(RenderFrame& frame, const FrameBand& band, float bound, const VplLight& light) {
-    RenderJob& job = frame.job();
-    std::vector<LayerPtr> layers;
+BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const VplLight& light) {
+    const RenderJob& job = by.job();
+    BandLight made;
     {
         const auto stage = job.clock.measure(&StageSeconds::direct);
-        layers.push_back(frame.direct(band, direct_samples_of_luxel(job.settings)));
-        layers.push_back(frame.emission(band));
-        layers.push_back(frame.coverage(band));
+        made.layers.push_back(by.direct(band, direct_samples_of_luxel(job.settings)));
+        made.layers.push_back(by.emission(band));
+        made.layers.push_back(by.coverage(band));
     }
     {
         const auto stage = job.clock.measure(&StageSeconds::reconstruction);
-        light.append_layers(frame, band, job.monitor, layers);
+        light.append_layers(by, band, job.monitor, made.layers);
     }
     {
         const auto stage = job.clock.measure(&StageSeconds::ledger);
-        add_mean(frame, *layers[indirect_layer], &RenderStatistics::indirect_luminance);
+        made.indirect = by.row_luminances(*made.layers[indirect_layer]);
     }
-    LayerPtr removed = removed_light(frame, band, light);
-    add_residual(frame, band, bound, layers);
-    if (job.settings.removed_layer) layers.push_back(std::move(removed));
-    frame.put(band, std::move(layers));
+    LayerPtr removed = removed_light(by, band, light, made.removed);
+    if (job.settings.compensate > 0) {
+        const auto stage = job.clock.measure(&StageSeconds::residual);
+        made.residual = by.row_luminances(*by.add_residual(band, bound, made.layers));
+    }
+    if (job.settings.removed_layer) made.layers.push_back(std::move(removed));
+    return made;
+}
+
+/// Adds what a band brings to mean luminances over the image: row by row from top to bottom, so
+/// that bands change nothing.
+void add_means(RenderJob& job, const FrameBand& band, const BandLight& made) {
+    RenderStatistics& s = job.result.statistics;
+    const double share = 1.0 / static_cast<double>(s.luxels);
+    for (const double row : made.indirect) s.indirect_luminance += row * share;
+    for (const double row : made.removed) s.removed_luminance += row * share;
+    for (const double row : made.residual) s.residual_luminance += row * share;
+    s.residual_paths += band.extent().area() * job.settings.compensate_per_luxel();
 }
 
 void develop(RenderFrame& frame) {
@@ -198,12 +203,16 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
     const VplLight light(s, bound, vpls, job.executor);
     check_picture(s, std::size_t{first_bounce_layer} + light.bounces() + (s.removed_layer ? 1 : 0));
     measure_what_is_missing(frame, bound);
-    for (std::uint32_t i = 0; i < bands.count(); ++i) {
-        job.begin_band(i, bands.count());
-        const BandPtr band = kept.empty() ? bands.make(i) : std::move(kept[i]);
-        if (stores && !band->knows_visibility()) bands.find_visible(*band, vpls.span());
-        render_band(frame, *band, bound, light);
-    }
+    job.begin_bands(bands.count());
+    frame.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
+        job.begin_band();
+        const BandPtr band = kept.empty() ? bands.make(by, i) : std::move(kept[i]);
+        if (stores && !band->knows_visibility()) find_visible(by, *band, vpls.span());
+        BandLight made = light_band(by, *band, bound, light);
+        turn.wait();
+        add_means(job, *band, made);
+        by.put(*band, std::move(made.layers), turn.seam());
+    });
     develop(frame);
     return job.take_result();
 }

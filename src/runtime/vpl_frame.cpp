@@ -27,7 +27,7 @@ HostScheduler scheduler_of(const RenderSettings& settings) {
 
 struct VplFrame::Parts {
     Parts(const Scene& scene, RenderSettings wanted, Monitor* monitor)
-        : settings(std::move(wanted)),
+        : settings(with_light_sum(std::move(wanted), host_features)),
           checked(scene, settings, monitor, std::launch::deferred),
           tracing(trace_on_host(checked.placed(), settings)),
           job(checked.placed(), settings),
@@ -54,11 +54,15 @@ const LightTable& VplFrame::lights() const { return parts_->job.lights; }
 AnyRayCaster VplFrame::ray_caster() const { return parts_->frame->rays().ray_caster(); }
 AnyVisibility VplFrame::visibility() const { return parts_->frame->rays().visibility(); }
 float VplFrame::bound() const { return parts_->bound; }
-VplList VplFrame::place_vpls() { return placed_vpls(*parts_->frame, parts_->bound); }
+VplList VplFrame::place_vpls() {
+    parts_->job.clock.follow_this_thread();
+    return placed_vpls(*parts_->frame, parts_->bound);
+}
 AnyExecutor& VplFrame::executor() { return parts_->job.executor; }
 
 RenderResult render_vpls(VplFrame& frame, const SampledVpls& sampled) {
     VplFrame::Parts& parts = *frame.parts_;
+    parts.job.clock.follow_this_thread();
     RenderResult result = render_vpls(*parts.frame, sampled, parts.bound);
     RenderStatistics& s = result.statistics;
     s.backend = "cpu";

@@ -2,6 +2,7 @@
 #include "cuda/device_rows.hpp"
 #include "cuda/response.hpp"
 #include "mir/cuda/backend.cuh"
+#include "mir/normalise/response.hpp"
 #include "mir/resident/backend_response.hpp"
 
 namespace mirtest {
@@ -27,9 +28,10 @@ Responses responses_on_gpu(const Backend& backend,
     luxels.upload(queue, here);
     mir::BackendVisibility<Backend> seen(backend, luxels.grid(), vpls.size());
     seen.find(queue, luxels, there, rows.visibility());
-    mir::BackendResponse<Backend> sum(backend, here.extent(), vpls.size(), partial_sums);
-    sum.add_band(queue, luxels, there, seen, shading);
-    return sum.mean(queue);
+    mir::BackendResponse<Backend> rows_there(backend, here.extent(), vpls.size(), partial_sums);
+    mir::ResponseSum sum(here.extent(), vpls.size());
+    sum.add_rows(here.extent(), rows_there.rows(queue, luxels, there, seen, shading));
+    return sum.mean();
 }
 
 template Responses responses_on_gpu(const Backend&,

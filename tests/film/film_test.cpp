@@ -159,6 +159,56 @@ TEST_CASE("any cut into bands and any number of threads gives equal bits") {
         }
 }
 
+TEST_CASE("films that hand rows on to each other give the bits of one") {
+    const std::uint32_t luxels = GENERATE(1u, 4u, 9u);
+    const LuxelGrid grid = mir::luxel_grid({70, 23}, luxels);
+    const std::uint32_t ny = grid.per_pixel_y;
+    const Image<Rgb> image = noise(grid.luxels());
+    for (const Filter& filter : all_filters()) {
+        const Image<Rgb> whole = filtered(grid, filter, image);
+        std::vector<Film> films(3, Film(grid, filter, 7));
+        Image<Rgb> pixels(grid.pixels);
+        mir::FilmSeam seam;
+        std::uint32_t band = 0;
+        for (const std::uint32_t rows : {1u, 1u, 7u, 1u, 4u, 8u, 1u}) {
+            Film& film = films[band++ * 2 % films.size()];
+            if (film.rows() != seam.luxel_rows) film.go_on(seam);
+            const std::uint32_t above = seam.first_row;
+            film.add_rows(seam.luxel_rows, rows_of(image, seam.luxel_rows, rows * ny));
+            seam = film.seam();
+            const Image<Rgb> part = film.develop();
+            for (std::uint32_t y = above; y < seam.first_row; ++y)
+                for (std::uint32_t x = 0; x < pixels.width(); ++x) pixels(x, y) = part(x, y);
+        }
+        CHECK(seam.first_row == grid.pixels.height);
+        CHECK(seam.sums.empty());
+        CHECK(same_bits(pixels, whole));
+    }
+}
+
+TEST_CASE("a film does not go on below the seam of another picture or above its rows") {
+    const LuxelGrid grid = mir::luxel_grid({20, 12}, 4);
+    Film film(grid, mir::default_filter(FilterKind::mitchell), 7);
+    film.add_rows(0, Image<Rgb>({40, 8}));
+    const mir::FilmSeam seam = film.seam();
+    CHECK(seam.luxel_rows == 8);
+    CHECK(seam.rows > 0);
+    const auto refuses = [&](const LuxelGrid& of, FilterKind filter, std::size_t layers) {
+        Film other(of, mir::default_filter(filter), 7, layers);
+        CHECK_THROWS_AS(other.go_on(seam), mir::Error);
+    };
+    refuses(mir::luxel_grid({21, 12}, 4), FilterKind::mitchell, 1);
+    refuses(mir::luxel_grid({20, 3}, 4), FilterKind::mitchell, 1);
+    refuses(grid, FilterKind::box, 1);
+    refuses(grid, FilterKind::mitchell, 2);
+    Film further(grid, mir::default_filter(FilterKind::mitchell), 7);
+    further.add_rows(0, Image<Rgb>({40, 10}));
+    CHECK_THROWS_AS(further.go_on(seam), mir::Error);
+    Film next(grid, mir::default_filter(FilterKind::mitchell), 7);
+    CHECK_NOTHROW(next.go_on(seam));
+    CHECK(next.rows() == 8);
+}
+
 TEST_CASE("a layer equals a film of that layer alone in every bit") {
     const LuxelGrid grid = mir::luxel_grid({70, 5}, 4);
     std::vector<Image<Rgb>> layers{noise(grid.luxels()),

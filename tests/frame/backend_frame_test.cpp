@@ -3,6 +3,7 @@
 // Whole pictures by a frame that keeps everything in a backend's memory, the host's here, against
 // those of the host's own stages: the same bits.
 #include "conformance/stage.hpp"
+#include "frame/same_result.hpp"
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/host/backend.hpp"
 #include "runtime/backend_frame/chains.hpp"
@@ -16,11 +17,10 @@
 #include "runtime/backend_frame/visibility.hpp"
 #include "runtime/host_frame.hpp"
 #include "runtime/render_vpls.hpp"
+#include "runtime/split_frame.hpp"
 #include "support/catch.hpp"
 #include "support/masked_scene.hpp"
 #include "support/test_sky.hpp"
-
-#include <cstring>
 
 namespace {
 
@@ -31,6 +31,7 @@ using mir::InlineExecutor;
 using mir::RenderResult;
 using mir::RenderSettings;
 using mir::Scene;
+using mirtest::check_same;
 using Host = mir::host::Backend<InlineExecutor>;
 using Frame = mir::BackendFrame<Host, CookTorrance>;
 
@@ -63,34 +64,22 @@ RenderResult draw_on_backend(const Scene& scene, const RenderSettings& settings,
     return result;
 }
 
-template <class T>
-bool same_bits(const mir::Image<T>& a, const mir::Image<T>& b) {
-    return a.extent() == b.extent() &&
-           (a.pixels().empty() ||
-            std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0);
-}
-
-void check_same(const RenderResult& a, const RenderResult& b) {
-    CHECK(same_bits(a.beauty, b.beauty));
-    CHECK(same_bits(a.emission, b.emission));
-    CHECK(same_bits(a.direct, b.direct));
-    CHECK(same_bits(a.indirect, b.indirect));
-    CHECK(same_bits(a.removed, b.removed));
-    CHECK(same_bits(a.coverage, b.coverage));
-    REQUIRE(a.bounces.size() == b.bounces.size());
-    for (std::size_t i = 0; i < a.bounces.size(); ++i) CHECK(same_bits(a.bounces[i], b.bounces[i]));
-    CHECK(same_bits(a.guides.albedo, b.guides.albedo));
-    CHECK(same_bits(a.guides.normal, b.guides.normal));
-    CHECK(same_bits(a.guides.position, b.guides.position));
-    CHECK(same_bits(a.guides.depth, b.guides.depth));
-    REQUIRE(a.vpls.size() == b.vpls.size());
-    for (std::size_t j = 0; j < a.vpls.size(); ++j) {
-        CHECK(a.vpls.vpls()[j].position == b.vpls.vpls()[j].position);
-        CHECK(a.vpls.vpls()[j].intensity == b.vpls.vpls()[j].intensity);
-    }
-    CHECK(a.statistics.bound == b.statistics.bound);
-    CHECK(a.statistics.indirect_luminance == b.statistics.indirect_luminance);
-    CHECK(a.statistics.removed_luminance == b.statistics.removed_luminance);
+/// By frames in the memory of as many backends as there are options, and by one of the host
+/// besides if wanted.
+RenderResult draw_split(const Scene& scene, const RenderSettings& settings,
+                        const std::vector<BackendFrameOptions>& options, bool with_host) {
+    const mir::WorldGeometry geometry(scene);
+    InlineExecutor executor;
+    mir::StageClock clock;
+    mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
+    const mir::TracedSceneOf<mir::KdTreeScene> traced(std::make_unique<mir::KdTreeScene>(geometry));
+    std::vector<std::unique_ptr<mir::RenderFrame>> parts;
+    for (const BackendFrameOptions& of : options)
+        parts.push_back(std::make_unique<Frame>(
+            job, Host(executor), [&] { return mir::KdTree(geometry, {}, executor); }, of));
+    if (with_host) parts.push_back(mir::host_frame(job, traced, mir::HostScheduler::cpu_blocks));
+    mir::SplitFrame frame(job, std::move(parts));
+    return mir::render_vpls(frame);
 }
 
 /// A room with lamps of every kind.
@@ -146,6 +135,37 @@ TEST_CASE("Bands and luxels per pixel change nothing between backend and host") 
     check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
 }
 
+TEST_CASE("Backends that share a picture give the bytes of one frame, also with the host") {
+    const Scene scene = lit_room();
+    RenderSettings settings = small_picture();
+    settings.removed_layer = true;
+    const BackendFrameOptions shafts{BackendScheduler::rcvp, false, true};
+    const BackendFrameOptions tree{BackendScheduler::os, true, false};
+    SECTION("by chains, with layers of bounces") {
+        settings.bounce_layers = true;
+        const RenderResult host = draw_on_host(scene, settings);
+        CHECK(host.statistics.removed_luminance > 0.0);
+        check_same(host, draw_split(scene, settings, {shafts}, false));
+        check_same(host, draw_split(scene, settings, {shafts, tree}, false));
+        check_same(host, draw_split(scene, settings, {shafts, shafts, tree}, true));
+    }
+    SECTION("through wide filters and low bands, whose visibility no frame keeps") {
+        settings.luxels_per_pixel = 6;
+        settings.filter = mir::default_filter(mir::FilterKind::lanczos);
+        settings.limits.visibility_bytes = std::uint64_t{2400} * settings.luxels_per_pixel;
+        check_same(draw_on_host(scene, settings),
+                   draw_split(scene, settings, {shafts, shafts}, true));
+    }
+    SECTION("by light paths, with probes that need the whole image") {
+        settings.sampler =
+            GENERATE(mir::SamplerKind::instant_radiosity, mir::SamplerKind::metropolis);
+        settings.normalisation = mir::NormalisationPolicy::prepass;
+        settings.prepass_luxels = 300;
+        check_same(draw_on_host(scene, settings),
+                   draw_split(scene, settings, {shafts, tree}, false));
+    }
+}
+
 TEST_CASE("A sky has the same bits in a backend's memory, behind the scene and in its light") {
     Scene scene = lit_room();
     scene.environment = mirtest::test_sky();
@@ -187,8 +207,8 @@ TEST_CASE("A frame with alpha masks has the bits of the host's, by every schedul
     }
     scene.materials.back().alpha_cutoff = 0.0f;
     const RenderResult whole = draw_on_host(scene, settings);
-    CHECK_FALSE(same_bits(whole.direct, host.direct));
-    CHECK_FALSE(same_bits(whole.indirect, host.indirect));
+    CHECK_FALSE(mirtest::same_bits(whole.direct, host.direct));
+    CHECK_FALSE(mirtest::same_bits(whole.indirect, host.indirect));
 }
 
 TEST_CASE("What the bound removed is not traced back in a backend's memory, and says so") {

@@ -60,24 +60,34 @@ class FullBackend {
 };
 static_assert(mir::Backend<FullBackend>);
 
-/// Renders on a machine that is full until it was trimmed so often.
+/// Renders on machines of which number 0 is full until it was trimmed so often.
 struct Machine {
     explicit Machine(int times_full) : full(times_full) {}
 
     mir::RenderResult render(const RenderSettings& settings) {
-        const mir::BackendRenderer<FullBackend> renderer(
-            "rcvp", mir::BackendScheduler::rcvp,
-            {FullBackend(full), "host", "a tight host", [] { return std::uint64_t{1} << 30; },
-             [this] {
-                 ++trims;
-                 --full;
-             }});
+        const auto open = [this](std::uint32_t number) -> mir::BackendMachine<FullBackend> {
+            ++opened;
+            if (number > 0)
+                return {FullBackend(never_full), "host", "a large host",
+                        [] { return std::uint64_t{1} << 32; }, [] {}};
+            return {FullBackend(full), "host", "a tight host",
+                    [] { return std::uint64_t{1} << 30; },
+                    [this] {
+                        ++trims;
+                        --full;
+                    }};
+        };
+        const auto usable = [] { return std::vector<std::uint32_t>{0, 1, 2}; };
+        const mir::BackendRenderer<FullBackend> renderer("rcvp", mir::BackendScheduler::rcvp, open,
+                                                         usable);
         return renderer.render(scene, settings, nullptr);
     }
 
     mir::Scene scene = mirtest::glossy_box();
     int full;
+    const int never_full = 0;
     int trims = 0;
+    int opened = 0;
 };
 
 RenderSettings small_picture() {
@@ -99,6 +109,18 @@ TEST_CASE("A renderer over a backend says what rendered") {
     CHECK(s.triangles > 0);
 }
 
+TEST_CASE("A renderer over a backend without cuts sums many VPLs where the sum is not said") {
+    RenderSettings s = small_picture();
+    s.image = {4, 4};
+    s.sampler = mir::SamplerKind::instant_radiosity;
+    s.vpls = mir::most_vpls_summed + 100;
+    const mir::RenderStatistics found = Machine(0).render(s).statistics;
+    CHECK(found.vpls > mir::most_vpls_summed);
+    CHECK(found.contributions == found.luxels * found.vpls);
+    s.sum = mir::LightSum::all;
+    CHECK(Machine(0).render(s).statistics.contributions == found.contributions);
+}
+
 TEST_CASE("A renderer over a backend tries smaller tiles while memory is short, with equal bits") {
     const mir::RenderResult wanted = Machine(0).render(small_picture());
     Machine tight(2);  // tiles of 1024, 512, 256
@@ -113,6 +135,49 @@ TEST_CASE("A renderer over a backend tries smaller tiles while memory is short, 
         CHECK(e.code() == mir::ErrorCode::out_of_memory);
     }
     CHECK(hopeless.trims == 4);
+}
+
+TEST_CASE("Machines that share a picture give the bytes of one, also where memory is short") {
+    RenderSettings s = small_picture();
+    const mir::RenderResult wanted = Machine(0).render(s);
+    SECTION("by number") {
+        s.devices.numbers = {2, 0};
+        Machine two(1);
+        const mir::RenderResult found = two.render(s);
+        CHECK(found.statistics.device == "a large host, a tight host");
+        CHECK(two.opened == 2);
+        CHECK(two.trims == 1);
+        CHECK(mirtest::same_bits(found.beauty, wanted.beauty));
+    }
+    SECTION("all") {
+        s.devices.all = true;
+        Machine all(0);
+        const mir::RenderResult found = all.render(s);
+        CHECK(all.opened == 3);
+        CHECK(found.statistics.acceleration == wanted.statistics.acceleration);
+        CHECK(mirtest::same_bits(found.beauty, wanted.beauty));
+    }
+    SECTION("one that is not the first") {
+        s.devices.numbers = {1};
+        Machine one(9);
+        CHECK(mirtest::same_bits(one.render(s).beauty, wanted.beauty));
+        CHECK(one.trims == 0);
+    }
+}
+
+TEST_CASE("The processor refuses GPUs by number, and takes all where there are none") {
+    RenderSettings s = small_picture();
+    const mir::Scene scene = mirtest::glossy_box();
+    s.devices.all = true;
+    CHECK_NOTHROW(mirtest::render(scene, s));
+    s.devices = {false, {0}};
+    try {
+        static_cast<void>(mirtest::render(scene, s));
+        FAIL("nothing was thrown");
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::unsupported);
+        CHECK(std::string(e.what()).find("--devices") != std::string::npos);
+    }
 }
 
 TEST_CASE("Luxels gather from discs on the backend, with the bits of the host") {

@@ -24,7 +24,8 @@ Responses on_backend(const B& backend, const mirtest::LitBox<F>& box, Extent ima
                      std::uint32_t partial_sums = 1u << 21) {
     const mir::VplSpan<mir::Space::host> vpls = box.vpls.span();
     auto queue = backend.queue();
-    mir::BackendResponse<B> sum(backend, image, vpls.size(), partial_sums);
+    mir::BackendResponse<B> there_sums(backend, image, vpls.size(), partial_sums);
+    mir::ResponseSum sum(image, vpls.size());
     for (std::uint32_t row = 0; row < image.height; row += rows) {
         const Extent band{image.width, std::min(rows, image.height - row)};
         const auto luxels = box.luxels(image, tile, row, band.height);
@@ -32,10 +33,9 @@ Responses on_backend(const B& backend, const mirtest::LitBox<F>& box, Extent ima
         there.upload(queue, luxels);
         mir::BackendVisibility<B> seen(backend, there.grid(), vpls.size());
         seen.find(queue, there, vpls, box.engine.visibility());
-        sum.add_band(queue, there, vpls, seen, shading);
-        queue.record().sync();
+        sum.add_rows(band, there_sums.rows(queue, there, vpls, seen, shading));
     }
-    return sum.mean(queue);
+    return sum.mean();
 }
 
 template <mir::Bsdf F, mir::Shading S>
@@ -98,22 +98,33 @@ TEST_CASE("Sums go from left to right along rows of blocks, then from top to bot
     // Two VPLs, three columns, two rows. Big numbers swallow small ones that come after them.
     const double big = 0x1p53;
     const double values[2][3] = {{big, 1.0, 1.0}, {1.0, 1.0, big}};
-    std::vector<ImageResponse> sums;
+    std::vector<ImageResponse> blocks;
     for (const auto& row : values)
         for (double x : row)
-            for (std::uint64_t vpl = 0; vpl < 2; ++vpl) sums.push_back({x, 1.0, 2.0, vpl});
-    const mir::SumBlockRow along{sums.data(), 3, 2};
+            for (std::uint64_t vpl = 0; vpl < 2; ++vpl) blocks.push_back({x, 1.0, 2.0, vpl});
+    std::vector<ImageResponse> rows(4);
+    const mir::SumBlockRow along{blocks.data(), 3, 2, rows.data(), 2};
     for (std::uint32_t i = 0; i < 4; ++i) along(i);
-    CHECK(sums[1].r == big);
-    CHECK(sums[7].r == big + 2.0);
-    std::vector<ImageResponse> totals{{1.0, 0.0, 0.0, 0}, {1.0, 0.0, 0.0, 0}};
-    const mir::AddBlockRows down{sums.data(), 2, 6, totals.data()};
-    for (std::uint32_t j = 0; j < 2; ++j) down(j);
-    CHECK(totals[1].r == (1.0 + big) + (big + 2.0));
-    CHECK(totals[1].g == 6.0);
-    CHECK(totals[1].b == 12.0);
-    CHECK(totals[0].lit_luxels == 0);
-    CHECK(totals[1].lit_luxels == 6);
+    CHECK(rows[1].r == big);
+    CHECK(rows[3].r == big + 2.0);
+    mir::ResponseSum sum({1, 32}, 2);
+    sum.add_rows({1, 32}, rows);
+    const std::vector<ImageResponse> means = sum.mean();
+    CHECK(means[1].r == (big + (big + 2.0)) / 32);
+    CHECK(means[1].g == 6.0 / 32);
+    CHECK(means[1].b == 12.0 / 32);
+    CHECK(means[0].lit_luxels == 0);
+    CHECK(means[1].lit_luxels == 6);
+}
+
+TEST_CASE("Sums of other rows of blocks than a band's are refused") {
+    mir::ResponseSum sum({20, 40}, 3);
+    CHECK_THROWS_AS(sum.add_rows({20, 32}, Responses(3)), mir::Error);
+    CHECK_THROWS_AS(sum.add_rows({16, 32}, Responses(6)), mir::Error);
+    CHECK_NOTHROW(sum.add_rows({20, 32}, Responses(6)));
+    CHECK_THROWS_AS(sum.mean(), mir::Error);
+    CHECK_NOTHROW(sum.add_rows({20, 8}, Responses(3)));
+    CHECK(sum.mean().size() == 3);
 }
 
 TEST_CASE("Black luxels do not count as lit on a backend, those beside them do") {
@@ -135,15 +146,16 @@ TEST_CASE("Black luxels do not count as lit on a backend, those beside them do")
     mir::BackendVisibility<B> seen(backend, mir::TileGrid::of(image, black.tiles()),
                                    box.vpls.size());
     seen.find(queue, black, box.vpls.span(), box.engine.visibility());
-    mir::BackendResponse<B> sum(backend, image, box.vpls.size());
+    mir::BackendResponse<B> there(backend, image, box.vpls.size());
     const mir::VplShading<mir::Lambert> shading;
-    sum.add_band(queue, black, box.vpls.span(), seen, shading);
+    mir::ResponseSum sum(image, box.vpls.size());
+    sum.add_rows(image, there.rows(queue, black, box.vpls.span(), seen, shading));
     const auto matrix = box.visibility(black, box.engine.visibility());
     const Responses wanted = response(black, box.vpls.span(), matrix, shading, executor);
     std::uint64_t lit = 0;
     for (const ImageResponse& t : wanted) lit += t.lit_luxels;
     CHECK((every == 1 ? lit == 0 : lit > 1000));
-    CHECK(mirtest::same_bits(sum.mean(queue), wanted));
+    CHECK(mirtest::same_bits(sum.mean(), wanted));
 }
 
 TEST_CASE("A response of no VPLs is empty") {
@@ -155,9 +167,13 @@ TEST_CASE("A response of no VPLs is empty") {
     const mir::VplSpan<mir::Space::host> none;
     mir::BackendVisibility<B> seen(backend, mir::TileGrid::of({16, 16}, box.gbuffer.tiles()), 0);
     seen.find(queue, box.gbuffer, none, box.engine.visibility());
-    mir::BackendResponse<B> sum(backend, {16, 16}, 0);
-    sum.add_band(queue, box.gbuffer, none, seen, mir::VplShading<mir::Lambert>{});
-    CHECK(sum.mean(queue).empty());
+    mir::BackendResponse<B> there(backend, {16, 16}, 0);
+    const Responses rows =
+        there.rows(queue, box.gbuffer, none, seen, mir::VplShading<mir::Lambert>{});
+    CHECK(rows.empty());
+    mir::ResponseSum sum({16, 16}, 0);
+    CHECK_NOTHROW(sum.add_rows({16, 16}, rows));
+    CHECK(sum.mean().empty());
 }
 
 TEST_CASE("Luxels, VPLs and visibility that do not belong together are refused on a backend") {
@@ -172,17 +188,14 @@ TEST_CASE("Luxels, VPLs and visibility that do not belong together are refused o
     const auto add = [&](const auto& g, Extent luxels, std::uint32_t vpls,
                          const mir::TileGrid& seen_grid, std::uint32_t seen_vpls) {
         const mir::BackendVisibility<B> seen(backend, seen_grid, seen_vpls);
-        mir::BackendResponse<B> sum(backend, luxels, vpls);
-        sum.add_band(queue, g, box.vpls.span(), seen, mir::VplShading<mir::Lambert>{});
-        return sum.mean(queue);
+        mir::BackendResponse<B> there(backend, luxels, vpls);
+        return there.rows(queue, g, box.vpls.span(), seen, mir::VplShading<mir::Lambert>{});
     };
     CHECK_NOTHROW(add(box.gbuffer, image, n, grid, n));
     CHECK_THROWS_AS(add(box.gbuffer, {16, 64}, n, grid, n), mir::Error);
     CHECK_THROWS_AS(add(box.gbuffer, image, n + 1, grid, n), mir::Error);
     CHECK_THROWS_AS(add(box.gbuffer, image, n, grid, n + 1), mir::Error);
     CHECK_THROWS_AS(add(box.gbuffer, image, n, {image, {32, 16}}, n), mir::Error);
-    // A band is missing.
-    CHECK_THROWS_AS(add(box.gbuffer, {32, 64}, n, grid, n), mir::Error);
     // Tiles that cut blocks.
     const auto cut = box.luxels(image, {20, 20}, 0, 32);
     CHECK_THROWS_AS(add(cut, image, n, mir::TileGrid::of(image, cut.tiles()), n), mir::Error);

@@ -157,3 +157,24 @@ TEST_CASE("a reference of no samples is refused") {
     mir::InlineExecutor executor;
     CHECK_THROWS_AS(traced(executor, 0), mir::Error);
 }
+
+TEST_CASE("rows of a reference have the bits that they have in the whole image") {
+    mir::InlineExecutor executor;
+    mir::ReferenceOptions options;
+    options.samples = 2;
+    options.replicates = 2;
+    const auto tracer = box().tracer({});
+    const mir::CameraRays rays = box().rays(20, 21);
+    const mir::ReferenceImage whole = trace_reference(tracer, rays, options, executor);
+    options.rows = {7, 5};
+    const mir::ReferenceImage rows = trace_reference(tracer, rays, options, executor);
+    REQUIRE(rows.extent() == mir::Extent{whole.extent().width, 5});
+    for (std::uint32_t y = 0; y < 5; ++y)
+        for (std::uint32_t x = 0; x < rows.extent().width; ++x)
+            CHECK(bits_of(rows.beauty_moments(x, y)) == bits_of(whole.beauty_moments(x, y + 7)));
+    for (const mir::LuxelRows below :
+         {mir::LuxelRows{whole.extent().height, {}}, {1, whole.extent().height}}) {
+        options.rows = below;
+        CHECK_THROWS_AS(trace_reference(tracer, rays, options, executor), mir::Error);
+    }
+}

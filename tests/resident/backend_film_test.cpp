@@ -8,6 +8,7 @@
 #include "support/lazy_backend.hpp"
 
 #include <cstring>
+#include <memory>
 
 namespace {
 
@@ -107,6 +108,66 @@ TEST_CASE("A film on a backend has the bits of the host's for all filters, bands
             CHECK(same_bits(host.develop(l), images[l]));
             CHECK(same_bits(images[l], late[l]));
         }
+    }
+}
+
+TEST_CASE("Films of a backend and of the host hand rows on to each other, with the bits of one") {
+    const std::uint32_t luxels = GENERATE(1u, 4u);
+    const mir::LuxelGrid grid = mir::luxel_grid({37, 21}, luxels);
+    const std::uint32_t ny = grid.per_pixel_y;
+    const mir::Filter filter = mir::default_filter(mir::FilterKind::lanczos);
+    const std::vector<Image<Rgb>> layers{random_luxels(grid.luxels(), 0),
+                                         random_luxels(grid.luxels(), 1)};
+    mir::InlineExecutor executor;
+    mir::Film whole(grid, filter, 7, 2);
+    whole.add_rows(executor, 0, layers);
+
+    using Lazy = mirtest::LazyBackend;
+    mirtest::PutOff work(0);
+    const Lazy backend(work);
+    auto queue = backend.queue();
+    std::vector<std::unique_ptr<mir::BackendFilm<Lazy>>> films;
+    for (int k = 0; k < 2; ++k)
+        films.push_back(
+            std::make_unique<mir::BackendFilm<Lazy>>(backend, queue, grid, filter, 7, 2, 9 * ny));
+    mir::Film host(grid, filter, 7, 2);
+    mir::FilmSeam seam;
+    std::vector<std::uint32_t> ends;  // of pixel rows, by band
+    const std::vector<std::uint32_t> heights{2, 1, 9, 1, 1, 7};
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const std::uint32_t first = seam.luxel_rows;
+        std::vector<Image<Rgb>> band;
+        for (const Image<Rgb>& layer : layers)
+            band.push_back(rows_of(layer, first, heights[i] * ny));
+        if (i % 3 == 2) {
+            host.go_on(seam);
+            host.add_rows(executor, first, band);
+            seam = host.seam();
+        } else {
+            auto& film = *films[i % 3];
+            if (film.rows() != first) film.go_on(queue, seam);
+            std::vector<mir::BackendLayer<Lazy>> there;
+            for (const Image<Rgb>& image : band)
+                there.push_back(layer_of(backend, queue, image, {32, 16}));
+            film.add_rows(queue, first, there);
+            film.bring_home(queue, executor);
+            seam = film.seam(queue);
+        }
+        ends.push_back(seam.first_row);
+    }
+    CHECK(ends.back() == grid.pixels.height);
+    const std::vector<Image<Rgb>> of_first = films[0]->take_images();
+    const std::vector<Image<Rgb>> of_second = films[1]->take_images();
+    for (std::size_t l = 0; l < 2; ++l) {
+        const Image<Rgb> of_host = host.develop(l);
+        const Image<Rgb>* const makers[] = {&of_first[l], &of_second[l], &of_host};
+        Image<Rgb> pixels(grid.pixels);
+        std::uint32_t y = 0;
+        for (std::size_t i = 0; i < ends.size(); ++i)
+            for (; y < ends[i]; ++y)
+                for (std::uint32_t x = 0; x < pixels.width(); ++x)
+                    pixels(x, y) = (*makers[i % 3])(x, y);
+        CHECK(same_bits(whole.develop(l), pixels));
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/runtime/check_settings.hpp"
+#include "mir/runtime/settings_hash.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("counts of the path tracer are checked before anything is rendered") {
@@ -26,4 +27,25 @@ TEST_CASE("pairs of a pass are counted without overflow") {
     s.luxels_per_pixel = 64;
     s.vpls = 4'000'000;
     CHECK(mir::pairs(s) == 16384.0 * 16384.0 * 64.0 * 4e6);
+}
+
+TEST_CASE("GPUs are chosen once each, and all or by number") {
+    mir::RenderSettings s;
+    s.devices.numbers = {1, 0};
+    CHECK_NOTHROW(check(s));
+    s.devices.numbers = {1, 0, 1};
+    CHECK_THROWS_AS(check(s), mir::Error);
+    s.devices = {true, {0}};
+    CHECK_THROWS_AS(check(s), mir::Error);
+    s.devices.numbers.clear();
+    CHECK_NOTHROW(check(s));
+}
+
+TEST_CASE("A picture does not depend on which GPUs make it, and so its fingerprint") {
+    mir::RenderSettings s;
+    const std::uint64_t one = mir::SettingsHash(s).value();
+    s.devices.numbers = {0, 1};
+    CHECK(mir::SettingsHash(s).value() == one);
+    s.seed = 1;
+    CHECK(mir::SettingsHash(s).value() != one);
 }

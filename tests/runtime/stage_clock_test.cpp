@@ -69,3 +69,23 @@ TEST_CASE("seconds that were measured by themselves change their stage, not the 
     CHECK(s.sampling >= 0.001 - 1e-12);
     CHECK(s.total == Approx(s.bootstrap + s.sampling + s.other));
 }
+
+TEST_CASE("stages of other threads are part of what the clock's own thread does") {
+    mir::StageClock clock;
+    {
+        const auto own = clock.measure(&StageSeconds::film);
+        std::thread([&] {
+            const auto beside = clock.measure(&StageSeconds::build);
+            pass(5);
+        }).join();
+    }
+    const StageSeconds s = clock.seconds();
+    CHECK(s.build == 0.0);
+    CHECK(s.film >= 0.005);
+    std::thread([&] {
+        clock.follow_this_thread();
+        const auto own = clock.measure(&StageSeconds::build);
+        pass(2);
+    }).join();
+    CHECK(clock.seconds().build >= 0.002);
+}

@@ -3,6 +3,8 @@
 #include "tool/exr_file.hpp"
 #include "tool/mir_program.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <set>
 
 using namespace mirtest;
@@ -57,6 +59,26 @@ TEST_CASE("a render tells on standard error what it did, unless it shall be quie
     // As many chains as VPLs, so that none has two states to compare.
     CHECK(!has(outcome.err, "R-hat"));
     CHECK(has(run_mir(loud + Words{"--chains", "2"}).err, ", R-hat "));
+}
+
+TEST_CASE("cuts fill in what was left open: many VPLs of light paths") {
+    const TemporaryFolder folder("render_cuts");
+    const auto found = [&](const Words& more) {
+        const Words words{"render",   "builtin:cornell-box",
+                          "--width",  "8",
+                          "--height", "8",
+                          "--quiet",  "--json",
+                          "-o",       (folder / "a.exr").string()};
+        return nlohmann::json::parse(run_mir(words + more).out);
+    };
+    const auto open = found({"--sum", "cuts"});
+    CHECK(open.at("picks") == 128);
+    CHECK(open.at("vpls") > 200000);
+    CHECK(open.at("normalisation") == "none");
+    const auto said = found({"--sum", "cuts", "--vpls", "100", "--sampler", "mir"});
+    CHECK(said.at("vpls") <= 100);
+    CHECK(said.at("normalisation") == "proposal");
+    CHECK(found({}).at("picks") == 0);
 }
 
 TEST_CASE("a render names the stages that took time, and VPLs where there are some") {

@@ -49,6 +49,7 @@ TEST_CASE("the help of render names every option") {
                                "--look-at",
                                "--fov",
                                "--backend",
+                               "--devices",
                                "--accel",
                                "--passes",
                                "--time",
@@ -205,6 +206,10 @@ TEST_CASE("unknown choices are refused with the list of known ones") {
     check_failing_render({"builtin:sphere", "--direct", "never"}, 2, "separate");
     check_failing_render({"builtin:sphere", "--filter", "sinc"}, 2, "lanczos");
     check_failing_render({"builtin:sphere", "--scheduler", "gpu"}, 2, "cpu-blocks");
+    for (const char* devices : {"0,", "first", "", "0,-1", "00", "0 1"})
+        check_failing_render({"builtin:sphere", std::string("--devices=") + devices}, 2,
+                             "--devices");
+    check_failing_render({"builtin:sphere", "--devices", "0,1,0"}, 2, "chosen twice");
     check_failing_render({"builtin:sphere", "--aov", "albedo,shadow"}, 2, "albedo");
 }
 

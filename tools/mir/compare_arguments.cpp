@@ -24,7 +24,10 @@ void add_compare_output(CLI::App& app, CompareOptions& o) {
 void add_compare(CLI::App& app, CompareOptions& o) {
     app.add_option("image", o.image, "OpenEXR picture")->required();
     app.add_option("reference", o.reference, "OpenEXR picture to compare it with")->required();
-    app.add_option("--layer", o.layer, "Layer to compare in both (default: the beauty)");
+    app.add_option("--second-reference", o.second_reference,
+                   "Independent second reference, whose noise and the first's then cancel in the "
+                   "scaled relMSE");
+    app.add_option("--layer", o.layer, "Layer to compare in all files (default: the beauty)");
     add_compare_output(app, o);
     const auto limit = between(0, 1e30, "0 to 1e30");
     app.add_option("--max-rmse", o.max_rmse, "Exit with 1 when the RMSE is above")->check(limit);

@@ -35,9 +35,11 @@ void add_sampler(CLI::App& app, mir::RenderSettings& s) {
                s.termination = found->second.termination;
                s.vpl_roulette = found->second.vpl_roulette;
            },
-           "How VPLs are placed: mir, Metropolis sampling (default; up to --chains VPLs are "
+           "How VPLs are placed: mir, Metropolis sampling (default but with --sum cuts; up to "
+           "--chains VPLs are "
            "independent draws, further ones mutations of those); bir, bidirectional with "
-           "resampling; ir, instant radiosity; roulette, the same with roulette on what a VPL "
+           "resampling; ir, instant radiosity (default with --sum cuts); roulette, the same with "
+           "roulette on what a VPL "
            "gives to the image; keller, a fixed share survives each bounce")
         ->type_name("mir|bir|ir|roulette|keller");
 }
@@ -52,8 +54,8 @@ void add_chains(CLI::App& app, mir::RenderSettings& s) {
         "Where a VPL's response is measured: on all luxels (default), on a few, or while sampling");
     add_count(app, "--prepass-luxels", s.prepass_luxels, 1, 1 << 24,
               "Luxels of --normalise prepass (default 4096)");
-    add_count(app, "--chains", m.chains, 1, 65536,
-              "Markov chains, no more than VPLs (default 4096)");
+    add_count(app, "--chains", m.chains, 1, 1 << 22,
+              "Markov chains at most (default: as many as VPLs)");
     add_count(app, "--stride", m.stride, 1, 1 << 20,
               "Mutations from one recorded state to the next (default 64)");
     add_count(app, "--tries", m.chain.tries, 1, 254, "Candidates of a large step (default 8)");
@@ -139,18 +141,30 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
                                  "correct it (default)");
 }
 
+/// Fills in what --sum cuts leaves open: light paths bring many VPLs at next to no cost.
+void choose_for_cuts(const CLI::App& app, mir::RenderSettings& s) {
+    if (s.sum != mir::LightSum::cuts) return;
+    if (app.count("--vpls") == 0) s.vpls = 1u << 18;
+    if (app.count("--sampler") == 0) s.sampler = mir::SamplerKind::instant_radiosity;
+}
+
 void add_sampling(CLI::App& app, mir::RenderSettings& s) {
     add_sampler(app, s);
     add_choice<mir::Sequence>(
         app, "--sequence", s.sequence,
         {{"random", mir::Sequence::random}, {"halton", mir::Sequence::halton}},
         "Numbers behind the light paths (default random)");
-    app.add_option("--vpls", s.vpls, "Geometric VPLs wanted (default 1024)")
+    app.add_option("--vpls", s.vpls, "Geometric VPLs wanted (default 1024; 262144 with --sum cuts)")
         ->check(between(1, 4e6, "1 to 4000000"));
     add_choice<mir::LightSum>(
-        app, "--sum", s.sum, {{"all", mir::LightSum::all}, {"cuts", mir::LightSum::cuts}},
-        "VPLs that a luxel gathers: all (default), or a few of many, picked from cuts of a tree");
-    add_count(app, "--picks", s.picks, 1, 65536, "VPLs of a luxel with --sum cuts (default 256)");
+        app, "--sum", s.sum,
+        {{"auto", mir::LightSum::automatic},
+         {"all", mir::LightSum::all},
+         {"cuts", mir::LightSum::cuts}},
+        "VPLs that a luxel gathers: all, a few of many, picked from cuts of a tree, or what suits "
+        "their number (default)");
+    add_count(app, "--picks", s.picks, 1, 65536, "VPLs of a luxel by cuts (default 128)");
+    app.parse_complete_callback([&app, &s] { choose_for_cuts(app, s); });
     add_choice<mir::DirectLight>(
         app, "--direct", s.direct,
         {{"separate", mir::DirectLight::separate}, {"vpl", mir::DirectLight::vpl}},

@@ -24,6 +24,23 @@ mir::Extent read_tile(const std::string& text) {
         "--tile", "'" + text + "' is no tile; give WIDTHxHEIGHT in luxels, such as 256x256");
 }
 
+/// Reads "all" or numbers with commas between them.
+mir::DeviceChoice read_devices(const std::string& text) {
+    mir::DeviceChoice devices;
+    devices.all = text == "all";
+    for (std::size_t at = 0; !devices.all && at <= text.size();) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        const std::string number = text.substr(at, end - at);
+        const bool has_zeros = number.size() > 1 && number.front() == '0';
+        if (has_zeros || !read_whole(number, devices.numbers.emplace_back()))
+            throw CLI::ValidationError("--devices", "'" + text +
+                                                        "' names no GPUs; give all, or numbers as "
+                                                        "`mir devices` counts them, such as 0,1");
+        at = end + 1;
+    }
+    return devices;
+}
+
 void add_image(CLI::App& app, RenderOptions& o) {
     mir::RenderSettings& s = o.settings;
     const auto side = between(1, 65536, "1 to 65536");
@@ -136,6 +153,11 @@ void add_execution(CLI::App& app, RenderOptions& o) {
                                   {"cpu", mir::BackendKind::cpu},
                                   {"cuda", mir::BackendKind::cuda}},
                                  "Machine: a GPU where there is one (default), or one of them");
+    app.add_option_function<std::string>(
+           "--devices", [&s](const std::string& text) { s.devices = read_devices(text); },
+           "GPUs that make the picture together: all, or numbers such as 0,1 (default 0); the "
+           "picture does not depend on their number")
+        ->type_name("LIST");
     add_choice<mir::Acceleration>(
         app, "--accel", s.acceleration,
         {{"auto", mir::Acceleration::automatic},

@@ -7,8 +7,8 @@
 namespace mir {
 namespace {
 
-BackendMachine<cuda::Backend> open_first_gpu() {
-    const cuda::Device device = cuda::select_device();
+BackendMachine<cuda::Backend> open_gpu(std::uint32_t number) {
+    const cuda::Device device = cuda::select_device(static_cast<int>(number));
     const cuda::Backend backend(device);
     const auto usable_bytes = [backend] {
         return cuda::free_memory(backend.device()) +
@@ -19,12 +19,20 @@ BackendMachine<cuda::Backend> open_first_gpu() {
     return {backend, "cuda", device.name, usable_bytes, [backend] { backend.memory().trim(); }};
 }
 
+std::vector<std::uint32_t> usable_gpus() {
+    std::vector<std::uint32_t> numbers;
+    for (const cuda::Device& device : cuda::devices())
+        if (cuda::is_supported(device))
+            numbers.push_back(static_cast<std::uint32_t>(device.ordinal));
+    return numbers;
+}
+
 }  // namespace
 
 void add_cuda_to(Registry& registry) {
-    registry.add(registered_backend(
+    registry.add(registered_backend<cuda::Backend>(
         BackendKind::cuda, "cuda", [] { static_cast<void>(cuda::select_device()); },
-        [] { return cuda::versions().driver != 0; }, open_first_gpu));
+        [] { return cuda::versions().driver != 0; }, open_gpu, usable_gpus));
 }
 
 void append_cuda_devices(DeviceList& list) {

@@ -6,6 +6,7 @@
 #include "mir/core/rgb.hpp"
 #include "mir/data/image.hpp"
 #include "mir/film/detail/luxel_columns.hpp"
+#include "mir/film/film_seam.hpp"
 #include "mir/film/filter.hpp"
 #include "mir/film/luxel_grid.hpp"
 #include "mir/film/tap_table.hpp"
@@ -95,6 +96,17 @@ class Film {
         return develop(executor, layer);
     }
 
+    /// What another film needs to go on below the rows added so far, which are rows of whole
+    /// pixels. It develops the pixels from FilmSeam::first_row on, this one those above.
+    /// @throws Error(invalid_argument) when a band was added in part.
+    [[nodiscard]] FilmSeam seam() const;
+
+    /// Goes on below another film of the same image, filter and layers, which left `seam`: only
+    /// pixels from there on mean anything.
+    /// @throws Error(invalid_argument) when the seam is not one of such a film, lies above rows
+    ///         that were added, or a band was added in part.
+    void go_on(const FilmSeam& seam);
+
     /// Pixels and luxels that it was made for.
     [[nodiscard]] const LuxelGrid& grid() const { return grid_; }
     /// Number of layers.
@@ -123,6 +135,9 @@ class Film {
     void add_to_block(std::uint32_t block, std::uint32_t first_luxel_row,
                       std::span<const Image<Rgb>* const> layers);
     void add_luxel_row(detail::LuxelColumns& luxels, std::uint32_t block, std::uint32_t row);
+    /// Calls use(seam_sum, index into sums_) for all sums of a seam.
+    template <class Seam, class Use>
+    void for_each_sum(Seam& seam, const Use& use) const;
 
     /// A plane of weights, then three of each layer.
     [[nodiscard]] std::size_t planes() const { return 1 + 3 * layers_; }
@@ -212,6 +227,31 @@ inline void Film::add_luxel_row(detail::LuxelColumns& luxels, std::uint32_t bloc
         for (std::size_t layer = 0; layer < layers_; ++layer)
             luxels.add_layer(layer, tap, sums + (1 + 3 * layer) * detail::film_columns);
     }
+}
+
+template <class Seam, class Use>
+void Film::for_each_sum(Seam& seam, const Use& use) const {
+    auto sum = seam.sums.begin();
+    for (std::size_t plane = 0; plane < planes(); ++plane)
+        for (std::uint32_t y = seam.first_row; y < seam.first_row + seam.rows; ++y)
+            for (std::uint32_t x = 0; x < grid_.pixels.width; ++x)
+                use(*sum++, sums_of(x / detail::film_columns, y) + plane * detail::film_columns +
+                                x % detail::film_columns);
+}
+
+inline FilmSeam Film::seam() const {
+    check_whole();
+    FilmSeam seam = FilmSeam::below(rows_, grid_, taps_.reach());
+    seam.sums.resize(seam.count(grid_, planes()));
+    for_each_sum(seam, [this](double& sum, std::size_t i) { sum = sums_[i]; });
+    return seam;
+}
+
+inline void Film::go_on(const FilmSeam& seam) {
+    check_whole();
+    check_seam(seam, grid_, taps_.reach(), planes(), rows_);
+    for_each_sum(seam, [this](const double& sum, std::size_t i) { sums_[i] = sum; });
+    rows_ = seam.luxel_rows;
 }
 
 template <Executor E>

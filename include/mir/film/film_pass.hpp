@@ -102,6 +102,36 @@ struct FilmPass {
     }
 };
 
+/// Kernel over the pixels of a FilmSeam in row order: copies their sums from a film.
+struct LeaveSeam {
+    FilmSums from;                ///< of the film that ends
+    std::uint32_t first_row = 0;  ///< of pixels
+    std::uint32_t rows = 0;       ///< of pixels
+    double* sums = nullptr;       ///< FilmSeam::sums
+
+    /// Pixel i from row `first_row` on.
+    MIR_HD void operator()(std::uint32_t i) const {
+        const double* const pixel = from.at(i % from.width, first_row + i / from.width);
+        for (std::size_t k = 0; k < from.planes(); ++k)
+            sums[k * rows * from.width + i] = pixel[k * from.stride()];
+    }
+};
+
+/// Kernel over the same pixels: copies their sums to a film.
+struct EnterSeam {
+    FilmSums to;                   ///< of the film that goes on
+    std::uint32_t first_row = 0;   ///< of pixels
+    std::uint32_t rows = 0;        ///< of pixels
+    const double* sums = nullptr;  ///< FilmSeam::sums
+
+    /// Pixel i from row `first_row` on.
+    MIR_HD void operator()(std::uint32_t i) const {
+        double* const pixel = to.at(i % to.width, first_row + i / to.width);
+        for (std::size_t k = 0; k < to.planes(); ++k)
+            pixel[k * to.stride()] = sums[k * rows * to.width + i];
+    }
+};
+
 /// Kernel over finished pixels in row order: writes their colours, layer after layer, as
 /// Film::develop() makes them, and clears their sums for the next turn of the ring.
 struct DevelopPass {

@@ -177,33 +177,22 @@ template <class G, class P, class F>
 BlockResponse(G, P, VisibilityWords<G::space>, F, std::uint32_t, std::uint32_t, VplIndex,
               std::uint32_t, ImageResponse*, std::uint32_t) -> BlockResponse<G, P, F>;
 
-/// Adds up each row of blocks from left to right, in place: kernel over pairs of row and VPL.
+/// Adds up each row of blocks from left to right: kernel over pairs of row and VPL.
 struct SumBlockRow {
-    ImageResponse* sums = nullptr;  ///< of blocks, as BlockResponse writes them
-    std::uint32_t columns = 0;      ///< blocks of a row
-    std::uint32_t count = 0;        ///< VPLs
+    const ImageResponse* blocks = nullptr;  ///< as BlockResponse writes them
+    std::uint32_t columns = 0;              ///< blocks of a row
+    std::uint32_t count = 0;                ///< VPLs
+    ImageResponse* rows = nullptr;          ///< sums of VPLs, row after row
+    std::size_t stride = 0;                 ///< from row to row of `rows`
 
-    /// Row i / count and VPL i % count; the sum replaces that of the row's first block.
+    /// Row i / count and VPL i % count.
     MIR_HD void operator()(std::uint32_t i) const {
-        ImageResponse* first = sums + std::size_t{i / count} * columns * count + i % count;
+        const std::uint32_t row = i / count;
+        const std::uint32_t vpl = i % count;
+        const ImageResponse* const first = blocks + std::size_t{row} * columns * count + vpl;
         ImageResponse sum = *first;
         for (std::uint32_t c = 1; c < columns; ++c) sum += first[std::size_t{c} * count];
-        *first = sum;
-    }
-};
-
-/// Adds rows of blocks to the totals from top to bottom: kernel over VPLs.
-struct AddBlockRows {
-    const ImageResponse* sums = nullptr;  ///< the sum of a row is its first element
-    std::uint32_t rows = 0;               ///< of blocks
-    std::size_t stride = 0;               ///< from row to row
-    ImageResponse* totals = nullptr;      ///< by VPL; keep what was added before
-
-    /// VPL `j`, counted from the first of `sums` and `totals`.
-    MIR_HD void operator()(std::uint32_t j) const {
-        ImageResponse total = totals[j];
-        for (std::uint32_t row = 0; row < rows; ++row) total += sums[row * stride + j];
-        totals[j] = total;
+        rows[row * stride + vpl] = sum;
     }
 };
 

@@ -98,7 +98,7 @@ struct ChainWalk {
     }
 
  private:
-    /// Names the random numbers of a state's suffixes, but for the refresh: 16 bits of the chain, 8
+    /// Names the random numbers of a state's suffixes, but for the refresh: 22 bits of the chain, 8
     /// of the refresh, 32 of the state.
     MIR_HD static std::uint64_t index_of(std::uint32_t chain, std::uint64_t state) {
         return (std::uint64_t{chain} << 40) | static_cast<std::uint32_t>(state);

@@ -32,7 +32,7 @@ struct MetropolisOptions : MetropolisTuning {
 
 inline void MetropolisTuning::validate() const {
     expects(chains > 0 && chains <= max_chains,
-            "the number of Markov chains must be 1 to 65536; 4096 is usual");
+            "the number of Markov chains must be 1 to 4194304; as many as VPLs are usual");
     expects(stride > 0 && stride <= 1u << 20,
             "the stride between recorded states must be 1 to 1048576; 64 is usual");
     expects(suffix_refresh < 256, "suffix refreshes must be 0 to 255; 8 is usual");

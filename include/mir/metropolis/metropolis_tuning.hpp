@@ -29,7 +29,7 @@ enum class ChainStop {
 
 /// How chains run, whatever they are run for.
 struct MetropolisTuning {
-    std::uint32_t chains = 4096;        ///< at most, 1..65536; see BootstrapOptions::starts_at()
+    std::uint32_t chains = 1u << 22;    ///< at most, 1..2^22; see BootstrapOptions::starts_at()
     std::uint32_t stride = 64;          ///< mutations from one recorded state to the next
     std::uint32_t suffix_refresh = 8;   ///< further light paths behind each recorded VPL, 0..255
     ChainStop stop = ChainStop::fixed;  ///< when chains end

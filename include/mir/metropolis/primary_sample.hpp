@@ -19,7 +19,7 @@ struct LargeStep {
 inline constexpr std::uint32_t max_coordinates = 400;
 
 /// Largest numbers that name a step of a chain; steps themselves use all 32 bits.
-inline constexpr std::uint32_t max_chains = 1u << 16;
+inline constexpr std::uint32_t max_chains = 1u << 22;
 inline constexpr std::uint32_t max_tries = 255;  ///< of one step
 
 /// The first numbers of a step are free for its decisions (kind, choice, acceptance); number
@@ -28,12 +28,12 @@ inline constexpr std::uint32_t step_decisions = 8;
 
 namespace detail {
 
-// 8 unused bits, 16 of the chain, 8 of the part, 32 of the step.
+// 2 unused bits, 22 of the chain, 8 of the part, 32 of the step.
 MIR_HD inline std::uint64_t mutation_index(std::uint32_t chain, std::uint32_t step,
                                            std::uint32_t part) {
     expects_on_host(
         chain < max_chains,
-        "there are more than 65536 Markov chains (16 bits name a chain); ask for fewer");
+        "there are more than 4194304 Markov chains (22 bits name a chain); ask for fewer");
     return (std::uint64_t{chain} << 40) | (std::uint64_t{part} << 32) | step;
 }
 
@@ -97,7 +97,7 @@ class PrimarySample {
                       const SmallStep& kernel = {}) {
         expects_on_host(
             chain < max_chains,
-            "there are more than 65536 Markov chains (16 bits name a chain); ask for fewer");
+            "there are more than 4194304 Markov chains (22 bits name a chain); ask for fewer");
         seed_ = seed;
         chain_ = chain;
         kernel_ = kernel;

@@ -11,6 +11,7 @@
 #include "mir/shading/check_bound.hpp"
 
 #include <bit>
+#include <span>
 
 namespace mir {
 
@@ -29,6 +30,17 @@ class ResponseSum {
     template <TiledGBuffer G, VplSet P, KnownVisibility V, Shading F, Executor E>
     void add_band(const G& gbuffer, P vpls, V bits, const F& shading, E& executor,
                   InstructionSet instructions = best_instruction_set());
+
+    /// The same of a band whose sums (block_row_responses()) were found before, wherever that was.
+    /// @throws Error(invalid_argument) when band or sums do not fit.
+    void add_rows(Extent band, std::span<const ImageResponse> rows) {
+        bands_.check(band, bands_.vpls());
+        expects(rows.size() == std::size_t{detail::block_rows(band.height)} * bands_.vpls(),
+                "a response was given sums of other rows or VPLs (they would be of nothing); give "
+                "one for each VPL and row of blocks of the band");
+        for (std::size_t i = 0; i < rows.size(); ++i) sums_[i % sums_.size()] += rows[i];
+        bands_.count(band);
+    }
 
     /// Responses in the order of the VPLs.
     /// @throws Error(invalid_argument) before all rows were added.
@@ -96,14 +108,17 @@ void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shad
 
 }  // namespace detail
 
+/// Sums over the luxels of each row of blocks of a band, in the order of ResponseSum: those of all
+/// VPLs, row after row from top to bottom. Otherwise as ResponseSum::add_band().
+/// @throws Error(invalid_argument) when VPLs or bits do not fit or tiles cut blocks.
 template <TiledGBuffer G, VplSet P, KnownVisibility V, Shading F, Executor E>
-void ResponseSum::add_band(const G& gbuffer, P vpls, V bits, const F& shading, E& executor,
-                           InstructionSet instructions) {
-    bands_.check(gbuffer.extent(), gbuffer.tiles(), vpls.size());
+[[nodiscard]] std::vector<ImageResponse> block_row_responses(
+    const G& gbuffer, P vpls, V bits, const F& shading, E& executor,
+    InstructionSet instructions = best_instruction_set()) {
+    detail::check_whole_blocks(gbuffer.tiles());
     check_shading(shading);
     const std::uint32_t count = vpls.size();
-    const std::uint32_t rows =
-        (gbuffer.extent().height + BlockedLayout::side - 1) / BlockedLayout::side;
+    const std::uint32_t rows = detail::block_rows(gbuffer.extent().height);
     const std::uint32_t tasks = (count + detail::vpls_per_task - 1) / detail::vpls_per_task;
     std::vector<ImageResponse> row_sums(std::size_t{rows} * count);
     executor.for_each(std::size_t{rows} * tasks, [&](std::size_t i) {
@@ -115,8 +130,15 @@ void ResponseSum::add_band(const G& gbuffer, P vpls, V bits, const F& shading, E
             detail::add_block_row<set()>(gbuffer, vpls, bits, shading, row, first, last, sums);
         });
     });
-    for (std::size_t i = 0; i < row_sums.size(); ++i) sums_[i % count] += row_sums[i];
-    bands_.count(gbuffer.extent());
+    return row_sums;
+}
+
+template <TiledGBuffer G, VplSet P, KnownVisibility V, Shading F, Executor E>
+void ResponseSum::add_band(const G& gbuffer, P vpls, V bits, const F& shading, E& executor,
+                           InstructionSet instructions) {
+    bands_.check(gbuffer.extent(), vpls.size());
+    add_rows(gbuffer.extent(),
+             block_row_responses(gbuffer, vpls, bits, shading, executor, instructions));
 }
 
 /// Responses of VPLs over an image that one G-buffer holds; see ResponseSum.

@@ -9,6 +9,26 @@
 
 namespace mir::detail {
 
+/// @throws Error(invalid_argument) unless tiles or bands are `whole` blocks.
+inline void check_whole_blocks(bool whole) {
+    expects(whole,
+            "tiles or bands cut blocks of 16x16 luxels (the order of sums would depend on them); "
+            "round sizes up with whole_blocks()");
+}
+
+/// The same of tiles.
+inline void check_whole_blocks(const std::vector<Tile>& tiles) {
+    bool whole = true;
+    for (const Tile& t : tiles)
+        whole = whole && t.x % BlockedLayout::side == 0 && t.y % BlockedLayout::side == 0;
+    check_whole_blocks(whole);
+}
+
+/// Rows of blocks in so many rows of luxels.
+[[nodiscard]] inline std::uint32_t block_rows(std::uint32_t luxel_rows) {
+    return (luxel_rows + BlockedLayout::side - 1) / BlockedLayout::side;
+}
+
 /// Which rows of an image a sum of responses has seen, and how sums become means.
 class ResponseBands {
  public:
@@ -18,18 +38,13 @@ class ResponseBands {
     [[nodiscard]] std::uint32_t vpls() const { return vpls_; }
     [[nodiscard]] bool none_yet() const { return rows_ == 0; }
 
-    /// @throws Error(invalid_argument) when the band is not the next one or tiles cut blocks.
-    void check(Extent band, const std::vector<Tile>& tiles, std::uint32_t vpls) const {
+    /// @throws Error(invalid_argument) when the band is not the next one.
+    void check(Extent band, std::uint32_t vpls) const {
         expects(
             vpls == vpls_ && band.width == luxels_.width && band.height <= luxels_.height - rows_,
             "a response was given luxels or VPLs of another image (it would be the mean of "
             "nothing); give the bands of one image from top to bottom");
-        bool whole = rows_ % BlockedLayout::side == 0;
-        for (const Tile& t : tiles)
-            whole = whole && t.x % BlockedLayout::side == 0 && t.y % BlockedLayout::side == 0;
-        expects(whole,
-                "tiles or bands cut blocks of 16x16 luxels (the order of sums would depend on "
-                "them); round sizes up with whole_blocks()");
+        check_whole_blocks(rows_ % BlockedLayout::side == 0);
     }
 
     void count(Extent band) { rows_ += band.height; }

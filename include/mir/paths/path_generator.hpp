@@ -58,8 +58,9 @@ class PathGenerator {
 
     /// The path at the point `u` of primary sample space; `u.at(d)` is coordinate d. Of what
     /// `out` was before nothing is read.
+    // Inlined: for a function of its own, nvcc 13.0 reserves too little stack (memcheck tells).
     template <class Numbers>
-    MIR_HD_CALL void generate(Numbers&& u, WeightedPath& out) const {
+    MIR_HD void generate(Numbers&& u, WeightedPath& out) const {
         out.weight = 0.0;
         const Technique t =
             techniques_.sample(static_cast<double>(u.at(path_dimension::technique)));

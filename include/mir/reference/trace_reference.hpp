@@ -6,12 +6,20 @@
 #include "mir/reference/path_tracer.hpp"
 #include "mir/reference/reference_image.hpp"
 
+#include <optional>
+
 namespace mir {
 
 /// Where the camera rays of a reference image go through the film.
 enum class FilmPosition {
     luxel,  ///< the ray of the luxel, every time: what other estimators see at that luxel
     pixel   ///< anywhere in the pixel that holds the luxel, and on the lens: a box filter
+};
+
+/// Rows of luxels from the top.
+struct LuxelRows {
+    std::uint32_t first = 0;             ///< of the whole image
+    std::optional<std::uint32_t> count;  ///< up to the last row unless given
 };
 
 /// How much to trace. Memory is 48 bytes per luxel and layer, the beauty's layer included.
@@ -21,6 +29,7 @@ struct ReferenceOptions {
     std::uint32_t first_replicate = 0;        ///< number of the first: names its random numbers
     FilmPosition film = FilmPosition::luxel;  ///< where camera rays go through
     std::uint8_t last_bounce = 8;             ///< last bounce with a layer of its own
+    LuxelRows rows{};                         ///< to trace: the image holds these alone
 };
 
 namespace detail {
@@ -42,7 +51,9 @@ class ReferenceRows {
                   ReferenceImage& image)
         : tracer_(tracer), rays_(rays), options_(options), image_(image) {}
 
-    void operator()(std::uint32_t y) const {
+    /// Row `row` of the image.
+    void operator()(std::uint32_t row) const {
+        const std::uint32_t y = options_.rows.first + row;
         // Bounces without a layer share the last element.
         std::vector<RgbSum> bounces(std::size_t{image_.last_bounce()} + 2);
         for (std::uint32_t x = 0; x < image_.extent().width; ++x) {
@@ -52,7 +63,7 @@ class ReferenceRows {
                 for (std::uint32_t s = 0; s < options_.samples; ++s)
                     add_sample(luxel, x, y, r, s, bounces);
                 for (RgbSum& b : bounces) b = b * (1.0 / options_.samples);
-                image_.add(x, y, r, bounces);
+                image_.add(x, row, r, bounces);
             }
         }
     }
@@ -63,8 +74,9 @@ class ReferenceRows {
                     std::span<RgbSum> bounces) const {
         const std::uint64_t round =
             (std::uint64_t{options_.first_replicate} + replicate) * options_.samples + sample;
-        const std::uint64_t luxel = std::uint64_t{y} * image_.extent().width + x;
-        Random random(rays_.seed, Stream::reference, round * image_.extent().area() + luxel);
+        const Extent whole = rays_.grid.luxels();
+        const std::uint64_t luxel = std::uint64_t{y} * whole.width + x;
+        Random random(rays_.seed, Stream::reference, round * whole.area() + luxel);
         if (options_.film == FilmPosition::luxel) return tracer_.trace(seen, random, bounces);
         const Ray ray = ray_in_pixel(rays_, x, y, random);
         tracer_.trace(tracer_.luxel(ray), random, bounces);
@@ -81,7 +93,8 @@ class ReferenceRows {
 /// Traces the image of all luxels of `rays`, in parallel over rows. Replicate r of one seed has
 /// the same numbers in every call, on any machine and any number of threads, and shares none with
 /// another replicate or another stream: single replicates, and a reference that goes on where
-/// another ended, are had through `first_replicate`.
+/// another ended, are had through `first_replicate`. Rows have the numbers that they have in the
+/// whole image.
 /// @throws Error(invalid_argument) when options are out of range, and what the executor throws.
 template <class Tracer, Executor E>
 ReferenceImage trace_reference(const Tracer& tracer, const CameraRays& rays,
@@ -89,8 +102,12 @@ ReferenceImage trace_reference(const Tracer& tracer, const CameraRays& rays,
     expects(options.samples >= 1 && options.replicates >= 1,
             "a reference of no samples was asked for (there would be no image); ask for at least "
             "one sample and one replicate");
+    const Extent whole = rays.grid.luxels();
+    expects(options.rows.first < whole.height &&
+                options.rows.count.value_or(1) <= whole.height - options.rows.first,
+            "rows of a reference lie below the image; ask for rows that it has");
     ReferenceImage image(
-        rays.grid.luxels(),
+        {whole.width, options.rows.count.value_or(whole.height - options.rows.first)},
         std::min(options.last_bounce, tracer.options().max_bounce.value_or(options.last_bounce)),
         options.replicates);
     const detail::ReferenceRows<Tracer> row(tracer, rays, options, image);

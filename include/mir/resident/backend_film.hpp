@@ -4,6 +4,7 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/data/image.hpp"
 #include "mir/film/film_pass.hpp"
+#include "mir/film/film_seam.hpp"
 #include "mir/film/tap_table.hpp"
 #include "mir/resident/backend_layer.hpp"
 #include "mir/resident/uploaded_array.hpp"
@@ -52,6 +53,19 @@ class BackendFilm {
     /// @throws Error(invalid_argument) when band or layers do not fit; what the backend throws,
     ///         after which no band fits any more.
     void add_rows(Queue& queue, std::uint32_t first_row, std::vector<BackendLayer<B>>& layers);
+
+    /// What another film needs to go on below the rows added so far (Film::seam()).
+    /// @throws Error(invalid_argument) when an error ended add_rows(); what the backend throws.
+    [[nodiscard]] FilmSeam seam(Queue& queue);
+
+    /// Goes on below another film, which may be one of the host or of another machine
+    /// (Film::go_on()). Only pixels from there on mean anything.
+    /// @throws Error(invalid_argument) when the seam does not fit, or pixels are not at home; what
+    ///         the backend throws.
+    void go_on(Queue& queue, const FilmSeam& seam);
+
+    /// Rows of luxels added so far, those above the seam that it went on from included.
+    [[nodiscard]] std::uint32_t rows() const { return luxel_rows_; }
 
     /// Copies what was developed last to the images.
     template <Executor E>
@@ -121,9 +135,7 @@ void BackendFilm<B>::add_rows(Queue& queue, std::uint32_t first_row,
     queue.for_each((end - begin) * grid_.pixels.width,
                    FilmPass<LayerView>{grid_, taps(), offsets.data(), there.data(), sums(),
                                        first_row, band.height, begin});
-    const std::uint32_t complete = luxel_rows_ / grid_.per_pixel_y;
-    develop(queue, luxel_rows_ == whole.height ? grid_.pixels.height
-                                               : complete - std::min(complete, taps_.reach()));
+    develop(queue, FilmSeam::below(luxel_rows_, grid_, taps_.reach()).first_row);
     queue.record().sync();
     in_part_ = false;
 }
@@ -136,6 +148,38 @@ void BackendFilm<B>::develop(Queue& queue, std::uint32_t end) {
     queue.for_each(static_cast<std::uint32_t>(count),
                    DevelopPass{sums(), grid_.per_pixel(), developed_, rows, pixels_->data()});
     developed_ = end;
+}
+
+template <Backend B>
+FilmSeam BackendFilm<B>::seam(Queue& queue) {
+    expects(!in_part_,
+            "a film was left that has part of a band since an error (its sums are of nothing); "
+            "make a new film and add all bands again");
+    FilmSeam seam = FilmSeam::below(luxel_rows_, grid_, taps_.reach());
+    seam.sums.resize(seam.count(grid_, sums().planes()));
+    auto there = backend_.template buffer<double>(seam.sums.size());
+    const WaitAtEnd wait(queue);
+    queue.for_each(seam.rows * grid_.pixels.width,
+                   LeaveSeam{sums(), seam.first_row, seam.rows, there.data()});
+    queue.download(there, std::span(seam.sums));
+    queue.record().sync();
+    return seam;
+}
+
+template <Backend B>
+void BackendFilm<B>::go_on(Queue& queue, const FilmSeam& seam) {
+    check_seam(seam, grid_, taps_.reach(), sums().planes(), luxel_rows_);
+    expects(home_ == developed_ && !in_part_,
+            "a film was to go on elsewhere that has pixels which are not at home, or part of a "
+            "band since an error; bring each band home");
+    const UploadedArray<B, double> there(backend_, queue, seam.sums);
+    const WaitAtEnd wait(queue);
+    queue.clear(sums_);
+    queue.for_each(seam.rows * grid_.pixels.width,
+                   EnterSeam{sums(), seam.first_row, seam.rows, there.data()});
+    queue.record().sync();
+    luxel_rows_ = seam.luxel_rows;
+    developed_ = home_ = seam.first_row;
 }
 
 template <Backend B>

@@ -20,10 +20,12 @@ class BackendGuides {
     BackendGuides(const B& backend, const LuxelGrid& grid, const Camera& camera)
         : backend_(backend), grid_(grid), lens_{camera.position, camera.back} {}
 
-    /// Makes the guides of the next band, which holds whole rows of pixels. All work is done when
-    /// it returns. Each band must be brought home before the next.
+    /// Makes the guides of a band, which starts at luxel row `first_row` and holds whole rows of
+    /// pixels. All work is done when it returns. Each band must be brought home before the next.
     template <Bsdf F>
-    void add(Queue& queue, const BackendGBuffer<B, typename F::Params>& luxels) {
+    void add(Queue& queue, const BackendGBuffer<B, typename F::Params>& luxels,
+             std::uint32_t first_row) {
+        first_row_ = first_row / grid_.per_pixel_y;
         rows_ = luxels.extent().height / grid_.per_pixel_y;
         const std::size_t count = std::size_t{rows_} * grid_.pixels.width;
         there_.emplace(backend_, count);
@@ -42,7 +44,6 @@ class BackendGuides {
         bring_home(queue, executor, there_->position, guides.position);
         bring_home(queue, executor, there_->depth, guides.depth);
         there_.reset();
-        home_ += rows_;
     }
 
  private:
@@ -71,15 +72,16 @@ class BackendGuides {
         executor.for_each(rows_, [&](std::size_t row) {
             const std::span<const T> pixels =
                 std::span<const T>(here.span()).subspan(row * width, width);
-            std::copy(pixels.begin(), pixels.end(), to.pixels().begin() + (home_ + row) * width);
+            std::copy(pixels.begin(), pixels.end(),
+                      to.pixels().begin() + (first_row_ + row) * width);
         });
     }
 
     B backend_;
     LuxelGrid grid_;
     LensPlane lens_;
-    std::uint32_t rows_ = 0;  ///< of pixels in the last band
-    std::uint32_t home_ = 0;  ///< rows of pixels in the images
+    std::uint32_t first_row_ = 0;  ///< of pixels in the last band
+    std::uint32_t rows_ = 0;       ///< of pixels in the last band
     std::optional<Arrays> there_;
 };
 

@@ -4,50 +4,44 @@
 #include "mir/kernels/response.hpp"
 #include "mir/normalise/response_bands.hpp"
 #include "mir/resident/backend_visibility.hpp"
+#include "mir/resident/wait_at_end.hpp"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 namespace mir {
 
-/// ResponseSum on a backend: the response of VPLs over an image whose luxels and visibility lie in
-/// the backend's memory, and come in bands of rows. The order of sums is that of ResponseSum, which
-/// rows of blocks of the image define and neither tiles nor memory: the result has the same bits
-/// for any bands and tiles that are whole blocks, and those of ResponseSum where shading has the
-/// same bits. Memory: two sums per VPL and `partial_sums` more. Not thread-safe.
+/// block_row_responses() on a backend: what VPLs do to the luxels of bands that lie there with
+/// their visibility. The order of sums is that of ResponseSum, which takes the rows on the host:
+/// neither tiles nor memory change a bit, and bits are those of the host where shading has the
+/// same. Memory: a sum for each VPL and row of blocks of a band, and `partial_sums` more. Not
+/// thread-safe.
 template <Backend B>
 class BackendResponse {
  public:
     /// Of the backend.
     using Queue = typename B::Queue;
 
-    /// For an image of `luxels` and a set of `vpls` VPLs. `partial_sums` of 32 bytes may be kept of
-    /// pairs of block and VPL; at least those of one row of blocks and 32 VPLs are.
+    /// For bands of an image of `luxels` and a set of `vpls` VPLs. `partial_sums` of 32 bytes may
+    /// be kept of pairs of block and VPL; at least those of one row of blocks and 32 VPLs are.
     BackendResponse(const B& backend, Extent luxels, std::uint32_t vpls,
                     std::uint32_t partial_sums = 1u << 21)
-        : bands_(luxels, vpls),
+        : backend_(backend),
+          width_(luxels.width),
+          vpls_(vpls),
           chunk_(choose_chunk(luxels, vpls, partial_sums)),
-          partial_(backend.template buffer<ImageResponse>(chunk_.sums())),
-          totals_(backend.template buffer<ImageResponse>(vpls)),
-          at_home_(backend.template host_buffer<ImageResponse>(vpls)) {
-        std::fill_n(at_home_.span().begin(), vpls, ImageResponse{});
-    }
+          partial_(backend.template buffer<ImageResponse>(chunk_.sums())) {}
 
-    /// Starts to add the rows below those added before. `seen` holds the visibility of this band
-    /// and these VPLs, whose intensities are not read. All bands go to one queue.
-    /// @throws Error(invalid_argument) when band, VPLs or visibility do not fit or tiles cut
-    /// blocks.
+    /// Sums for each row of blocks of a band, from top to bottom, those of all VPLs. `seen` holds
+    /// the visibility of this band and these VPLs, whose intensities are not read. All work is done
+    /// when it returns.
+    /// @throws Error(invalid_argument) when VPLs or visibility do not fit or tiles cut blocks; what
+    ///         the backend throws.
     template <TiledGBuffer G, VplSet P, Shading F>
-    void add_band(Queue& queue, const G& gbuffer, P vpls, const BackendVisibility<B>& seen,
-                  const F& shading);
-
-    /// Responses in the order of the VPLs, once all work on the queue is done.
-    /// @throws Error(invalid_argument) before all rows were added.
-    [[nodiscard]] std::vector<ImageResponse> mean(Queue& queue) {
-        if (bands_.vpls() > 0) queue.download(totals_, at_home_.span());
-        queue.record().sync();
-        const std::span<const ImageResponse> sums = at_home_.span();
-        return bands_.mean({sums.begin(), sums.end()});
-    }
+    [[nodiscard]] std::vector<ImageResponse> rows(Queue& queue, const G& gbuffer, P vpls,
+                                                  const BackendVisibility<B>& seen,
+                                                  const F& shading);
 
  private:
     /// Pairs of block and VPL that are summed at a time.
@@ -80,45 +74,55 @@ class BackendResponse {
         std::uint32_t vpls = 0;
     };
 
+    /// Writes the sums of a part to `rows`, which is the place of its first row and VPL.
     template <TiledGBuffer G, VplSet P, Shading F>
-    void add_part(Queue& queue, const G& gbuffer, P vpls, const BackendVisibility<B>& seen,
-                  const F& shading, const Part& part);
+    void sum_part(Queue& queue, const G& gbuffer, P vpls, const BackendVisibility<B>& seen,
+                  const F& shading, const Part& part, ImageResponse* rows);
 
-    detail::ResponseBands bands_;
+    B backend_;
+    std::uint32_t width_;  ///< of the image, luxels
+    std::uint32_t vpls_;
     Chunk chunk_;
     typename B::template Buffer<ImageResponse> partial_;
-    typename B::template Buffer<ImageResponse> totals_;
-    typename B::template HostBuffer<ImageResponse> at_home_;
 };
 
 template <Backend B>
 template <TiledGBuffer G, VplSet P, Shading F>
-void BackendResponse<B>::add_band(Queue& queue, const G& gbuffer, P vpls,
-                                  const BackendVisibility<B>& seen, const F& shading) {
-    bands_.check(gbuffer.extent(), gbuffer.tiles(), vpls.size());
+std::vector<ImageResponse> BackendResponse<B>::rows(Queue& queue, const G& gbuffer, P vpls,
+                                                    const BackendVisibility<B>& seen,
+                                                    const F& shading) {
+    detail::check_whole_blocks(gbuffer.tiles());
     const auto grid = TileGrid::of(gbuffer.extent(), gbuffer.tiles());
-    expects(seen.grid() == grid && seen.vpls() == vpls.size(),
+    const std::uint32_t n = vpls.size();
+    expects(seen.grid() == grid && seen.vpls() == n,
             "a response was given visibility of other luxels or VPLs (it would be of nothing); "
             "give that of this band");
-    const std::uint32_t n = vpls.size();
-    if (n > 0 && bands_.none_yet())
-        queue.upload(std::span<const ImageResponse>(at_home_.span()), totals_);
+    expects(n == vpls_ && grid.image.width == width_,
+            "a response was given luxels or VPLs of another image (it would be of nothing); give "
+            "the bands of one image");
+    std::vector<ImageResponse> sums(std::size_t{detail::block_rows(gbuffer.extent().height)} * n);
+    auto there = backend_.template buffer<ImageResponse>(sums.size());
+    const WaitAtEnd wait(queue);
     for (TileIndex first = 0; first < gbuffer.tiles().size(); first += grid.columns()) {
-        const std::uint32_t rows = BlockedLayout::of(grid[first]).blocks_y;
+        const Tile tile = grid[first];
+        const std::uint32_t rows = BlockedLayout::of(tile).blocks_y;
         for (std::uint32_t row = 0; row < rows; row += chunk_.rows)
             for (VplIndex j = 0; j < n; j += chunk_.vpls)
-                add_part(queue, gbuffer, vpls, seen, shading,
+                sum_part(queue, gbuffer, vpls, seen, shading,
                          {first, row, std::min(chunk_.rows, rows - row), j,
-                          std::min(chunk_.vpls, n - j)});
+                          std::min(chunk_.vpls, n - j)},
+                         there.data() + (std::size_t{tile.y / BlockedLayout::side + row} * n + j));
     }
-    bands_.count(gbuffer.extent());
+    queue.download(there, std::span(sums));
+    queue.record().sync();
+    return sums;
 }
 
 template <Backend B>
 template <TiledGBuffer G, VplSet P, Shading F>
-void BackendResponse<B>::add_part(Queue& queue, const G& gbuffer, P vpls,
+void BackendResponse<B>::sum_part(Queue& queue, const G& gbuffer, P vpls,
                                   const BackendVisibility<B>& seen, const F& shading,
-                                  const Part& part) {
+                                  const Part& part, ImageResponse* rows) {
     const std::uint32_t n = part.vpls;
     const std::uint32_t tiles = seen.grid().columns();
     for (TileIndex t = part.first_tile; t < part.first_tile + tiles; ++t) {
@@ -130,9 +134,8 @@ void BackendResponse<B>::add_part(Queue& queue, const G& gbuffer, P vpls,
             part.first_vpl,  n,    column,       chunk_.columns};
         queue.for_each_group(blocks.groups(part.rows * across), blocks);
     }
-    queue.for_each(part.rows * n, SumBlockRow{partial_.data(), chunk_.columns, n});
-    queue.for_each(n, AddBlockRows{partial_.data(), part.rows, std::size_t{chunk_.columns} * n,
-                                   totals_.data() + part.first_vpl});
+    queue.for_each(part.rows * n,
+                   SumBlockRow{partial_.data(), chunk_.columns, n, rows, seen.vpls()});
 }
 
 }  // namespace mir

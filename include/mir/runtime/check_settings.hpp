@@ -12,9 +12,11 @@
 #include "mir/runtime/picture_bytes.hpp"
 #include "mir/runtime/settings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mir {
 
@@ -74,7 +76,7 @@ inline void check_glossy(const RenderSettings& s) {
 /// Cuts stand for points under a bound, of VPLs whose light is known before luxels are met.
 inline void check_cuts(const RenderSettings& s) {
     expects(s.picks >= 1 && s.picks <= 65536,
-            "VPLs that a luxel picks must be 1 to 65536; 256 are usual");
+            "VPLs that a luxel picks must be 1 to 65536; 128 are usual");
     if (s.sum != LightSum::cuts) return;
     expects(s.integrator == Integrator::vpl,
             "only VPLs are cut (there are none); leave --sum out or use --integrator vpl");
@@ -144,6 +146,19 @@ inline void check_sampler(const RenderSettings& s) {
     expects(s.bounce_limit() >= 1 && s.bounce_limit() < 255, "the largest bounce must be 1 to 254");
 }
 
+/// GPUs that differ.
+inline void check_devices(const DeviceChoice& devices) {
+    std::vector<std::uint32_t> numbers = devices.numbers;
+    std::sort(numbers.begin(), numbers.end());
+    expects(
+        numbers.size() <= 64 && std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end(),
+        "a GPU was chosen twice, or more than 64 were (each would get its share of the picture "
+        "once); give each number once");
+    expects(!devices.all || numbers.empty(),
+            "all GPUs were chosen and some of them by number (one of the two has no meaning); "
+            "give either");
+}
+
 /// A bound only where there are VPLs.
 inline void check_bound(const RenderSettings& s) {
     expects(s.bound.kind != BoundPolicy::Kind::fixed ||
@@ -177,6 +192,7 @@ inline void check(const RenderSettings& settings) {
     detail::check_tile(
         settings.tile,
         luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits).luxels());
+    detail::check_devices(settings.devices);
     detail::check_bound(settings);
     detail::check_removed(settings);
     detail::check_vsl(settings);

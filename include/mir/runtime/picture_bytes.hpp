@@ -3,7 +3,6 @@
 
 #include "mir/core/error.hpp"
 #include "mir/core/limits.hpp"
-#include "mir/film/luxel_grid.hpp"
 #include "mir/runtime/settings.hpp"
 
 #include <cstddef>
@@ -13,21 +12,14 @@
 namespace mir {
 
 /// Estimates the bytes that a picture takes while it is rendered: the sums of its film, the images
-/// and guides of the result, and of paths the sums of all luxels. `layers` are those of the film.
-/// The scene, the VPLs and the luxels of one band come on top; the settings must be validated.
+/// and guides of the result. `layers` are those of the film. The scene, the VPLs and the luxels of
+/// one band come on top; the settings must be validated.
 [[nodiscard]] inline std::uint64_t picture_bytes(const RenderSettings& settings,
                                                  std::size_t layers) {
     constexpr std::uint64_t film_sum = 8, color = 12, guides = 40, coverage = 4;
     const std::uint64_t pixel =
         film_sum * (1 + 3 * layers) + color * (layers + 1) + guides + coverage;
-    const std::uint64_t film = saturating_mul(settings.image.area(), pixel);
-    if (settings.integrator != Integrator::path) return film;
-    constexpr std::uint64_t moments = 48;
-    const std::uint64_t bounces = settings.bounce_layers ? settings.bounce_limit() + 2u : 3u;
-    const std::uint64_t luxel = moments * bounces + color * (layers + 1);
-    const std::uint64_t luxels =
-        luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits).luxels().area();
-    return film + saturating_mul(luxels, luxel);
+    return saturating_mul(settings.image.area(), pixel);
 }
 
 /// Stops before memory is taken for a picture that Limits::picture_bytes forbids.

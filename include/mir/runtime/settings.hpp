@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mir {
 
@@ -21,6 +22,12 @@ enum class BackendKind {
     automatic,  ///< a GPU where the build and the machine have one, else the processor
     cpu,
     cuda
+};
+
+/// Which GPUs make a picture together, the same for any number of them.
+struct DeviceChoice {
+    bool all = false;                         ///< every one that is usable, else by number
+    std::vector<std::uint32_t> numbers = {};  ///< as list_devices() counts them; none: the first
 };
 
 /// What finds out where rays end.
@@ -93,9 +100,13 @@ enum class SamplerKind {
 
 /// Which VPLs a luxel gathers.
 enum class LightSum {
-    all,  ///< every one
-    cuts  ///< one of each node of a cut of their tree (reconstruct_cuts()), whose mean is that sum
+    all,       ///< every one
+    cuts,      ///< one of each node of a cut of their tree (reconstruct_cuts()); mean of all
+    automatic  ///< `cuts` of more than most_vpls_summed where nothing speaks against it, else `all`
 };
+
+/// VPLs up to which LightSum::automatic sums all: a kernel for all pairs is the faster one.
+inline constexpr std::uint32_t most_vpls_summed = 8192;
 
 /// How direct light reaches the image.
 enum class DirectLight {
@@ -140,8 +151,8 @@ struct RenderSettings {
     PathSettings path{};                            ///< of Integrator::path
     MicroSettings micro{};                          ///< of Integrator::micro
     std::uint32_t vpls = 1024;                      ///< wanted geometric VPLs
-    LightSum sum = LightSum::all;                   ///< of them, at each luxel
-    std::uint32_t picks = 256;                      ///< most VPLs of a luxel, of LightSum::cuts
+    LightSum sum = LightSum::automatic;             ///< of them, at each luxel
+    std::uint32_t picks = 128;                      ///< most VPLs of a luxel, of cuts
     SamplerKind sampler = SamplerKind::metropolis;  ///< of Integrator::vpl
     /// Of samplers that need one. With LightSum::cuts `full` is `proposal`: the response of all
     /// luxels would meet the pairs that cuts leave out.
@@ -166,6 +177,7 @@ struct RenderSettings {
     std::uint64_t seed = 0;                                ///< of all random numbers
     unsigned threads = 0;                                  ///< 0: every core
     BackendKind backend = BackendKind::automatic;          ///< which machine renders
+    DeviceChoice devices{};                                ///< of a backend with several
     Acceleration acceleration = Acceleration::automatic;   ///< what finds out where rays end
     std::string scheduler{};  ///< name in the Registry; empty: the backend's default
     /// Luxels scheduled together, rounded up to whole blocks of 16 x 16, not larger than the image
@@ -200,9 +212,21 @@ struct RenderSettings {
                    : normalisation;
     }
 
-    /// VPLs that each luxel gathers, at most.
+    /// Whether luxels gather by cuts, on a machine that can. LightSum::automatic does not where
+    /// something needs all VPLs: spheres, lobes, a layer of what the bound removed, a prepass,
+    /// bidirectional mutations.
+    [[nodiscard]] bool wants_cuts() const {
+        if (sum != LightSum::automatic) return sum == LightSum::cuts;
+        const bool needs_image =
+            sampler == SamplerKind::metropolis && (normalisation == NormalisationPolicy::prepass ||
+                                                   metropolis.chain.mutation != Mutation::primary);
+        return integrator == Integrator::vpl && vpls > most_vpls_summed && !vsl.enabled &&
+               !glossy.enabled && !removed_layer && !needs_image;
+    }
+
+    /// VPLs that each luxel gathers at most, on a machine that has cuts.
     [[nodiscard]] std::uint32_t gathered_vpls() const {
-        return sum == LightSum::cuts && picks < vpls ? picks : vpls;
+        return wants_cuts() && picks < vpls ? picks : vpls;
     }
 
     /// Next-event samples of one luxel: those of the pixel shared out, at least one.

@@ -9,9 +9,9 @@
 
 namespace mir {
 
-/// Fingerprint of the settings that a picture depends on: all but threads, scheduler, tile and
-/// limits. Not cryptographic. Source: FNV-1a, 64 bits, over the values as 64-bit words. Structured
-/// bindings name every member, so that a new one cannot be forgotten.
+/// Fingerprint of the settings that a picture depends on: all but threads, devices, scheduler,
+/// tile and limits. Not cryptographic. Source: FNV-1a, 64 bits, over the values as 64-bit words.
+/// Structured bindings name every member, so that a new one cannot be forgotten.
 class SettingsHash {
  public:
     /// Reads every setting once.
@@ -19,10 +19,10 @@ class SettingsHash {
         const auto& [image, luxels, camera, integrator, path, micro, vpls, sum, picks, sampler,
                      normalisation, prepass, metropolis, roulette, termination, sequence, direct,
                      direct_samples, max_bounce, bound, compensate, vsl, glossy, filter, seed,
-                     threads, backend, acceleration, scheduler, tile, bounce_layers, removed_layer,
-                     measure_missing, allow_no_light, limits] = settings;
-        static_cast<void>(threads), static_cast<void>(scheduler), static_cast<void>(tile);
-        static_cast<void>(limits);
+                     threads, backend, devices, acceleration, scheduler, tile, bounce_layers,
+                     removed_layer, measure_missing, allow_no_light, limits] = settings;
+        static_cast<void>(threads), static_cast<void>(devices), static_cast<void>(scheduler);
+        static_cast<void>(tile), static_cast<void>(limits);
         add(image.width, image.height, luxels, camera, integrator, vpls, sum, picks, sampler,
             normalisation, prepass, roulette, termination, sequence, direct, direct_samples,
             max_bounce.value_or(0), bound.kind, bound.value, compensate, filter.kind,
@@ -35,7 +35,7 @@ class SettingsHash {
         add_metropolis(metropolis);
     }
 
-    /// 64 bits; the same whatever threads, scheduler, tile and limits are.
+    /// 64 bits; the same whatever threads, devices, scheduler, tile and limits are.
     [[nodiscard]] std::uint64_t value() const { return state_; }
 
  private:

@@ -5,12 +5,13 @@
 #include "mir/runtime/stage_seconds.hpp"
 
 #include <chrono>
+#include <thread>
 
 namespace mir {
 
 /// Measures the stages of a render, from its own start on. A stage that begins inside another
-/// interrupts it, so that no moment counts twice; what no stage claims is StageSeconds::other. One
-/// thread at a time.
+/// interrupts it, so that no moment counts twice; what no stage claims is StageSeconds::other.
+/// Times are those of one thread, which made it: what others do beside it is part of what it does.
 class StageClock {
  public:
     using Stage = StageMember;  ///< which counter a stage adds to
@@ -19,14 +20,18 @@ class StageClock {
     class Scope {
      public:
         /// Begins `stage`; the stage that it interrupts goes on at its end. The clock must outlive
-        /// it.
-        Scope(StageClock& clock, Stage stage) : clock_(clock), outer_(clock.change_to(stage)) {}
+        /// it. Does nothing on a thread that is not the clock's.
+        Scope(StageClock& clock, Stage stage)
+            : clock_(clock.is_own_thread() ? &clock : nullptr),
+              outer_(clock_ != nullptr ? clock_->change_to(stage) : stage) {}
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
-        ~Scope() { clock_.change_to(outer_); }
+        ~Scope() {
+            if (clock_ != nullptr) clock_->change_to(outer_);
+        }
 
      private:
-        StageClock& clock_;
+        StageClock* clock_;  ///< null on other threads
         Stage outer_;
     };
 
@@ -36,7 +41,11 @@ class StageClock {
     StageClock& operator=(const StageClock&) = delete;
     ~StageClock() = default;
 
-    /// Begins a stage, which lasts as long as what is returned.
+    /// Counts what the calling thread does from now on. No stage may be under way, nor another
+    /// thread use the clock meanwhile.
+    void follow_this_thread() { thread_ = std::this_thread::get_id(); }
+
+    /// Begins a stage, which lasts as long as what is returned. Callable from any thread.
     [[nodiscard]] Scope measure(Stage stage) { return {*this, stage}; }
 
     /// Counts seconds of stage `from`, measured by themselves, as those of stage `to`.
@@ -56,6 +65,7 @@ class StageClock {
  private:
     using Clock = std::chrono::steady_clock;
 
+    [[nodiscard]] bool is_own_thread() const { return std::this_thread::get_id() == thread_; }
     Stage change_to(Stage next) {
         const Clock::time_point now = Clock::now();
         seconds_.*current_ += std::chrono::duration<double>(now - since_).count();
@@ -70,6 +80,7 @@ class StageClock {
     }
 
     Monitor* monitor_;
+    std::thread::id thread_ = std::this_thread::get_id();
     StageSeconds seconds_;
     Stage current_ = &StageSeconds::other;
     Clock::time_point since_ = Clock::now();

@@ -29,7 +29,7 @@ std::vector<double> BackendFrame<M, B>::row_luminances(const FrameLayer& layer) 
 }
 
 template <Backend M, Bsdf B>
-void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers) {
+void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) {
     std::vector<BackendLayer<M>> images;
     for (const LayerPtr& layer : layers) images.push_back(std::move(of(*layer)));
     {
@@ -39,11 +39,14 @@ void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers
                 Picture{{machine_, queue_, job_.rays.grid, job_.settings.filter, job_.rays.seed,
                          static_cast<std::uint32_t>(images.size()), band.extent().height},
                         {machine_, job_.rays.grid, job_.rays.camera}});
+        if (seam != nullptr && seam->luxel_rows != picture_->film.rows())
+            picture_->film.go_on(queue_, *seam);
         picture_->film.add_rows(queue_, band.first_row, images);
+        if (seam != nullptr) *seam = picture_->film.seam(queue_);
     }
     {
         const auto stage = job_.clock.measure(&StageSeconds::guides);
-        picture_->guides.template add<B>(queue_, of(band).gbuffer);
+        picture_->guides.template add<B>(queue_, of(band).gbuffer, band.first_row);
     }
     const auto stage = job_.clock.measure(&StageSeconds::download);
     picture_->film.bring_home(queue_, job_.threads);

@@ -11,30 +11,14 @@
 namespace mir {
 
 template <Backend M, Bsdf B>
-class BackendFrame<M, B>::Response final : public FrameResponse {
- public:
-    Response(BackendFrame& frame, Extent luxels, std::uint32_t vpls, float bound)
-        : frame_(frame), shading_{bound}, sum_(frame.machine_, luxels, vpls) {}
-
-    void add(const FrameBand& band, Vpls vpls) override {
-        UploadedVpls<M> there(frame_.machine_, vpls);
-        const WaitAtEnd wait(frame_.queue_);
-        there.send(frame_.queue_);
-        sum_.add_band(frame_.queue_, of(band).gbuffer, there.view(), *of(band).visibility,
-                      shading_);
-        frame_.queue_.record().sync();
-    }
-    [[nodiscard]] std::vector<ImageResponse> mean() override { return sum_.mean(frame_.queue_); }
-
- private:
-    BackendFrame& frame_;
-    VplShading<B> shading_;
-    BackendResponse<M> sum_;
-};
-
-template <Backend M, Bsdf B>
-ResponsePtr BackendFrame<M, B>::response(Extent luxels, std::uint32_t vpls, float bound) {
-    return std::make_unique<Response>(*this, luxels, vpls, bound);
+std::vector<ImageResponse> BackendFrame<M, B>::row_responses(const FrameBand& band, Vpls vpls,
+                                                             float bound) {
+    const Band& here = of(band);
+    UploadedVpls<M> there(machine_, vpls);
+    BackendResponse<M> sums(machine_, job_.rays.grid.luxels(), vpls.size());
+    const WaitAtEnd wait(queue_);
+    there.send(queue_);
+    return sums.rows(queue_, here.gbuffer, there.view(), *here.visibility, VplShading<B>{bound});
 }
 
 }  // namespace mir

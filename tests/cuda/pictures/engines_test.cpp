@@ -128,3 +128,21 @@ TEST_CASE("Metropolis sampling on the GPU brings the light that it brings with E
         CHECK(mirtest::welch_p_value(by_gpu, by_embree) > level);
     }
 }
+
+TEST_CASE("All GPUs of a machine draw with the bytes of one") {
+    mir::RenderSettings one =
+        settings_of(GENERATE(mir::SamplerKind::metropolis, mir::SamplerKind::instant_radiosity));
+    one.acceleration = mir::Acceleration::automatic;
+    one.luxels_per_pixel = 4;
+    one.removed_layer = true;
+    one.filter = mir::default_filter(mir::FilterKind::mitchell);
+    mir::RenderSettings all = one;
+    all.devices.all = true;
+    const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    const mir::RenderResult wanted = render(scene, one, BackendKind::cuda, "");
+    const mir::RenderResult found = render(scene, all, BackendKind::cuda, "");
+    check_same(found, wanted);
+    CHECK(mirtest::same_bits(found.removed, wanted.removed));
+    if (found.statistics.device.find(", ") == std::string::npos)
+        WARN("this machine has one GPU: nothing was shared");
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/film/film_seam.hpp"
+
+#include <cstdint>
+#include <functional>
+
+namespace mir {
+
+class RenderFrame;
+
+/// The place of a band among all of a loop: for what must happen from top to bottom. As it is, of
+/// loops that take bands one by one.
+class BandTurn {
+ public:
+    BandTurn() = default;
+    BandTurn(const BandTurn&) = delete;
+    BandTurn& operator=(const BandTurn&) = delete;
+    virtual ~BandTurn() = default;
+
+    /// Returns once the work on all bands above is done.
+    /// @throws What ends the loop when work on another band failed.
+    virtual void wait() {}
+    /// Where the film of another frame ended, for RenderFrame::put(); null where one frame puts all
+    /// bands. To be used after wait().
+    [[nodiscard]] virtual FilmSeam* seam() { return nullptr; }
+};
+
+/// Work on a band of an image, by a frame that works on no other band meanwhile.
+using BandWork = std::function<void(RenderFrame& by, std::uint32_t band, BandTurn& turn)>;
+
+}  // namespace mir

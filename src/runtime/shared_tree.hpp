@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "runtime/render_job.hpp"
+#include "runtime/traced_scenes.hpp"
+
+#include <mutex>
+#include <optional>
+
+namespace mir {
+
+/// The kd-tree of a job for several frames, built for the one that asks first. Thread-safe.
+class SharedTree {
+ public:
+    /// The job must outlive it.
+    explicit SharedTree(RenderJob& job) : job_(job) {}
+
+    /// A copy of tree_for_backends().
+    [[nodiscard]] KdTree copy() {
+        const std::lock_guard lock(mutex_);
+        if (!tree_) tree_.emplace(tree_for_backends(job_.geometry, job_.threads));
+        return *tree_;
+    }
+
+ private:
+    RenderJob& job_;
+    std::mutex mutex_;
+    std::optional<KdTree> tree_;
+};
+
+}  // namespace mir
