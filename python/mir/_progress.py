@@ -19,7 +19,7 @@ class _Bar:
 def callback_of(progress):
     """What to call for `progress`: None, True (a bar, where tqdm is there), or a callable."""
     if progress is not True:
-        return progress or None
+        return None if progress is False else progress
     try:
         from tqdm.auto import tqdm
     except ImportError:

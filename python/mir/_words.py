@@ -5,6 +5,8 @@ from mir._error import Error
 
 
 def _text(name: str, value) -> str:
+    if hasattr(value, "dtype") and getattr(value, "ndim", 1) == 0:
+        value = value.item()
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What cannot be used is answered by one mir.Error with code and place."""
 
+import ctypes
 import subprocess
 
 import numpy as np
@@ -139,6 +140,48 @@ def test_arrays_may_be_read_only_strided_or_lists():
     for vertices in (locked, wide[::2, ::2], TRIANGLE[::-1], TRIANGLE.T, TRIANGLE.tolist()):
         scene.add_mesh(vertices, FACE.astype(np.int64)[::-1])
     assert scene.triangles == 5
+
+
+class _DlTensor(ctypes.Structure):
+    _fields_ = [
+        ("data", ctypes.c_void_p),
+        ("device_type", ctypes.c_int32),
+        ("device_id", ctypes.c_int32),
+        ("ndim", ctypes.c_int32),
+        ("code", ctypes.c_uint8),
+        ("bits", ctypes.c_uint8),
+        ("lanes", ctypes.c_uint16),
+        ("shape", ctypes.POINTER(ctypes.c_int64)),
+        ("strides", ctypes.POINTER(ctypes.c_int64)),
+        ("byte_offset", ctypes.c_uint64),
+        ("manager", ctypes.c_void_p),
+        ("deleter", ctypes.c_void_p),
+    ]
+
+
+class GpuArray:
+    """(3, 3) floats that DLPack says lie on a GPU."""
+
+    def __init__(self):
+        self.shape = (ctypes.c_int64 * 2)(3, 3)
+        self.tensor = _DlTensor(8, 2, 0, 2, 2, 32, 1, self.shape, None, 0, None, None)
+
+    def __dlpack_device__(self):
+        return (2, 0)
+
+    def __dlpack__(self, **_):
+        make = ctypes.pythonapi.PyCapsule_New
+        make.restype = ctypes.py_object
+        make.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p]
+        return make(ctypes.addressof(self.tensor), b"dltensor", None)
+
+
+def test_arrays_on_another_device():
+    scene = mir.Scene()
+    scene.add_material()
+    error = error_of(lambda: scene.add_mesh(GpuArray(), FACE))
+    assert (error.code, error.place) == ("invalid_argument", "vertices")
+    assert "another device" in str(error)
 
 
 def test_a_scene_is_not_edited_while_it_renders(room, small):
