@@ -10,8 +10,8 @@ namespace mir {
 
 class RenderFrame;
 
-/// The place of a band among all of a loop: for what must happen from top to bottom. As it is, of
-/// loops that take bands one by one.
+/// The place of a band in a loop, for what must go from top to bottom. As it is, of loops that take
+/// bands one by one.
 class BandTurn {
  public:
     BandTurn() = default;

@@ -56,11 +56,11 @@ struct FrameTraits {
     std::uint32_t parts = 1;  ///< frames that work at the same time in for_each_band()
 };
 
-/// The machine that makes a picture, asked band by band: a virtual call costs nothing where it is
+/// The machine that makes a picture, asked band by band. A virtual call costs nothing where it is
 /// for a million luxels. HostFrame works in the host's memory, BackendFrame in that of a Backend.
-/// Bands and layers go back to the frame that made them. Sums and their order are those of the
-/// free functions of the same names, so that frames give the same bits. One thread at a time; the
-/// job must outlive it.
+/// Bands and layers go back to the frame that made them. Sums and their order are those of the free
+/// functions of the same names, so that frames give the same bits. One thread at a time; the job
+/// must outlive it.
 class RenderFrame {
  public:
     RenderFrame(RenderJob& job, FrameTraits traits) : job_(job), traits_(traits) {}
@@ -135,17 +135,17 @@ class RenderFrame {
     /// VplLobes::widened_share.
     /// @throws Error(unsupported) of frames without FrameFeature::lobes.
     virtual float keep_lobes(const VplRecords& /*records*/) { throw without(FrameFeature::lobes); }
-    /// Adds what `bound` removed, traced back, to the layers of a band (FilmLayer), and returns it.
+    /// Adds what `bound` removed, traced back, to a band's layers (FilmLayer). Returns it.
     /// @throws Error(unsupported) of frames without FrameFeature::residual.
     [[nodiscard]] virtual LayerPtr add_residual(const FrameBand& /*band*/, float /*bound*/,
                                                 std::vector<LayerPtr>& /*layers*/) {
         throw without(FrameFeature::residual);
     }
 
-    /// Puts the layers of a band on the film, in the order of FilmLayer, and its guides into the
-    /// result. Bands come from top to bottom, none higher than the first. `seam` is null, or where
-    /// the film of the rows above ended, which may be another frame's, and becomes where this one
-    /// ends.
+    /// Puts a band's layers on the film and its guides into the result. Layers come in the order of
+    /// FilmLayer. Bands come from top to bottom, none higher than the first. `seam` is null, or
+    /// where the film of the rows above ended, which may be another frame's, and becomes where this
+    /// one ends.
     virtual void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) = 0;
     /// The images of the layers, once every band was put there; leaves the frame without. Pixels
     /// that films of other frames develop mean nothing.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr float no_bound = std::numeric_limits<float>::max();
 
-/// What brings direct light to one luxel: its samples, or as many VPLs at infinity as there are to
+/// What brings direct light to one luxel. Its samples, or as many VPLs at infinity as there are to
 /// be others.
 DirectSamples direct_samples_of_luxel(const RenderSettings& settings) {
     return settings.direct == DirectLight::separate
@@ -50,7 +50,7 @@ bool must_normalise(const RenderSettings& settings, Normalisation normalisation)
             settings.normalisation_policy() == NormalisationPolicy::prepass);
 }
 
-/// Every VPL meets every luxel once per layer, and once more each time that bits are found.
+/// Every VPL meets every luxel once per layer, and once per finding of bits.
 void plan_progress(RenderJob& job, bool stored, bool kept) {
     if (job.monitor == nullptr) return;
     const std::uint64_t layers =
@@ -94,11 +94,11 @@ void keep_lobes(RenderFrame& frame, const VplRecords& records, bool normalised) 
     job.result.statistics.widened_share = frame.keep_lobes(records);
 }
 
-/// Only where rays of the host are at hand: others would have to build for them.
+/// Only where rays of the host are at hand. Others would have to build for them.
 void measure_what_is_missing(RenderFrame& frame, float bound) {
     RenderJob& job = frame.job();
     if (!job.settings.measure_missing || !frame.traits().on_host) return;
-    const auto stage = job.clock.measure(&StageSeconds::ledger);
+    const auto stage = job.clock.measure(&StageSeconds::light_budget);
     job.result.statistics.direct_noise = direct_noise(frame, direct_samples_of_luxel(job.settings));
     const bool bounded =
         job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
@@ -113,14 +113,14 @@ struct BandLight {
     // Luminances of rows, of layers that tell the result their means.
     std::vector<double> indirect;
     std::vector<double> removed;   ///< none where nothing is
-    std::vector<double> residual;  ///< likewise
+    std::vector<double> residual;  ///< the same
 };
 
 /// The light that the bound removed from a band, by the VPLs.
 LayerPtr removed_light(RenderFrame& by, const FrameBand& band, const VplLight& light,
                        std::vector<double>& rows) {
     const RenderJob& job = by.job();
-    const auto stage = job.clock.measure(&StageSeconds::ledger);
+    const auto stage = job.clock.measure(&StageSeconds::light_budget);
     const bool removes =
         job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
     // Cuts meet too few VPLs to tell; paths do (RenderSettings::measure_missing).
@@ -144,7 +144,7 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
         light.append_layers(by, band, job.monitor, made.layers);
     }
     {
-        const auto stage = job.clock.measure(&StageSeconds::ledger);
+        const auto stage = job.clock.measure(&StageSeconds::light_budget);
         made.indirect = by.row_luminances(*made.layers[indirect_layer]);
     }
     LayerPtr removed = removed_light(by, band, light, made.removed);
@@ -156,7 +156,7 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
     return made;
 }
 
-/// Adds what a band brings to mean luminances over the image: row by row from top to bottom, so
+/// Adds what a band brings to mean luminances over the image. Row by row from top to bottom, so
 /// that bands change nothing.
 void add_means(RenderJob& job, const FrameBand& band, const BandLight& made) {
     RenderStatistics& s = job.result.statistics;

@@ -242,7 +242,7 @@ TEST_CASE("A frame on a backend says how long its stages took") {
     const mir::StageSeconds& s = frame.statistics.seconds;
     for (const double seconds :
          {s.build, s.bound, s.bootstrap, s.sampling, s.gbuffer, s.visibility, s.response, s.direct,
-          s.reconstruction, s.ledger, s.film, s.guides, s.download, s.other})
+          s.reconstruction, s.light_budget, s.film, s.guides, s.download, s.other})
         CHECK(seconds > 0.0);
     double sum = 0.0;
     for (const mir::RenderStage& stage : mir::render_stages) sum += s.*stage.seconds;

@@ -7,7 +7,7 @@
 
 namespace mirtool {
 
-/// Declares the arguments of `mir render` but for the scene; what is given goes to `options`.
+/// Declares the arguments of `mir render` except for the scene. What is given goes to `options`.
 void add_render(CLI::App& app, RenderOptions& options);
 
 /// Declares those of them that say how light is found.

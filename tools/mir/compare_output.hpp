@@ -27,8 +27,8 @@ struct Comparison {
     std::vector<std::string> exceeded;  ///< metrics above their limits, as the JSON names them
 };
 
-/// Makes sure, before any work is done, that the files asked for can be written and that none of
-/// them would replace another or a picture to compare.
+/// Checks, before any work is done, that the files asked for can be written. None of them may
+/// replace another or a picture to compare.
 /// @throws mir::Error(io or invalid_argument).
 void check_outputs(const CompareOptions& options);
 

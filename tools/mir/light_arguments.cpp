@@ -140,7 +140,7 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
                                  "measure, at 2048 places; correct, in the picture too (default)");
 }
 
-/// Fills in what --sum cuts leaves open: light paths bring many VPLs at next to no cost.
+/// Fills in what --sum cuts leaves open. Light paths bring many VPLs at next to no cost.
 void choose_for_cuts(const CLI::App& app, mir::RenderSettings& s) {
     if (s.sum != mir::LightSum::cuts) return;
     if (app.count("--vpls") == 0) s.vpls = 1u << 18;

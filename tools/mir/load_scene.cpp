@@ -27,7 +27,7 @@ SceneAndReport load_file(const std::string& name, const mir::Limits& limits) {
     return {std::move(loaded.scene), std::move(loaded.report)};
 }
 
-/// What is to be around the scene, checked as long as the file's name is known.
+/// The surroundings of the scene, checked while the file's name is known.
 mir::Environment read_environment(const EnvironmentOptions& o, const mir::Limits& limits) {
     mir::Environment environment;
     environment.name = o.file;

@@ -15,8 +15,8 @@ struct SceneAndReport {
     mir::SceneReport report;
 };
 
-/// Loads `builtin:NAME` or a file of one of the formats that read_scene() knows, and what is to be
-/// around it.
+/// Loads `builtin:NAME` or a file that read_scene() knows, and its
+/// surroundings.
 /// @throws mir::Error(invalid_input) for whatever is wrong with either, limits included.
 SceneAndReport load_scene(const std::string& name, const mir::Limits& limits = {},
                           const EnvironmentOptions& environment = {});

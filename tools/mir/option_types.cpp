@@ -9,8 +9,8 @@
 namespace mirtool {
 namespace {
 
-/// Why CLI11 would not read a number as it is meant; empty when it would. It takes whole ones that
-/// begin with a zero for octal ones, or others.
+/// Why CLI11 would not read a number as meant; empty when it would. It takes whole ones that begin
+/// with a zero for octal ones, or others.
 std::string misread(const std::string& value) {
     const std::size_t sign = !value.empty() && (value[0] == '-' || value[0] == '+') ? 1 : 0;
     const bool has_zero = value.size() > sign + 1 && value[sign] == '0';

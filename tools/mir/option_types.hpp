@@ -17,7 +17,7 @@ namespace mirtool {
 /// Options that are added from now on stand under this title in the help.
 void begin_group(CLI::App& app, const std::string& title);
 
-/// A number within [low, high], which `text` says in words; CLI11's own check prints bounds with
+/// A number within [low, high], which `text` says in words. CLI11's own check prints bounds with
 /// hundreds of digits.
 CLI::Validator between(double low, double high, const std::string& text);
 

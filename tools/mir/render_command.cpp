@@ -44,7 +44,7 @@ std::size_t find_camera(const RenderOptions& o, const mir::SceneReport& report) 
                                                            (names.empty() ? "none" : names));
 }
 
-/// Sets the scene's camera to the one to use and returns what the file says about it.
+/// Sets the scene's camera and returns what the file says about it.
 std::optional<mir::CameraReport> choose_camera(RenderOptions& o, SceneAndReport& loaded) {
     const auto& cameras = loaded.report.cameras;
     if (!o.camera.empty()) {

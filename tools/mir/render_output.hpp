@@ -19,7 +19,7 @@ struct OutputPaths {
 /// The journal of --resume; empty without.
 std::string journal_of(const RenderOptions& options, const OutputPaths& paths);
 
-/// Decides the names and makes sure that all can be written, before any work is done.
+/// Decides the names and checks that all can be written, before any work.
 /// @throws mir::Error(io or invalid_argument).
 OutputPaths choose_outputs(const RenderOptions& options);
 

@@ -20,7 +20,7 @@ mir::PassGoal goal_of(const PassOptions& o) {
     return goal;
 }
 
-/// Tells when so many seconds have passed since it last did, or since it was made.
+/// Tells when so many seconds have passed since the last time. Or since it was made.
 class Alarm {
  public:
     explicit Alarm(double seconds) : period_(seconds) {}

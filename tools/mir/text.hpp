@@ -24,7 +24,7 @@ inline std::string place(mir::DVec3 v, int digits = 15) {
            mir::number_text(v.z, digits) + ")";
 }
 
-/// A name of a file or of something in one, as a terminal may show it.
+/// A name of or in a file, as a terminal may show it.
 inline std::string shown(const std::string& name) {
     constexpr std::size_t longest = 1000;
     return mir::printable(name, longest);

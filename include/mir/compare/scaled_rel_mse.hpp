@@ -20,7 +20,7 @@ struct ScaledRelMseSettings {
     double worst_share = 0.005;  ///< of the pixels, left out of the trimmed mean, [0, 1)
 };
 
-/// Squared error in units of the reference's light, so that brightness of a scene does not matter.
+/// Squared error in units of the reference's light. The brightness of a scene does not matter.
 struct ScaledRelMse {
     double mean = 0.0;     ///< over all pixels and channels; below 0 where noise alone is left
     double trimmed = 0.0;  ///< the same without the worst pixels
@@ -63,7 +63,7 @@ inline double mean_luminance(const Image<Rgb>& first, const Image<Rgb>& second) 
     return 0.5 * sum / static_cast<double>(first.pixels().size());
 }
 
-/// Whether each pixel is among the `count` worst; of equal ones the first in row order are.
+/// Whether each pixel is among the `count` worst. Of equal ones the first in row order are.
 inline std::vector<bool> worst_pixels(const std::vector<PixelError>& errors, std::size_t count) {
     std::vector<std::size_t> order(errors.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -119,7 +119,7 @@ inline ScaledRelMse scaled_rel_mse(const Image<Rgb>& image, const Image<Rgb>& re
     return detail::mean_error(errors, settings.worst_share);
 }
 
-/// The squared error of an image against one reference, whose noise counts as error of the image.
+/// The squared error of an image against one reference. Its noise counts as error of the image.
 /// @throws Error(invalid_input) as check_comparable(), Error(invalid_argument) for the settings.
 inline ScaledRelMse scaled_rel_mse(const Image<Rgb>& image, const Image<Rgb>& reference,
                                    const ScaledRelMseSettings& settings = {}) {

@@ -15,8 +15,8 @@
 
 namespace mir {
 
-/// A picture of the processor that lacks nothing but its VPLs: for samplers of your own, which are
-/// given what they trace through. Of mir::runtime. One thread at a time.
+/// A picture on the processor that lacks only its VPLs. For samplers of your own, which trace
+/// through its members. Of mir::runtime. One thread at a time.
 class VplFrame {
  public:
     /// Checks settings and scene, builds what rays go through and chooses the bound. The scene must
@@ -37,7 +37,7 @@ class VplFrame {
     [[nodiscard]] AnyRayCaster ray_caster() const;
     /// Whether points see each other; valid as long as this.
     [[nodiscard]] AnyVisibility visibility() const;
-    /// Largest geometry term of a VPL, m^-2: samplers that look at the image must use it.
+    /// Largest geometry term of a VPL, m^-2, for samplers that look at the image.
     [[nodiscard]] float bound() const;
     /// The threads of the settings, stopped by the monitor.
     [[nodiscard]] AnyExecutor& executor();
