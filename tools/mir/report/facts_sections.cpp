@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/compare/comparable.hpp"
+#include "mir/film/filter.hpp"
 #include "mir/io/html_page.hpp"
 #include "render_output.hpp"
 #include "report/sections.hpp"
