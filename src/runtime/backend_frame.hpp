@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -52,8 +53,8 @@ inline constexpr FrameFeatures backend_features{};
 template <Backend M, Bsdf B>
 class BackendFrame final : public RenderFrame {
  public:
-    /// Makes the kd-tree of a job's geometry.
-    using MakeTree = std::function<KdTree()>;
+    /// Makes the kd-tree of a job's geometry, which frames may share. Never null.
+    using MakeTree = std::function<std::shared_ptr<const KdTree>()>;
 
     /// Copies the scene to the backend and builds there. The surfaces of the job must be of this
     /// model. `make_tree` is called at most once.
@@ -158,7 +159,7 @@ class BackendFrame final : public RenderFrame {
     UploadedLights<M> lights_;
     UploadedSurfaces<M, B> surfaces_;
     UploadedArray<M, AlphaMask> masks_;
-    std::optional<KdTree> host_tree_;
+    std::shared_ptr<const KdTree> host_tree_;  ///< null until it is asked for
     std::optional<AnyEngine> rays_;
     std::optional<UploadedKdTree<M>> tree_;
     std::optional<BackendWideBvh<M>> bvh_;

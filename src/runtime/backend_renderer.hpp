@@ -131,7 +131,7 @@ class BackendRenderer final : public Renderer {
         return job.with_surfaces(
             [&]<Bsdf B>(const SurfaceTable<B>&) -> std::unique_ptr<RenderFrame> {
                 return std::make_unique<BackendFrame<M, B>>(
-                    job, machine.backend, [&tree] { return tree.copy(); }, options);
+                    job, machine.backend, [&tree] { return tree.get(); }, options);
             });
     }
 

@@ -22,7 +22,7 @@ class ImageBands {
     /// Luxels of the whole image.
     [[nodiscard]] Extent luxels() const { return frame_.job().rays.grid.luxels(); }
 
-    /// Has `by`, the frame or a part of it, trace the camera rays of band `i`.
+    /// Has `by` trace the camera rays of band `i`. It is the frame or a part of it.
     [[nodiscard]] BandPtr make(RenderFrame& by, std::uint32_t i) const;
 
     /// True when all bands with their visibility of `vpls` VPLs fit into Limits::visibility_bytes.

@@ -82,8 +82,8 @@ class RenderFrame {
     [[nodiscard]] virtual VplRecords sample_chains(const MetropolisOptions& options,
                                                    float bound) = 0;
 
-    /// Calls work(by, i, turn) for all i < bands, where `by` is a frame that this one is made of:
-    /// here itself, from top to bottom. A band goes to the same frame in every loop over so many.
+    /// Calls work(by, i, turn) for all i < bands. `by` is a frame that this one is made of: here
+    /// itself, from top to bottom. A band goes to the same frame in every loop over so many.
     /// @throws What the work throws, of one band if it fails for several.
     virtual void for_each_band(std::uint32_t bands, const BandWork& work) {
         BandTurn turn;
@@ -97,8 +97,8 @@ class RenderFrame {
     /// Keeps with a band which luxels and VPLs see each other.
     /// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
     virtual void find_visible(FrameBand& band, VplSpan<Space::host> vpls) = 0;
-    /// What points under `bound` do to the luxels of a band that knows their visibility, for each
-    /// row of its blocks: block_row_responses(), which ResponseSum adds up.
+    /// Responses of points under `bound`, for each row of blocks of a band. The band knows their
+    /// visibility; block_row_responses(), which ResponseSum adds up.
     [[nodiscard]] virtual std::vector<ImageResponse> row_responses(const FrameBand& band,
                                                                    VplSpan<Space::host> vpls,
                                                                    float bound) = 0;

@@ -53,7 +53,7 @@ RenderResult draw_on_backend(const Scene& scene, const RenderSettings& settings,
     int trees = 0;
     const auto make_tree = [&] {
         ++trees;
-        return mir::KdTree(geometry, {}, executor);
+        return std::make_shared<const mir::KdTree>(geometry, mir::KdTreeOptions{}, executor);
     };
     Frame frame(job, Host(executor), make_tree, options);
     RenderResult result = mir::render_vpls(frame);
@@ -76,7 +76,12 @@ RenderResult draw_split(const Scene& scene, const RenderSettings& settings,
     std::vector<std::unique_ptr<mir::RenderFrame>> parts;
     for (const BackendFrameOptions& of : options)
         parts.push_back(std::make_unique<Frame>(
-            job, Host(executor), [&] { return mir::KdTree(geometry, {}, executor); }, of));
+            job, Host(executor),
+            [&] {
+                return std::make_shared<const mir::KdTree>(geometry, mir::KdTreeOptions{},
+                                                           executor);
+            },
+            of));
     if (with_host) parts.push_back(mir::host_frame(job, traced, mir::HostScheduler::cpu_blocks));
     mir::SplitFrame frame(job, std::move(parts));
     return mir::render_vpls(frame);

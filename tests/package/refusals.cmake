@@ -21,11 +21,11 @@ endif()
 wants(unknown "REQUIRED COMPONENTS core vulkan")
 expect_refusal("installed without component 'vulkan'"
                ${SCRATCH}/unknown ${SCRATCH}/unknown/build ${SCRATCH}/prefix)
-wants(newer "0.2 REQUIRED COMPONENTS core")
-expect_refusal("mirConfig\\.cmake, version: 0\\.1"
+wants(newer "0.3 REQUIRED COMPONENTS core")
+expect_refusal("mirConfig\\.cmake, version: 0\\.2"
                ${SCRATCH}/newer ${SCRATCH}/newer/build ${SCRATCH}/prefix)
 
-wants(optional "0.1 REQUIRED COMPONENTS core OPTIONAL_COMPONENTS cuda")
+wants(optional "0.2 REQUIRED COMPONENTS core OPTIONAL_COMPONENTS cuda")
 if(MIR_CUDA_COMPILER)
     set(has_cuda TRUE)
 else()

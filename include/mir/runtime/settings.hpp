@@ -105,7 +105,7 @@ enum class LightSum {
     automatic  ///< `cuts` of more than most_vpls_summed where nothing speaks against it, else `all`
 };
 
-/// VPLs up to which LightSum::automatic sums all: a kernel for all pairs is the faster one.
+/// VPLs up to which LightSum::automatic sums all. A kernel for all pairs is the faster one.
 inline constexpr std::uint32_t most_vpls_summed = 8192;
 
 /// How direct light reaches the image.
