@@ -21,9 +21,9 @@ namespace {
 using namespace mirbench;
 
 /// Takes the structures of a frame one after the other and notes what each adds.
-class Ledger {
+class MemoryNotes {
  public:
-    Ledger(benchmark::State& state, mir::TbbExecutor& executor)
+    MemoryNotes(benchmark::State& state, mir::TbbExecutor& executor)
         : state_(state),
           executor_(executor),
           backend_(executor, meter_),
@@ -84,7 +84,7 @@ void memory(benchmark::State& state, const std::string& name) {
     mir::TbbExecutor executor(0);
     const BenchScene& scene = bench_scene(name);
     for (auto _ : state)
-        Ledger(state, executor).add(scene, static_cast<std::uint32_t>(state.range(0)));
+        MemoryNotes(state, executor).add(scene, static_cast<std::uint32_t>(state.range(0)));
     state.counters["triangles"] = static_cast<double>(scene.geometry.triangles().size());
     state.counters["luxels"] = static_cast<double>(paper_image.area());
     state.SetLabel(scene.hash);

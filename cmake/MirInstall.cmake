@@ -30,6 +30,14 @@ install(FILES ${PROJECT_BINARY_DIR}/mirConfig.cmake ${PROJECT_BINARY_DIR}/mirCon
         DESTINATION ${MIR_CONFIG_DIR} COMPONENT development)
 if(TARGET mir_tool)
     install(TARGETS mir_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+    set(manual ${PROJECT_BINARY_DIR}/tools/manual)
+    install(FILES ${manual}/mir.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+    install(FILES ${manual}/bash/mir
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+    install(FILES ${manual}/zsh/_mir
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+    install(FILES ${manual}/fish/mir.fish
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 endif()
 
 include(MirPkgConfig)

@@ -61,8 +61,12 @@ def source(tree, fault):
 
 
 def misfits(tree, listed):
-    """Faults whose piece does not occur exactly once."""
-    return [f for f in listed if source(tree, f).read_text().count(f.old) != 1]
+    """Faults whose piece does not occur exactly once, or whose header is no more."""
+    def fits(fault):
+        header = source(tree, fault)
+        return header.is_file() and header.read_text().count(fault.old) == 1
+
+    return [f for f in listed if not fits(f)]
 
 
 def run(tree, fault, jobs, seconds):

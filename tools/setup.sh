@@ -18,10 +18,11 @@ mir_packages() {
     echo "g++ cmake ninja-build libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev" \
         "zlib1g-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libtinyobjloader-dev"
     case ${MIR_WANT:-render} in
-    test | check) echo "catch2 libbenchmark-dev" ;;
+    test | check) echo "catch2 libbenchmark-dev patch" ;;
     esac
     case ${MIR_WANT:-render} in
     check) echo "git clang libclang-rt-dev libstb-dev clang-format clang-tidy python3 python3-pip" \
+        "python3-venv python3-dev" \
         "doxygen" ;;
     esac
 }
@@ -31,7 +32,7 @@ mir_libraries() {
     printf '%s' "a C++20 compiler, CMake 3.25, Ninja, Embree 3.12 or 4, oneTBB, GLM, OpenEXR 3.1, " \
         "libpng, zlib, CLI11, nlohmann-json, tinygltf, tinyobjloader"
     case ${MIR_WANT:-render} in
-    test | check) printf ', Catch2, Google Benchmark' ;;
+    test | check) printf ', Catch2, Google Benchmark, patch' ;;
     esac
     case ${MIR_WANT:-render} in
     check) printf ', git, clang, stb, clang-format, clang-tidy, Python 3 with pip, Doxygen' ;;

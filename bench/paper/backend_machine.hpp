@@ -137,8 +137,8 @@ class BackendMachine final : public Machine {
         return run;
     }
 
-    [[nodiscard]] static bool needs_bits(KernelForm form) {
-        return form == KernelForm::split || form == KernelForm::shafts;
+    [[nodiscard]] static bool needs_bits(KernelVariant variant) {
+        return variant == KernelVariant::split || variant == KernelVariant::shafts;
     }
 
     [[nodiscard]] std::vector<mir::Vpl> vpls_in(VplOrder order, std::uint32_t count) {
@@ -158,16 +158,16 @@ class BackendMachine final : public Machine {
         const std::vector<mir::Vpl> vpls = vpls_in(choice.vpl_order, choice.vpls);
         KernelBench<B, V> bench(backend_, luxels_in(choice.luxels, scene_->luxels(), executor_),
                                 vpls, visibility, scene_->shading(choice.vpls),
-                                needs_bits(choice.form));
-        bench.run(choice.form);
+                                needs_bits(choice.variant));
+        bench.run(choice.variant);
         // Asked once: the bits that it compares with stay in place of the run's.
-        const std::size_t wrong = choice.form == KernelForm::shafts ? bench.wrong_bits() : 0;
+        const std::size_t wrong = choice.variant == KernelVariant::shafts ? bench.wrong_bits() : 0;
         if (wrong != 0)
             throw mir::Error(mir::ErrorCode::internal, "shafts changed " + std::to_string(wrong) +
                                                            " bits in the scene '" + scene_->name() +
                                                            "'");
         std::vector<KernelRun> runs;
-        for (unsigned i = 0; i < repeat; ++i) runs.push_back(bench.run(choice.form));
+        for (unsigned i = 0; i < repeat; ++i) runs.push_back(bench.run(choice.variant));
         const double mean =
             bench.total_luminance() / static_cast<double>(scene_->luxels().extent().area());
         for (KernelRun& run : runs) run.mean_luminance = mean;

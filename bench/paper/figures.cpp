@@ -129,12 +129,12 @@ void rates(Lab& lab, PaperScene& scene, const Figure& figure) {
     for (const std::uint32_t vpls : figure.vpls) {
         add_rc_and_rcvp(lab, scene, figure, vpls, gpu_tile);
         for (const auto& machine : lab.machines)
-            for (const KernelForm form : {KernelForm::fused, KernelForm::split}) {
+            for (const KernelVariant variant : {KernelVariant::fused, KernelVariant::split}) {
                 KernelChoice choice;
-                choice.form = form;
+                choice.variant = variant;
                 choice.vpls = vpls;
                 Row row = kernels_alone(lab, *machine, scene, figure, choice);
-                row.algorithm = form == KernelForm::fused ? "rc" : "rcvp";
+                row.algorithm = variant == KernelVariant::fused ? "rc" : "rcvp";
                 row.variant = "kernels alone";
                 row.paper_contributions = paper_peak(scene.name());
                 lab.add(row);
@@ -179,8 +179,8 @@ std::vector<KernelChoice> kernel_choices(std::uint32_t vpls) {
     KernelChoice own;
     own.vpls = vpls;
     std::vector<KernelChoice> choices(7, own);
-    choices[1].form = KernelForm::split;
-    choices[2].form = KernelForm::per_vpl;
+    choices[1].variant = KernelVariant::split;
+    choices[2].variant = KernelVariant::per_vpl;
     choices[3].start = RayStart::luxel;
     choices[4].luxels = LuxelOrder::rows;
     choices[5].luxels = LuxelOrder::clusters;
@@ -200,7 +200,7 @@ void kernel_figure(Lab& lab, PaperScene& scene, const Figure& figure) {
         for (const auto& machine : lab.machines)
             for (const KernelChoice& choice : kernel_choices(vpls)) {
                 Row row = kernels_alone(lab, *machine, scene, figure, choice);
-                row.algorithm = form_names[static_cast<std::size_t>(choice.form)];
+                row.algorithm = variant_names[static_cast<std::size_t>(choice.variant)];
                 row.variant = name_of(choice);
                 lab.add(row);
             }
@@ -213,13 +213,14 @@ void shafts(Lab& lab, PaperScene& scene, const Figure& figure) {
         for (const auto& machine : lab.machines)
             for (const LuxelOrder order : {LuxelOrder::squares, LuxelOrder::clusters})
                 for (const RayEngine engine : {RayEngine::kd_tree, RayEngine::wide_bvh})
-                    for (const KernelForm form : {KernelForm::fused, KernelForm::shafts}) {
+                    for (const KernelVariant variant :
+                         {KernelVariant::fused, KernelVariant::shafts}) {
                         choice.vpls = vpls;
                         choice.luxels = order;
                         choice.engine = engine;
-                        choice.form = form;
+                        choice.variant = variant;
                         Row row = kernels_alone(lab, *machine, scene, figure, choice);
-                        row.algorithm = form_names[static_cast<std::size_t>(form)];
+                        row.algorithm = variant_names[static_cast<std::size_t>(variant)];
                         row.variant = std::string("luxels in ") +
                                       luxel_order_names[static_cast<std::size_t>(order)] + ", " +
                                       ray_engine_names[static_cast<std::size_t>(engine)];

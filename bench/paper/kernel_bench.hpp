@@ -75,11 +75,11 @@ class KernelBench {
         queue_.record().sync();
     }
 
-    KernelRun run(KernelForm form) {
-        if (form == KernelForm::split) return run_split();
-        if (form == KernelForm::shafts) return run_shafts();
+    KernelRun run(KernelVariant variant) {
+        if (variant == KernelVariant::split) return run_split();
+        if (variant == KernelVariant::shafts) return run_shafts();
         const auto begin = Marks<B>::mark(queue_);
-        if (form == KernelForm::fused)
+        if (variant == KernelVariant::fused)
             queue_.for_each(
                 count_, mir::FusedKernel{view(), vpls(), visibility_.segments, shading_, sums()});
         else

@@ -10,7 +10,7 @@
 namespace mirpaper {
 
 /// How rays and shading are cut into kernels.
-enum class KernelForm {
+enum class KernelVariant {
     fused,    ///< RC: a thread per luxel, a loop over VPLs, rays and shading together
     split,    ///< RCVP: rays to bits first, then a thread per luxel that shades by the bits
     per_vpl,  ///< a launch per VPL, a thread per luxel: neighbours of a thread never leave its VPL
@@ -36,14 +36,14 @@ enum class RayEngine { kd_tree, wide_bvh };
 /// The end at which a shadow ray starts.
 enum class RayStart { vpl, luxel };
 
-inline constexpr std::array form_names{"fused", "split", "per-vpl", "shafts"};
+inline constexpr std::array variant_names{"fused", "split", "per-vpl", "shafts"};
 inline constexpr std::array luxel_order_names{"squares", "rows", "clusters"};
 inline constexpr std::array vpl_order_names{"morton", "shuffled"};
 inline constexpr std::array ray_engine_names{"kd-tree", "wide BVH"};
 inline constexpr std::array ray_start_names{"vpl", "luxel"};
 
 struct KernelChoice {
-    KernelForm form = KernelForm::fused;
+    KernelVariant variant = KernelVariant::fused;
     LuxelOrder luxels = LuxelOrder::squares;
     VplOrder vpl_order = VplOrder::morton;
     RayStart start = RayStart::vpl;
@@ -53,11 +53,11 @@ struct KernelChoice {
 
 /// Kernels of one image, by events.
 struct KernelRun {
-    double visibility = 0.0;  ///< seconds; of KernelForm::split only
-    double shading = 0.0;     ///< seconds; of KernelForm::split only
+    double visibility = 0.0;  ///< seconds; of KernelVariant::split only
+    double shading = 0.0;     ///< seconds; of KernelVariant::split only
     double seconds = 0.0;     ///< all kernels
     double mean_luminance = 0.0;
-    std::optional<StageSeconds> stages;  ///< of KernelForm::shafts
+    std::optional<StageSeconds> stages;  ///< of KernelVariant::shafts
 };
 
 }  // namespace mirpaper

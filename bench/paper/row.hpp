@@ -17,10 +17,11 @@ namespace mirpaper {
 struct Row {
     std::string figure;
     std::string scene;
-    std::string backend;    ///< "cpu", "cuda"
-    std::string algorithm;  ///< cpu, cpu-blocks, embree-blocks, os, rc, rcvp; kernels: their form
-    std::string variant;    ///< what else there is to say: resident, kernel variants
-    std::string clock;      ///< what `seconds` is measured by: "events", "wall" or ""
+    std::string backend;  ///< "cpu", "cuda"
+    std::string
+        algorithm;        ///< cpu, cpu-blocks, embree-blocks, os, rc, rcvp; kernels: their variant
+    std::string variant;  ///< what else there is to say: resident, kernel variants
+    std::string clock;    ///< what `seconds` is measured by: "events", "wall" or ""
     mir::Extent image;
     mir::Extent tile;
     std::uint32_t vpls = 0;

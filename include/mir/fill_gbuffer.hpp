@@ -10,7 +10,7 @@
 
 namespace mir {
 
-/// The camera rays of an image: one per luxel, a pure function of its place and the seed.
+/// The camera rays of an image, one per luxel. Each is a pure function of its place and the seed.
 struct CameraRays {
     Camera camera;           ///< its own aspect_ratio is not used: the grid's is
     LuxelGrid grid;          ///< which luxels there are
@@ -25,7 +25,7 @@ struct CameraRays {
     }
 };
 
-/// First phase: traces the camera ray of every luxel of `gbuffer`, which holds the rows from
+/// First phase: traces the camera ray of every luxel of `gbuffer`. The G-buffer holds the rows from
 /// `first_row` on of the luxel image. `rays(x, y)` is the ray of a luxel, as in CameraRays. Points
 /// are lifted. Luxels that see nothing emit what `background` sends them.
 /// @throws Error(invalid_argument) when rays of an image's luxels are given and the G-buffer has

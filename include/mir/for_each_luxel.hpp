@@ -10,9 +10,9 @@
 
 namespace mir {
 
-/// Calls body(x, y, luxels, i) for every luxel of a G-buffer, rows at the same time: (x, y) is its
-/// place in the G-buffer's extent, `luxels` the GBuffer of its tile and i its index there. Padding
-/// is left out, empty luxels are not.
+/// Calls body(x, y, luxels, i) for every luxel of a G-buffer, rows in parallel. (x, y) is its place
+/// in the G-buffer's extent, `luxels` the GBuffer of its tile and i its index there. Padding is
+/// left out, empty luxels are not.
 template <TiledGBuffer G, Executor E, class Body>
 void for_each_luxel(const G& gbuffer, E& executor, const Body& body) {
     std::vector<std::pair<TileIndex, std::uint32_t>> rows;

@@ -10,7 +10,7 @@
 namespace mir {
 
 /// Lobes of the VPLs that aggregate() makes of records with arrivals, by their index. Lobes
-/// narrower than the GGX width `least_alpha` are widened to it, because a few points in place of a
+/// narrower than the GGX width `least_alpha` are widened to it, because a few points instead of a
 /// surface show a narrow one as spots.
 template <Bsdf B>
 struct VplLobes {
@@ -41,7 +41,7 @@ struct VplLobes {
     }
 };
 
-/// Light of VPLs with these lobes: radiance towards the viewer of every luxel, W m^-2 sr^-1.
+/// Light of VPLs with these lobes. Radiance towards the viewer of every luxel, W m^-2 sr^-1.
 /// `matrix` says who sees which VPL; black VPLs are left out. Bits as of sum_seen().
 /// @throws Error(invalid_argument) when the matrix belongs to other tiles or VPLs, or the lobes do.
 template <Bsdf B, TiledGBuffer G, Executor E>

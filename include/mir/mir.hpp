@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What is public of the core, which needs nothing but the standard library and GLM. Other
-// components are included by themselves: mir/render.hpp (pictures), mir/scenes.hpp (built-in
-// scenes), mir/io/ (files), mir/cpu/ (Embree), mir/cuda/, and mir/validation/ (checks).
-// cmake/public_headers.txt has them all.
+// The public headers of the core, which needs only the standard library and GLM. Other components
+// are included by themselves: mir/render.hpp (pictures), mir/scenes.hpp (built-in scenes), mir/io/
+// (files), mir/cpu/ (Embree), mir/cuda/, and mir/validation/ (checks). cmake/public_headers.txt has
+// them all.
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/concepts/backend.hpp"
 #include "mir/concepts/bsdf.hpp"

@@ -16,12 +16,12 @@ struct PlacedVpls {
     std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
 };
 
-/// Places VPLs and, where their sampler leaves that to the image, normalises them over all luxels
-/// of `gbuffer`: each recorded state then brings the same luminance to the image
-/// (docs/method.md, 10). `shading` must be the one that the image will be made with, its bound the
-/// one that the sampler was told. The shadow rays of the normalisation are traced here and their
-/// bits, one for each luxel and VPL, thrown away; to shade from them call fill_visibility(),
-/// response(), normalise() and reshade() instead.
+/// Places VPLs and normalises them where their sampler leaves that to the image. It uses all
+/// luxels of `gbuffer`: each recorded state then brings the same luminance to the image
+/// (docs/method.md, 10). `shading` must be that of the image, its bound that of the sampler. The
+/// shadow rays of the normalisation are traced here and their bits, one for each luxel and VPL,
+/// thrown away; to shade from them call fill_visibility(), response(), normalise() and reshade()
+/// instead.
 /// @throws Error whatever the sampler reports; Error(limit_exceeded) when the bits do not fit into
 ///         Limits::visibility_bytes; Error(invalid_argument) when tiles cut blocks of 16 x 16.
 template <Sampler S, TiledGBuffer G, Visibility V, Shading F, Executor E>

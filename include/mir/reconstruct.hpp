@@ -20,8 +20,8 @@ struct Inputs {
     F shading;         ///< reads the surfaces that `gbuffer` holds
 };
 
-/// Algorithm 3 of the paper: radiance that the VPLs send to the viewer through each luxel,
-/// W m^-2 sr^-1, one element per luxel of the G-buffer in row order. Emission is not included.
+/// Algorithm 3 of the paper: the radiance of the VPLs through each luxel. In W m^-2 sr^-1, one
+/// element per luxel of the G-buffer in row order. Emission is not included.
 ///
 /// The scheduler decides where and when things run, never what comes out.
 /// @throws Error(invalid_argument) when the shading has a bound that is none (check_bound()), and

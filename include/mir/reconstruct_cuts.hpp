@@ -13,7 +13,7 @@
 
 namespace mir {
 
-/// Where the luxels of a G-buffer lie in the image, and with which numbers they pick.
+/// Where a G-buffer's luxels lie in the image, and the numbers they pick with.
 struct CutPlace {
     std::uint64_t seed = 0;       ///< of the picks
     std::uint32_t first_row = 0;  ///< of luxels, in the image; a multiple of 16
@@ -80,13 +80,13 @@ class CutGather {
 
 }  // namespace detail
 
-/// Estimates the radiance that VPLs send to the viewer through each luxel, W m^-2 sr^-1, from a few
-/// of them: for each block of 256 luxels the policy cuts the tree, and each luxel gathers one VPL
-/// of each node, picked by its weight. The mean over seeds is the image of reconstruct() with all
-/// VPLs of the tree, for any policy; sixteen neighbours pick other VPLs, so that what is left is
-/// noise that averages out. Emission is not included. `monitor` may be null; it counts pairs of
-/// luxel and picked VPL. The same bytes for any number of threads, any tiles of whole blocks and
-/// any `instructions`.
+/// Estimates the radiance of many VPLs through each luxel from a few of them. In W m^-2 sr^-1. For
+/// each block of 256 luxels the policy cuts the tree, and each luxel gathers one VPL of each node,
+/// picked by its weight. The mean over seeds is the image of reconstruct() with all VPLs of the
+/// tree, for any policy; sixteen neighbours pick other VPLs, so that what is left is noise that
+/// averages out. Emission is not included. `monitor` may be null; it counts pairs of luxel and
+/// picked VPL. The same bytes for any number of threads, any tiles of whole blocks and any
+/// `instructions`.
 /// @throws Error(invalid_argument) when the shading has a bound that is none (check_bound()), or
 ///         bands begin within a block; Error(cancelled).
 /// Source: Yuksel, "Stochastic Lightcuts", HPG 2019; docs/method.md, 14.

@@ -11,10 +11,10 @@
 
 namespace mir {
 
-/// Sum of `contribution(hit, surface, j)` over the VPLs j that a luxel sees, W m^-2 sr^-1, for
-/// every luxel of which `reflects(surface)` is true. `matrix` says who sees which VPL. For shadings
-/// that need more of a VPL than a Vpl; others go through a Scheduler. VPLs are summed in their
-/// order, so that tiles and threads change no bit.
+/// Sum of `contribution(hit, surface, j)` over the VPLs that a luxel sees, W m^-2 sr^-1. It is
+/// made for every luxel with `reflects(surface)`; `matrix` says which luxel sees which VPL. For
+/// shadings that need more of a VPL than a Vpl; others go through a Scheduler. VPLs are summed in
+/// their order, so that tiles and threads change no bit.
 /// @throws Error(invalid_argument) when the matrix belongs to other tiles or another number of
 /// VPLs.
 template <TiledGBuffer G, class Reflects, class Contribution, Executor E>

@@ -69,7 +69,7 @@ std::vector<char> used_materials(const tinygltf::Model& model) {
     return used;
 }
 
-/// Material `index`, which no primitive has: of values that mean nothing it keeps its name alone.
+/// Material `index`, which no primitive has. Of values that mean nothing it keeps its name alone.
 Material convert_unused(GltfMaterials& materials, const tinygltf::Model& model, std::size_t index) {
     try {
         return materials.convert(index);

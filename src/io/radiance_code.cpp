@@ -15,8 +15,8 @@ namespace mir {
 namespace detail {
 namespace {
 
-/// Pixel of a radiance code: sum of the channels on a logarithmic scale, and the shares of red and
-/// green in it. A sum of 0 is black.
+/// Pixel of a radiance code: logarithm of the sum of the channels, and shares. The shares are those
+/// of red and green in it. A sum of 0 is black.
 struct RadianceCode {
     std::uint16_t sum = 0;
     std::uint8_t red = 0;
@@ -36,7 +36,7 @@ RadianceCode radiance_code(Rgb pixel) {
     return {static_cast<std::uint16_t>(std::clamp(code, 1.0, 65535.0)), share(p.r), share(p.g)};
 }
 
-/// What neighbours let expect of a code: the mean of those to the left and above.
+/// What neighbours let expect of a code. The mean of those to the left and above.
 template <class Code>
 int predicted_code(const Image<RadianceCode>& codes, std::uint32_t x, std::uint32_t y, Code code) {
     const int left = x > 0 ? codes(x - 1, y).*code : 0;

@@ -23,7 +23,7 @@ Rgb hue_of(Rgb c) {
     return most > 0.0f ? Rgb{c.r / most, c.g / most, c.b / most} : Rgb();
 }
 
-/// VPLs as one mesh of points; a model without meshes for none, because glTF has no empty ones.
+/// VPLs as one mesh of points. A model without meshes for none, because glTF has no empty ones.
 tinygltf::Model vpl_model(const VplList& list, DVec3 origin) {
     tinygltf::Model model;
     model.asset.version = "2.0";

@@ -17,7 +17,7 @@ namespace mir {
 namespace detail {
 namespace {
 
-/// The line that says where positions are counted from; none where that is (0, 0, 0).
+/// The line that says where positions are counted from. None where that is (0, 0, 0).
 std::string vpl_ply_origin(DVec3 origin) {
     if (origin == DVec3(0.0)) return {};
     std::string line = "comment origin of positions, metres:";

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -45,15 +46,15 @@ struct BackendFrameOptions {
 /// Features of every BackendFrame. One that learns another overrides what RenderFrame refuses.
 inline constexpr FrameFeatures backend_features{};
 
-/// A frame that stays in a backend's memory, from uploaded triangles to developed pixels, each of
-/// which comes home when no later band reaches it. What asks for rays on the host gets them from a
-/// kd-tree with the same answers in every bit, built when it is asked for first. Members are
-/// defined in runtime/backend_frame/, by what the backend's compiler takes long for.
+/// A frame that stays in a backend's memory, from triangles to pixels. A developed pixel comes home
+/// when no later band reaches it. What asks for rays on the host gets them from a kd-tree with the
+/// same answers in every bit, built when it is asked for first. Members are defined in
+/// runtime/backend_frame/, by what the backend's compiler takes long for.
 template <Backend M, Bsdf B>
 class BackendFrame final : public RenderFrame {
  public:
-    /// Makes the kd-tree of a job's geometry.
-    using MakeTree = std::function<KdTree()>;
+    /// Makes the kd-tree of a job's geometry, which frames may share. Never null.
+    using MakeTree = std::function<std::shared_ptr<const KdTree>()>;
 
     /// Copies the scene to the backend and builds there. The surfaces of the job must be of this
     /// model. `make_tree` is called at most once.
@@ -64,7 +65,7 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] double visible_area() override;
     [[nodiscard]] VplRecords sample_chains(const MetropolisOptions& options, float bound) override;
 
-    /// No work is under way when it returns, as with all members that take bands or layers.
+    /// Returns with no work under way, as all members that take bands or layers.
     /// @throws Error(limit_exceeded) for 2^32 luxels and more.
     [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override;
     [[nodiscard]] BandPtr trace(const ProbeRays& probes) override;
@@ -158,7 +159,7 @@ class BackendFrame final : public RenderFrame {
     UploadedLights<M> lights_;
     UploadedSurfaces<M, B> surfaces_;
     UploadedArray<M, AlphaMask> masks_;
-    std::optional<KdTree> host_tree_;
+    std::shared_ptr<const KdTree> host_tree_;  ///< null until it is asked for
     std::optional<AnyEngine> rays_;
     std::optional<UploadedKdTree<M>> tree_;
     std::optional<BackendWideBvh<M>> bvh_;

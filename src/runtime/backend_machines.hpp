@@ -30,7 +30,7 @@ using OpenMachine = std::function<BackendMachine<M>(std::uint32_t number)>;
 /// Numbers of the machines that DeviceChoice::all means. May throw.
 using UsableMachines = std::function<std::vector<std::uint32_t>()>;
 
-/// The machines of one kind, each opened when it is asked for first and kept for the next image.
+/// The machines of one kind, opened on first use and kept.
 /// Thread-safe.
 template <Backend M>
 class BackendMachines {

@@ -22,15 +22,15 @@
 
 namespace mir {
 
-/// Renders on machines of a backend: by VPLs in their memory (BackendFrame), which share the image
+/// Renders on machines of a backend. By VPLs in their memory (BackendFrame), which share the image
 /// where several are asked for (SplitFrame); paths are traced, and discs made, on the host, where
 /// luxels gather from those on the first machine. Tries again with smaller tiles and bands while a
 /// machine has too little memory.
 template <Backend M>
 class BackendRenderer final : public Renderer {
  public:
-    /// `name` is that of the scheduler; the rest as of BackendMachines, whose machines are kept
-    /// from image to image.
+    /// `name` is that of the scheduler; the rest as of BackendMachines. The machines are kept from
+    /// image to image.
     BackendRenderer(std::string name, BackendScheduler scheduler, OpenMachine<M> open,
                     UsableMachines usable)
         : name_(std::move(name)),
@@ -131,7 +131,7 @@ class BackendRenderer final : public Renderer {
         return job.with_surfaces(
             [&]<Bsdf B>(const SurfaceTable<B>&) -> std::unique_ptr<RenderFrame> {
                 return std::make_unique<BackendFrame<M, B>>(
-                    job, machine.backend, [&tree] { return tree.copy(); }, options);
+                    job, machine.backend, [&tree] { return tree.get(); }, options);
             });
     }
 
@@ -157,7 +157,7 @@ class BackendRenderer final : public Renderer {
 inline constexpr std::array<std::pair<const char*, BackendScheduler>, 3> backend_schedulers{
     {{"os", BackendScheduler::os}, {"rc", BackendScheduler::rc}, {"rcvp", BackendScheduler::rcvp}}};
 
-/// A backend for the Registry, with `kind` and name as users write it, whose renderers open
+/// A backend for the Registry, with `kind` and the name that users write. Its renderers open
 /// machines as BackendMachines does. `require` and `is_present` as of Registry::Backend.
 template <Backend M>
 [[nodiscard]] Registry::Backend registered_backend(BackendKind kind, std::string name,

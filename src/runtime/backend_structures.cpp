@@ -4,8 +4,8 @@
 namespace mir {
 namespace {
 
-/// Luxels times VPLs from which a kd-tree, which single rays walk faster, is worth the time that
-/// the host takes to build it (docs/decisions/031). Bits are the same.
+/// Luxels times VPLs from which a kd-tree is worth building. Single rays walk it faster, but the
+/// host takes time to build it (docs/decisions/031). Bits are the same.
 constexpr double kd_tree_pays = 13e9;
 
 constexpr BackendStructures both{"kdtree+shafts", true, true};

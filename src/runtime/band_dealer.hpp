@@ -11,8 +11,8 @@
 
 namespace mir {
 
-/// Deals the bands of an image to the parts of a frame, which work at the same time, and puts what
-/// they do at its end into the order of the bands. Thread-safe.
+/// Deals the bands of an image to the parts of a frame. They work at the same time; what they do at
+/// a band's end happens in the order of the bands. Thread-safe.
 class BandDealer {
  public:
     /// What wait_for() throws when work on another band failed.

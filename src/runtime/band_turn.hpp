@@ -10,8 +10,8 @@ namespace mir {
 
 class RenderFrame;
 
-/// The place of a band among all of a loop: for what must happen from top to bottom. As it is, of
-/// loops that take bands one by one.
+/// The place of a band in a loop that works from top to bottom. As it is, of loops that take bands
+/// one by one.
 class BandTurn {
  public:
     BandTurn() = default;
@@ -22,12 +22,12 @@ class BandTurn {
     /// Returns once the work on all bands above is done.
     /// @throws What ends the loop when work on another band failed.
     virtual void wait() {}
-    /// Where the film of another frame ended, for RenderFrame::put(); null where one frame puts all
+    /// Where another frame's film ended, for RenderFrame::put(). Null where one frame puts all
     /// bands. To be used after wait().
     [[nodiscard]] virtual FilmSeam* seam() { return nullptr; }
 };
 
-/// Work on a band of an image, by a frame that works on no other band meanwhile.
+/// Work on a band of an image. Its frame works on no other band meanwhile.
 using BandWork = std::function<void(RenderFrame& by, std::uint32_t band, BandTurn& turn)>;
 
 }  // namespace mir

@@ -11,7 +11,7 @@
 
 namespace mir {
 
-/// What every renderer does around its work: checks settings and scene, brings the scene near its
+/// What every renderer does around its work. Checks settings and scene, brings the scene near its
 /// origin, places its triangles, and completes what the work made of them.
 class CheckedRender {
  public:

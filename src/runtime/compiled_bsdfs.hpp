@@ -29,7 +29,7 @@ template <Bsdf B>
 bool suits(const Scene& /*scene*/, B) {
     return true;
 }
-/// Three parameters a luxel in place of eight.
+/// Three parameters a luxel instead of eight.
 inline bool suits(const Scene& scene, Lambert) { return is_lambertian(scene); }
 
 /// The materials of a scene in the parameters of the model that it gets.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t places = 2048;
 
-/// Mean luminance of all luxels of a pixel, as if all lay at one place; of each place.
+/// Mean luminance of all luxels of a pixel, as if all lay at one place. Of each place.
 template <Bsdf B>
 std::vector<double> estimate(RenderJob& job, AnyVisibility visibility,
                              const BlockedGBuffer<typename B::Params>& luxels,

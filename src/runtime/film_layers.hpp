@@ -10,8 +10,8 @@
 
 namespace mir {
 
-/// Moves the images of all layers of a film to their places in a result, and adds up its beauty:
-/// emission + direct + indirect.
+/// Moves a film's layers to their places in a result and makes its beauty. Beauty is emission +
+/// direct + indirect.
 void take_layers(std::vector<Image<Rgb>> layers, bool removed_layer, RenderResult& result,
                  AnyExecutor& executor);
 

@@ -35,7 +35,7 @@ class FrameFeatures {
     unsigned bits_ = 0;
 };
 
-/// Why a frame without the feature cannot render, and what to do: a sentence without its end.
+/// Why a frame without the feature cannot render, and what to do. A sentence without its end.
 [[nodiscard]] inline std::string reason_without(FrameFeature feature) {
     switch (feature) {
         case FrameFeature::embree:

@@ -10,7 +10,7 @@
 
 namespace mir {
 
-/// Luxels in the host's memory, and who of them sees which VPL where that was asked.
+/// Luxels in the host's memory, and which VPLs they see where that was asked.
 template <Bsdf B>
 struct HostBand final : FrameBand {
     /// `extent` luxels in tiles of `tile`.

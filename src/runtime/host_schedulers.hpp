@@ -26,8 +26,8 @@ inline constexpr std::array<std::pair<std::string_view, HostScheduler>, 5> host_
     {"rcvp", HostScheduler::rcvp},
 }};
 
-/// Calls use(scheduler) with a scheduler of the host that was chosen while the program runs, and
-/// returns what it returns; the image is the same. `monitor` may be null.
+/// Calls use(scheduler) with a host scheduler chosen at run time. Returns what it returns; the
+/// image is the same. `monitor` may be null.
 template <Executor E, class Use>
 auto with_host_scheduler(HostScheduler kind, E& executor, Monitor* monitor, const Use& use) {
     const host::Backend<E> host(executor);

@@ -9,16 +9,16 @@
 namespace mir {
 namespace {
 
-/// Luxels times VPLs from which shafts save more time than our hierarchy takes longer to build than
-/// Embree's: 128 for each triangle, more where triangles are so many that shafts decide less
-/// (docs/decisions/012). The number of threads has no say, as in all that
-/// may change a bit.
+/// Luxels times VPLs from which shafts save more than our slower build costs. Embree
+/// builds faster: 128 for each triangle, more where triangles are so many that shafts
+/// decide less (docs/decisions/012). The number of threads has no say, as in all that may
+/// change a bit.
 double pairs_that_pay(double triangles) {
     constexpr double many = 1e6;
     return 128 * triangles * std::max(1.0, std::sqrt(triangles / many));
 }
 
-/// Paths and discs ask ray by ray, which Embree answers fastest; so do luxels where masks forbid
+/// Paths and discs ask ray by ray, which Embree answers fastest. So do luxels where masks forbid
 /// shafts.
 Acceleration structure_of(const WorldGeometry& geometry, const RenderSettings& s) {
     if (s.acceleration != Acceleration::automatic) return s.acceleration;

@@ -12,8 +12,8 @@ struct HostTracing {
     TracedScenePtr scene;
 };
 
-/// Why this build cannot trace on the host as the settings want, and what to do: a sentence without
-/// its end. Empty where it can.
+/// Why this build cannot trace as the settings want, and what to do. A sentence without its end.
+/// Empty where it can.
 [[nodiscard]] std::string reason_against_tracing(const RenderSettings& settings);
 
 /// Builds what rays of a render on the host are traced through, in its stage.

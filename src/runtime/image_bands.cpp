@@ -40,14 +40,18 @@ ImageBands::ImageBands(const RenderFrame& frame, std::uint32_t vpls)
       rows_(choose_rows(vpls)) {}
 
 std::uint32_t ImageBands::choose_rows(std::uint32_t vpls) const {
-    // Some 2 million luxels at a time, fewer where parts of a frame would have few bands each;
-    // whole pixels, and whole tiles unless those are huge or cannot be shared out.
+    // Some 2 million luxels at a time, fewer where parts of a frame would have few bands each or
+    // luxels have sums of paths; whole pixels, and whole tiles unless those are huge or bands low.
+    const RenderSettings& settings = frame_.job().settings;
     const std::uint64_t parts = frame_.traits().parts;
+    const bool has_paths = settings.integrator == Integrator::path;
+    const std::uint64_t most = has_paths ? 1u << 18 : 1u << 21;
     const std::uint64_t luxels_per_band =
-        parts == 1 ? 1u << 21 : std::min<std::uint64_t>(1u << 21, luxels().area() / (4 * parts));
+        parts == 1 ? most : std::min<std::uint64_t>(most, luxels().area() / (4 * parts));
     const std::uint64_t pixel = frame_.job().rays.grid.per_pixel_y;
+    const bool cuts_tiles = parts > 1 || has_paths;
     const std::uint64_t grain =
-        pixel * (parts == 1 ? std::min<std::uint64_t>(tile_.height, 256) : BlockedLayout::side);
+        pixel * (cuts_tiles ? BlockedLayout::side : std::min<std::uint64_t>(tile_.height, 256));
     const std::uint64_t rows =
         std::max<std::uint64_t>(luxels_per_band / luxels().width / grain, 1) * grain;
     const std::uint64_t least = pixel * BlockedLayout::side;

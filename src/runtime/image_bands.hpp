@@ -7,13 +7,13 @@
 
 namespace mir {
 
-/// Cuts the luxels of an image into bands of rows, so that memory does not grow with the image, and
-/// has frames make them. Bands never cut blocks or pixels: nothing but memory depends on them, and
+/// Cuts the luxels of an image into bands of rows for frames. So memory does not grow with the
+/// image. Bands never cut blocks or pixels: nothing but memory depends on them, and
 /// how much of it several frames have to do.
 class ImageBands {
  public:
-    /// `vpls` of which the visibility will be stored, 0 for none: bands become lower until the
-    /// matrix of one fits into Limits::visibility_bytes. `frame` is the whole one.
+    /// `vpls`: number of VPLs whose visibility will be stored, 0 for none. Bands become lower until
+    /// the matrix of one fits into Limits::visibility_bytes. `frame` is the whole one.
     ImageBands(const RenderFrame& frame, std::uint32_t vpls);
 
     /// Bands that the image is cut into; the last may be lower than the others.
@@ -22,7 +22,7 @@ class ImageBands {
     /// Luxels of the whole image.
     [[nodiscard]] Extent luxels() const { return frame_.job().rays.grid.luxels(); }
 
-    /// Has `by`, the frame or a part of it, trace the camera rays of band `i`.
+    /// Has `by` trace the camera rays of band `i`. It is the frame or a part of it.
     [[nodiscard]] BandPtr make(RenderFrame& by, std::uint32_t i) const;
 
     /// True when all bands with their visibility of `vpls` VPLs fit into Limits::visibility_bytes.

@@ -15,8 +15,8 @@
 
 namespace mir {
 
-/// Some two thousand luxels, spread over the image, at which the light that discs send is compared
-/// with that of paths. Bits depend on scene, settings, seed and the discs alone.
+/// Some two thousand luxels at which light of discs and of paths is compared. They are spread over
+/// the image. Bits depend on scene, settings, seed and the discs alone.
 template <Bsdf B>
 class IndirectProbes {
  public:
@@ -32,7 +32,7 @@ class IndirectProbes {
         fill_gbuffer<B>(luxels_, 0, rays_, caster_, surfaces, job.executor);
     }
 
-    /// One in each cell of a grid on the film, at a random place; empty where a ray meets nothing.
+    /// One in each cell of a grid on the film, at a random place. Empty where a ray meets nothing.
     [[nodiscard]] const BlockedGBuffer<typename B::Params>& luxels() const { return luxels_; }
 
     /// Their random numbers.
@@ -40,8 +40,8 @@ class IndirectProbes {
         return {0, luxel_grid(luxels_.extent(), 1), job_.settings.seed};
     }
 
-    /// By how much light gathered from discs exceeds that of paths, of 2 to bounce_limit()
-    /// scattering events towards the viewer, W m^-2 sr^-1, in two estimates independent of each
+    /// By how much light gathered from discs exceeds that of paths, W m^-2 sr^-1. Of 2 to
+    /// bounce_limit() scattering events towards the viewer, in two estimates independent of each
     /// other. Both go along the same rays to what the luxel sees, `sent(point)` being the radiance
     /// that the discs send out there: so what few rays find is in both, and its noise in neither.
     template <class Sent>

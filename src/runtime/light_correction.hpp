@@ -15,14 +15,15 @@ namespace mir {
 /// the cells of a grid on the film: a factor is the ratio of their sums over a neighbourhood. As
 /// much of it as its noise may explain is left out, first of the factor of the whole image against
 /// 1, then of that of a neighbourhood against it (positive-part James-Stein), so that a good
-/// estimate stays as it is. Const use from any thread.
+/// estimate stays. Const use from any thread.
 class LightCorrection {
  public:
     /// From both in the cells, W m^-2 sr^-1; empty cells are black.
     template <Executor E>
     LightCorrection(const Image<Rgb>& estimate, const Image<Rgb>& truth, E& executor);
 
-    /// Factor at a place on the film, from (0, 0) to (1, 1), between `least` and 1 / `least`.
+    /// Factor at a place on the film, between `least` and 1 / `least`. Places run from (0, 0) to
+    /// (1, 1).
     [[nodiscard]] Rgb operator()(float u, float v) const;
 
     static constexpr float least = 0.125f;  ///< no channel is changed by more

@@ -26,14 +26,13 @@ class MissingLight {
     [[nodiscard]] MissingShares measure() const {
         const ProbeRays probes{job_.rays.camera, job_.aspect(), places, job_.settings.seed};
         const Extent grid = probes.cells();
-        Ledger ledger(static_cast<std::size_t>(grid.area()));
+        Luminances at(static_cast<std::size_t>(grid.area()));
         job_.executor.for_each(grid.height, [&](std::size_t row) {
             const auto y = static_cast<std::uint32_t>(row);
             for (std::uint32_t x = 0; x < grid.width; ++x)
-                add_place(probes(x, y), row * grid.width + x, ledger);
+                add_place(probes(x, y), row * grid.width + x, at);
         });
-        return {share_estimate(ledger.cut, ledger.kept),
-                share_estimate(ledger.removed, ledger.kept)};
+        return {share_estimate(at.cut, at.kept), share_estimate(at.removed, at.kept)};
     }
 
  private:
@@ -44,8 +43,8 @@ class MissingLight {
     static constexpr std::uint32_t near_directions = 16;
 
     /// Luminances of each place, W m^-2 sr^-1.
-    struct Ledger {
-        explicit Ledger(std::size_t n) : kept(n), cut(n), removed(n) {}
+    struct Luminances {
+        explicit Luminances(std::size_t n) : kept(n), cut(n), removed(n) {}
         std::vector<double> kept;
         std::vector<double> cut;
         std::vector<double> removed;
@@ -74,14 +73,14 @@ class MissingLight {
     }
     [[nodiscard]] bool by_vpls() const { return job_.settings.direct == DirectLight::vpl; }
 
-    void add_place(const Ray& ray, std::size_t place, Ledger& ledger) const {
+    void add_place(const Ray& ray, std::size_t place, Luminances& at) const {
         const auto first = kept_.luxel(ray);
         if (is_empty(first.hit)) return;
         Random random(job_.settings.seed, Stream::missing, place);
         const Bounces kept = trace(kept_, first, random);
-        ledger.kept[place] = light_of(kept);
-        ledger.cut[place] = luminance_of(kept[limit_ + 1u]);
-        ledger.removed[place] = light_of(trace(removed_, first, random));
+        at.kept[place] = light_of(kept);
+        at.cut[place] = luminance_of(kept[limit_ + 1u]);
+        at.removed[place] = light_of(trace(removed_, first, random));
     }
 
     /// By scattering events; the one behind the limit takes all that are more.

@@ -8,19 +8,19 @@
 
 namespace mir {
 
-/// The normalisation stage of a render: finds what each VPL does to the image and makes intensities
+/// The normalisation stage of a render. Finds what each VPL does to the image and makes intensities
 /// of the radiance that the sampler gave (docs/method.md, 10).
 class NormalisationPass {
  public:
-    /// `bound` is the one that the sampler's P_c was measured with and that the image will use.
+    /// `bound` is that of the sampler's P_c and of the image.
     NormalisationPass(RenderFrame& frame, const ImageBands& bands, float bound)
         : frame_(frame), bands_(bands), bound_(bound) {}
 
     /// Replaces the radiance in `vpls` by intensities, by the policy of the settings.
     NormalisationReport run(VplList& vpls, double path_luminance, double states);
 
-    /// All bands with their visibility, if they fit into memory together and were needed; else
-    /// none. Leaves the pass without them.
+    /// All bands with their visibility, or none. They must fit into memory together and be needed.
+    /// Leaves the pass without them.
     [[nodiscard]] std::vector<BandPtr> take_bands() { return std::move(kept_); }
 
  private:

@@ -49,7 +49,8 @@ class DiscRender {
     using Radiance = std::vector<SurfelRadiance>;
     using Luxels = BlockedGBuffer<typename B::Params>;
 
-    /// The discs, and where they lie if rays go to the triangles, now or for a check.
+    /// The discs, and their places on triangles for rays to these. Rays go there now or for a
+    /// check.
     struct Discs {
         SurfelTree tree;
         std::optional<SurfelPlaces> places;
@@ -99,7 +100,7 @@ RenderResult DiscRender<B>::run() {
     check_picture(job_.settings, std::size_t{first_bounce_layer} + bounces);
     const ImageBands bands(frame_, 0);
     if (job_.settings.measure_missing) {
-        const auto stage = job_.clock.measure(&StageSeconds::ledger);
+        const auto stage = job_.clock.measure(&StageSeconds::light_budget);
         s.direct_noise = direct_noise(frame_, job_.settings.direct_samples_per_luxel());
     }
     job_.begin_bands(bands.count());
@@ -128,7 +129,7 @@ auto DiscRender<B>::make_discs() -> Discs {
     return discs;
 }
 
-/// What luxels gather from: bounce by bounce where each has a layer, else the sum; nothing when
+/// What luxels gather from. Bounce by bounce where each has a layer, else the sum; nothing when
 /// light may be reflected once alone.
 template <Bsdf B>
 auto DiscRender<B>::light(const Discs& discs) -> std::vector<Radiance> {
@@ -170,7 +171,7 @@ auto DiscRender<B>::light(const Discs& discs) -> std::vector<Radiance> {
 /// what that changes is found along the rays of the gather, the rest along those of the paths.
 template <Bsdf B>
 void DiscRender<B>::check(const Sources& sources) {
-    const auto stage = job_.clock.measure(&StageSeconds::ledger);
+    const auto stage = job_.clock.measure(&StageSeconds::light_budget);
     const IndirectProbes<B> probes(job_, surfaces_, rays_);
     const SurfelPlaces& places = *sources.discs.places;
     const Radiance sum = sum_of(sources.light);
@@ -271,7 +272,7 @@ void DiscRender<B>::correct(Image<Rgb>& light, const LuxelBand& rows) {
     });
 }
 
-/// The sum of all bounces, and behind it each of them, the direct light first, where asked for.
+/// The sum of all bounces and each of them, where asked for. The direct light comes first.
 template <Bsdf B>
 void DiscRender<B>::append_indirect(const FrameBand& band, const Sources& sources,
                                     std::vector<LayerPtr>& layers) {

@@ -56,11 +56,11 @@ struct FrameTraits {
     std::uint32_t parts = 1;  ///< frames that work at the same time in for_each_band()
 };
 
-/// The machine that makes a picture, asked band by band: a virtual call costs nothing where it is
+/// The machine that makes a picture, asked band by band. A virtual call costs nothing where it is
 /// for a million luxels. HostFrame works in the host's memory, BackendFrame in that of a Backend.
-/// Bands and layers go back to the frame that made them. Sums and their order are those of the
-/// free functions of the same names, so that frames give the same bits. One thread at a time; the
-/// job must outlive it.
+/// Bands and layers go back to the frame that made them. Sums and their order are those of the free
+/// functions of the same names, so that frames give the same bits. One thread at a time; the job
+/// must outlive it.
 class RenderFrame {
  public:
     RenderFrame(RenderJob& job, FrameTraits traits) : job_(job), traits_(traits) {}
@@ -82,8 +82,8 @@ class RenderFrame {
     [[nodiscard]] virtual VplRecords sample_chains(const MetropolisOptions& options,
                                                    float bound) = 0;
 
-    /// Calls work(by, i, turn) for all i < bands, where `by` is a frame that this one is made of:
-    /// here itself, from top to bottom. A band goes to the same frame in every loop over so many.
+    /// Calls work(by, i, turn) for all i < bands. `by` is a frame that this one is made of: here
+    /// itself, from top to bottom. A band goes to the same frame in every loop over so many.
     /// @throws What the work throws, of one band if it fails for several.
     virtual void for_each_band(std::uint32_t bands, const BandWork& work) {
         BandTurn turn;
@@ -97,8 +97,8 @@ class RenderFrame {
     /// Keeps with a band which luxels and VPLs see each other.
     /// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
     virtual void find_visible(FrameBand& band, VplSpan<Space::host> vpls) = 0;
-    /// What points under `bound` do to the luxels of a band that knows their visibility, for each
-    /// row of its blocks: block_row_responses(), which ResponseSum adds up.
+    /// Responses of points under `bound`, for each row of blocks of a band. The band knows their
+    /// visibility; block_row_responses(), which ResponseSum adds up.
     [[nodiscard]] virtual std::vector<ImageResponse> row_responses(const FrameBand& band,
                                                                    VplSpan<Space::host> vpls,
                                                                    float bound) = 0;
@@ -135,17 +135,17 @@ class RenderFrame {
     /// VplLobes::widened_share.
     /// @throws Error(unsupported) of frames without FrameFeature::lobes.
     virtual float keep_lobes(const VplRecords& /*records*/) { throw without(FrameFeature::lobes); }
-    /// Adds what `bound` removed, traced back, to the layers of a band (FilmLayer), and returns it.
+    /// Adds what `bound` removed, traced back, to a band's layers (FilmLayer). Returns it.
     /// @throws Error(unsupported) of frames without FrameFeature::residual.
     [[nodiscard]] virtual LayerPtr add_residual(const FrameBand& /*band*/, float /*bound*/,
                                                 std::vector<LayerPtr>& /*layers*/) {
         throw without(FrameFeature::residual);
     }
 
-    /// Puts the layers of a band on the film, in the order of FilmLayer, and its guides into the
-    /// result. Bands come from top to bottom, none higher than the first. `seam` is null, or where
-    /// the film of the rows above ended, which may be another frame's, and becomes where this one
-    /// ends.
+    /// Puts a band's layers on the film and its guides into the result. Layers come in the order of
+    /// FilmLayer. Bands come from top to bottom, none higher than the first. `seam` is null, or
+    /// where the film of the rows above ended, which may be another frame's, and becomes where this
+    /// one ends.
     virtual void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) = 0;
     /// The images of the layers, once every band was put there; leaves the frame without. Pixels
     /// that films of other frames develop mean nothing.

@@ -23,7 +23,7 @@ struct PlacedScene {
     StageClock& clock;              ///< to which stages tell their time
 };
 
-/// One render under way, whatever makes its picture: the scene in the form that the stages want,
+/// One render under way, whatever makes its picture. The scene in the form that the stages want,
 /// and the result as it grows. What was passed in must outlive it.
 struct RenderJob {
     /// `wanted` must be valid.

@@ -12,13 +12,14 @@
 #include "runtime/vpl_light.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace mir {
 namespace {
 
 constexpr float no_bound = std::numeric_limits<float>::max();
 
-/// What brings direct light to one luxel: its samples, or as many VPLs at infinity as there are to
+/// What brings direct light to one luxel. Its samples, or as many VPLs at infinity as there are to
 /// be others.
 DirectSamples direct_samples_of_luxel(const RenderSettings& settings) {
     return settings.direct == DirectLight::separate
@@ -50,7 +51,7 @@ bool must_normalise(const RenderSettings& settings, Normalisation normalisation)
             settings.normalisation_policy() == NormalisationPolicy::prepass);
 }
 
-/// Every VPL meets every luxel once per layer, and once more each time that bits are found.
+/// Every VPL meets every luxel once per layer, and once per finding of bits.
 void plan_progress(RenderJob& job, bool stored, bool kept) {
     if (job.monitor == nullptr) return;
     const std::uint64_t layers =
@@ -94,11 +95,11 @@ void keep_lobes(RenderFrame& frame, const VplRecords& records, bool normalised) 
     job.result.statistics.widened_share = frame.keep_lobes(records);
 }
 
-/// Only where rays of the host are at hand: others would have to build for them.
+/// Only where rays of the host are at hand. Others would have to build for them.
 void measure_what_is_missing(RenderFrame& frame, float bound) {
     RenderJob& job = frame.job();
     if (!job.settings.measure_missing || !frame.traits().on_host) return;
-    const auto stage = job.clock.measure(&StageSeconds::ledger);
+    const auto stage = job.clock.measure(&StageSeconds::light_budget);
     job.result.statistics.direct_noise = direct_noise(frame, direct_samples_of_luxel(job.settings));
     const bool bounded =
         job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
@@ -113,14 +114,14 @@ struct BandLight {
     // Luminances of rows, of layers that tell the result their means.
     std::vector<double> indirect;
     std::vector<double> removed;   ///< none where nothing is
-    std::vector<double> residual;  ///< likewise
+    std::vector<double> residual;  ///< the same
 };
 
 /// The light that the bound removed from a band, by the VPLs.
 LayerPtr removed_light(RenderFrame& by, const FrameBand& band, const VplLight& light,
                        std::vector<double>& rows) {
     const RenderJob& job = by.job();
-    const auto stage = job.clock.measure(&StageSeconds::ledger);
+    const auto stage = job.clock.measure(&StageSeconds::light_budget);
     const bool removes =
         job.settings.bound.kind != BoundPolicy::Kind::none && !job.settings.vsl.enabled;
     // Cuts meet too few VPLs to tell; paths do (RenderSettings::measure_missing).
@@ -144,7 +145,7 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
         light.append_layers(by, band, job.monitor, made.layers);
     }
     {
-        const auto stage = job.clock.measure(&StageSeconds::ledger);
+        const auto stage = job.clock.measure(&StageSeconds::light_budget);
         made.indirect = by.row_luminances(*made.layers[indirect_layer]);
     }
     LayerPtr removed = removed_light(by, band, light, made.removed);
@@ -156,7 +157,7 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
     return made;
 }
 
-/// Adds what a band brings to mean luminances over the image: row by row from top to bottom, so
+/// Adds what a band brings to mean luminances over the image. Row by row from top to bottom, so
 /// that bands change nothing.
 void add_means(RenderJob& job, const FrameBand& band, const BandLight& made) {
     RenderStatistics& s = job.result.statistics;
@@ -171,6 +172,17 @@ void develop(RenderFrame& frame) {
     RenderJob& job = frame.job();
     const auto stage = job.clock.measure(&StageSeconds::film);
     take_layers(frame.develop(), job.settings.removed_layer, job.result, job.executor);
+}
+
+/// Places VPLs and puts them into the result, as they come from the sampler.
+SampledVpls sample_into_result(RenderFrame& frame, float bound) {
+    RenderJob& job = frame.job();
+    const auto stage = job.clock.measure(&StageSeconds::sampling);
+    SampledVpls sampled = sample_vpls(frame, bound);
+    job.result.vpls = aggregate(sampled.records);
+    job.clock.reassign(sampled.records.bootstrap_seconds, &StageSeconds::sampling,
+                       &StageSeconds::bootstrap);
+    return sampled;
 }
 
 /// Goes on from VPLs that lie in the result.
@@ -220,17 +232,18 @@ float choose_bound(RenderFrame& frame) {
 }
 
 RenderResult render_vpls(RenderFrame& frame) {
-    RenderJob& job = frame.job();
     const float bound = choose_bound(frame);
-    SampledVpls sampled;
-    {
-        const auto stage = job.clock.measure(&StageSeconds::sampling);
-        sampled = sample_vpls(frame, bound);
-        job.result.vpls = aggregate(sampled.records);
-        job.clock.reassign(sampled.records.bootstrap_seconds, &StageSeconds::sampling,
-                           &StageSeconds::bootstrap);
+    return render_from(frame, sample_into_result(frame, bound), bound);
+}
+
+VplList placed_vpls(RenderFrame& frame, float bound) {
+    RenderJob& job = frame.job();
+    const SampledVpls sampled = sample_into_result(frame, bound);
+    if (must_normalise(job.settings, sampled.normalisation)) {
+        const ImageBands bands(frame, job.result.vpls.size());
+        static_cast<void>(normalise_vpls(frame, bands, bound, sampled.records));
     }
-    return render_from(frame, sampled, bound);
+    return std::move(job.result.vpls);
 }
 
 RenderResult render_vpls(RenderFrame& frame, const SampledVpls& sampled, float bound) {

@@ -52,7 +52,7 @@ auto path_world(const RenderJob& job, const SurfaceTable<B>& surfaces, const Any
         rays.visibility(), job.rays.camera, job.aspect(), bound};
 }
 
-/// With direct light alone, and not by VPLs, there is nothing to sample: light paths know that.
+/// With direct light alone, and not by VPLs, there is nothing to sample. Light paths know that.
 bool has_nothing_to_sample(const RenderSettings& s) {
     return s.bounce_limit() <= 1 && s.direct != DirectLight::vpl;
 }

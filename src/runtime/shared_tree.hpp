@@ -4,8 +4,8 @@
 #include "runtime/render_job.hpp"
 #include "runtime/traced_scenes.hpp"
 
+#include <memory>
 #include <mutex>
-#include <optional>
 
 namespace mir {
 
@@ -15,17 +15,18 @@ class SharedTree {
     /// The job must outlive it.
     explicit SharedTree(RenderJob& job) : job_(job) {}
 
-    /// A copy of tree_for_backends().
-    [[nodiscard]] KdTree copy() {
+    /// tree_for_backends(); never null.
+    [[nodiscard]] std::shared_ptr<const KdTree> get() {
         const std::lock_guard lock(mutex_);
-        if (!tree_) tree_.emplace(tree_for_backends(job_.geometry, job_.threads));
-        return *tree_;
+        if (!tree_)
+            tree_ = std::make_shared<const KdTree>(tree_for_backends(job_.geometry, job_.threads));
+        return tree_;
     }
 
  private:
     RenderJob& job_;
     std::mutex mutex_;
-    std::optional<KdTree> tree_;
+    std::shared_ptr<const KdTree> tree_;
 };
 
 }  // namespace mir

@@ -9,8 +9,8 @@
 
 namespace mir {
 
-/// Calls body(k) for all k < n at the same time, each on a thread of its own, body(0) on the
-/// calling one, and waits for all. None is called where a thread cannot be had.
+/// Calls body(k) for all k < n at the same time. Each has a thread of its own, body(0) the calling
+/// one; waits for all. None is called where a thread cannot be had.
 /// @throws What the body throws, for the least k if for several; std::system_error.
 template <class Body>
 void on_side_threads(std::size_t n, const Body& body) {

@@ -8,11 +8,11 @@
 
 namespace mir {
 
-/// A frame made of several, its parts, which work at the same time on bands of one image, each by a
-/// thread of its own: all GPUs of a machine, say. Pictures have the bytes of one frame, whatever
-/// their number and speed. Each part has the whole scene; film rows are handed from part to part
-/// from top to bottom (FilmSeam), and so is all else that is added up. What is no band is made by
-/// the first part, to which bands and layers go that were made outside for_each_band().
+/// A frame made of parts that work at the same time. They are frames for bands of one image, each
+/// with a thread of its own: all GPUs of a machine, say. Pictures have the bytes of one frame,
+/// whatever their number and speed. Each part has the whole scene; film rows are handed from part
+/// to part from top to bottom (FilmSeam), and so is all else that is added up. What is no band is
+/// made by the first part, to which bands and layers go that were made outside for_each_band().
 class SplitFrame final : public RenderFrame {
  public:
     /// Parts that make the same bits of `job`; at least one.
@@ -24,8 +24,8 @@ class SplitFrame final : public RenderFrame {
         return first().sample_chains(options, bound);
     }
 
-    /// Deals bands to the parts, in the first loop to whoever is free, and waits for all. Those of
-    /// the first part are made by the calling thread.
+    /// Deals bands to the parts and waits for all. In the first loop they go to whoever is free.
+    /// Those of the first part are made by the calling thread.
     void for_each_band(std::uint32_t bands, const BandWork& work) override;
 
     [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override {

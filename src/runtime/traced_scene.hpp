@@ -16,7 +16,7 @@
 
 namespace mir {
 
-/// A scene that the host traces rays through: single ones by virtual calls, those of many luxels
+/// A scene that the host traces rays through. Single ones by virtual calls, those of many luxels
 /// and VPLs by loops that have the traversal inside, one virtual call for all of them.
 class TracedScene {
  public:

@@ -13,8 +13,8 @@ struct VplKernel {
     float bound;  ///< largest geometry term, m^-2; of no meaning for spheres
 };
 
-/// Calls use(shading) with the Shading of points or of what was removed of them, and returns what
-/// it returns.
+/// Calls use(shading) with the Shading of points or of removed light. Returns what it
+/// returns.
 template <Bsdf B, class Use>
 auto with_shading(VplKernel kernel, const Use& use) {
     if (kernel.kind == VplKernel::Kind::removed) return use(RemovedByBound<B>{kernel.bound});

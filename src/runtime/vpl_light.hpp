@@ -9,8 +9,8 @@
 
 namespace mir {
 
-/// Light that the VPLs of a render send through the luxels of a band: of all, or by cuts of trees
-/// over them. `vpls` must outlive it.
+/// Light that the VPLs of a render send through a band's luxels. Of all VPLs, or by cuts of trees
+/// over them. Of all, or by cuts of trees over them. `vpls` must outlive it.
 class VplLight {
  public:
     /// Under `bound`, m^-2, as points, spheres or with lobes, as the settings say.
@@ -20,8 +20,8 @@ class VplLight {
     /// Bounces that get a layer of their own.
     [[nodiscard]] std::size_t bounces() const { return layers_; }
 
-    /// Appends the light of all VPLs, W m^-2 sr^-1, and that of each bounce behind it. `monitor`
-    /// may be null.
+    /// Appends the light of all VPLs and that of each bounce, W m^-2 sr^-1. `monitor` may be
+    /// null.
     void append_layers(RenderFrame& frame, const FrameBand& band, Monitor* monitor,
                        std::vector<LayerPtr>& layers) const;
 

@@ -22,7 +22,7 @@ inline float hill(float t) {
 /// t^4.
 inline float fourth(float t) { return t * t * t * t; }
 
-/// The car below its windows: a superellipsoid of exponent 4 whose top follows the line of bonnet
+/// The car below its windows: a superellipsoid of exponent 4. Its top follows the line of bonnet
 /// and boot. Swells over the wheels, is creased below the windows and drawn in above the sills.
 struct LowerHull {
     /// Below 0 inside, above 0 outside, about linear along rays from the inside.
@@ -46,8 +46,8 @@ struct LowerHull {
         return w;
     }
 
-    /// Height of the middle line before it is rounded off towards nose and tail, with two folds
-    /// along the bonnet.
+    /// Height of the middle line before it is rounded off towards the ends. It has two folds along
+    /// the bonnet.
     static float deck(float x, float z) {
         static constexpr std::array<float, 11> height{0.80f,  0.86f,  0.92f, 0.955f, 0.98f, 0.985f,
                                                       0.985f, 0.985f, 1.0f,  1.03f,  1.01f};
@@ -75,7 +75,7 @@ struct CabinHull {
     }
 };
 
-/// Box with rounded corners inside a hull, from which its surface is seen: every point of the
+/// Box with rounded corners inside a hull, from which its surface is seen. Every point of the
 /// surface has one coordinate `a` around the box (z along the side +x, then around the ends to the
 /// other side) and one coordinate `b` upwards (y up to the box' top, then over its edge).
 struct Core {
@@ -118,7 +118,7 @@ struct Core {
 inline constexpr Core lower_core{0.66f, -1.98f, 1.9f, 0.66f};  ///< of the body
 inline constexpr Core cabin_core{0.42f, -0.1f, 0.85f, 1.22f};  ///< of the cabin
 
-/// Where the ray from `origin`, inside the hull, along the unit vector `direction` leaves it; at
+/// Where the ray from `origin`, inside the hull, along the unit vector `direction` leaves it. At
 /// most 2 m away. Regula falsi (Illinois): a fixed number of steps, so that bits do not depend on
 /// tolerances.
 template <class Hull>

@@ -9,7 +9,7 @@
 
 namespace mir::builtin {
 
-/// A line across a panel, in the coordinates (a, b) of a Core or (x, z) of a deck.
+/// A line across a panel. In the coordinates (a, b) of a Core or (x, z) of a deck.
 struct Rib {
     Vec2 low{0};   ///< lower end
     Vec2 high{0};  ///< upper end
@@ -43,7 +43,7 @@ inline SurfaceGrid parameters(std::span<const Rib> ribs, float cell, bool loop) 
     return g;
 }
 
-/// How a panel is cut: size of its cells, thickness and depth below the hull, metres.
+/// How a panel is cut. Size of its cells, thickness and depth below the hull, metres.
 struct Cut {
     float cell = 0.0226f;      ///< width of a cell, metres
     float thickness = 0.012f;  ///< metres
@@ -74,7 +74,7 @@ Mesh deck_panel(std::string name, std::uint32_t material, float from_height, con
     return sheet(std::move(name), material, g, cut.thickness, cut.inset);
 }
 
-/// Four-sided panel: `low` and `high` give its first and last `a` at heights `b0` and `b1`.
+/// Four-sided panel. `low` and `high` give its first and last `a` at heights `b0` and `b1`.
 inline std::vector<Rib> strip(Vec2 low, Vec2 high, float b0, float b1) {
     return {{{low.x, b0}, {high.x, b1}}, {{low.y, b0}, {high.y, b1}}};
 }
@@ -86,7 +86,7 @@ inline std::vector<Rib> band(std::initializer_list<float> a, float b0, float b1)
     return ribs;
 }
 
-/// The panel around a wheel arch: from the arch to the rectangle [a0, a1] x [bottom, top].
+/// The panel around a wheel arch. From the arch to the rectangle [a0, a1] x [bottom, top].
 inline std::vector<Rib> around_arch(float axle, float a0, float a1, float bottom, float top) {
     const float radius = 0.372f;
     const float height = car_wheel_height;

@@ -7,7 +7,7 @@
 namespace mir::builtin {
 namespace {
 
-/// Two rooms in one shell, x from -4.5 to 4.5, z from -9 to 5.5, 3.6 m high: a plane at z = -4.5
+/// Two rooms in one shell, 3.6 m high. x is from -4.5 to 4.5, z from -9 to 5.5: a plane at z = -4.5
 /// leaves a passage of 0.9 m beside the wall on the right. Lamps as in sphere_room(): the main one
 /// above the car, turned down or up, the other behind the plane.
 void place_rooms(Scene& s, Lamp lamp) {

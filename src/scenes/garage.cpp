@@ -9,8 +9,8 @@
 namespace mir::builtin {
 namespace {
 
-/// The wall at z = -3.2 with a door frame from x = 1.1 to 2.1, and the door, hung on the right and
-/// opened by `angle` into the garage.
+/// The wall at z = -3.2 with a door, opened by `angle`. The frame runs from x = 1.1 to 2.1; the
+/// door is hung on the right and opens into the garage.
 void place_door_wall(Scene& s, std::uint32_t plaster, std::uint32_t wood, float angle) {
     const auto wall = [&](const char* name, std::uint32_t m, Vec3 low, Vec3 size) {
         s.place(box(name, m, low, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}));

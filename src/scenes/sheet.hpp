@@ -8,7 +8,7 @@
 
 namespace mir::builtin {
 
-/// Points of a surface, row by row; the front is where (next row) x (next column) points.
+/// Points of a surface, row by row. The front is where (next row) x (next column) points.
 struct SurfaceGrid {
     std::uint32_t columns = 0;  ///< vertices in a row, at least 2
     std::uint32_t rows = 0;     ///< at least 2
@@ -30,8 +30,8 @@ struct SurfaceGrid {
     }
 };
 
-/// Vertices around the border of a grid, in the order in which its front has them clockwise: one
-/// line, or two when the grid is a loop.
+/// Vertices around the border of a grid, clockwise from its front. One line, or two when the grid
+/// is a loop.
 inline std::vector<std::vector<std::uint32_t>> border(const SurfaceGrid& g) {
     std::vector<std::uint32_t> low;
     std::vector<std::uint32_t> high;
@@ -46,7 +46,7 @@ inline std::vector<std::vector<std::uint32_t>> border(const SurfaceGrid& g) {
     return {low};
 }
 
-/// Joins front and back of a sheet along one line of its border; the edge has its own vertices.
+/// Joins front and back of a sheet along one line of its border. The edge has its own vertices.
 inline void add_rim(Mesh& m, std::span<const std::uint32_t> line, std::uint32_t back) {
     const auto first = static_cast<std::uint32_t>(m.positions.size());
     for (const std::uint32_t side : {0u, back})
@@ -57,8 +57,9 @@ inline void add_rim(Mesh& m, std::span<const std::uint32_t> line, std::uint32_t 
     connect(m, first, static_cast<std::uint32_t>(line.size()), 2, Wrap::columns);
 }
 
-/// Closed sheet: the grid lowered by `inset` along its normals as front, a back `thickness`
-/// (metres) behind it, and edges. Front and back are smooth, edges are sharp.
+/// Closed sheet with front, back and edges. The front is the grid lowered by `inset` along its
+/// normals, the back lies `thickness` (metres) behind it. Front and back are smooth, edges are
+/// sharp.
 inline Mesh sheet(std::string name, std::uint32_t material, const SurfaceGrid& g, float thickness,
                   float inset = 0.0f) {
     Mesh m = empty_mesh(std::move(name), material);

@@ -64,8 +64,8 @@ inline Mesh smooth(Mesh m) {
 /// Which directions of a grid of vertices close on themselves.
 enum class Wrap { none, columns, both };
 
-/// Joins vertices that lie row by row from index `first` on by two triangles per cell. The front is
-/// where (next column) x (next row) points.
+/// Joins vertices that lie row by row by two triangles per cell. They begin at index `first`. The
+/// front is where (next column) x (next row) points.
 inline void connect(Mesh& m, std::uint32_t first, std::uint32_t columns, std::uint32_t rows,
                     Wrap wrap) {
     const std::uint32_t column_cells = wrap == Wrap::none ? columns - 1 : columns;
@@ -80,7 +80,7 @@ inline void connect(Mesh& m, std::uint32_t first, std::uint32_t columns, std::ui
         }
 }
 
-/// Rounded box: the points of a ball in the norm of exponent 4, carried by `shape` (columns: half
+/// Rounded box: the points of a ball in the norm of exponent 4. `shape` carries them (columns: half
 /// axes and centre, right-handed). 2 segments (rings - 1) triangles, smooth.
 inline Mesh cushion(std::string name, std::uint32_t material, const Mat4& shape,
                     std::uint32_t segments, std::uint32_t rings) {
@@ -94,7 +94,7 @@ inline Mesh cushion(std::string name, std::uint32_t material, const Mat4& shape,
     return smooth(std::move(m));
 }
 
-/// Half axes along x, y, z, turned by `pitch` (radians) about x, then moved to `centre`.
+/// Half axes along x, y, z, turned about x, then moved to `centre`. `pitch` is in radians.
 inline Mat4 placed(Vec3 half, Vec3 centre, float pitch = 0.0f) {
     const float c = std::cos(pitch);
     const float s = std::sin(pitch);
@@ -109,8 +109,8 @@ inline Mat4 turned(float angle, Vec3 centre) {
     return {Vec4(c, 0, -d, 0), Vec4(0, 1, 0, 0), Vec4(d, 0, c, 0), Vec4(centre, 1)};
 }
 
-/// Ring swept by a closed profile of (distance from the x axis, x), which runs clockwise with
-/// x to the right and the distance up; 2 segments |profile| triangles, smooth.
+/// Ring swept by a closed profile of (distance from the x axis, x). It runs clockwise with x to the
+/// right and the distance up; 2 segments |profile| triangles, smooth.
 inline Mesh lathe(std::string name, std::uint32_t material, std::span<const Vec2> profile,
                   std::uint32_t segments) {
     Mesh m = empty_mesh(std::move(name), material);

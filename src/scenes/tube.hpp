@@ -8,15 +8,16 @@
 
 namespace mir::builtin {
 
-/// Unit vector at a right angle to the unit vector `along`, as near to `wanted` as can be.
+/// Unit vector at a right angle to `along`, as near to `wanted` as can be. `along` is a unit
+/// vector.
 inline Vec3 beside(Vec3 along, Vec3 wanted) {
     Vec3 side = wanted - glm::dot(wanted, along) * along;
     if (length_squared(side) < 1e-6f) side = glm::cross(along, Vec3(along.y, along.z, along.x));
     return glm::normalize(side);
 }
 
-/// Adds a closed tube of `sides` corners around a line of points, flat ends included:
-/// 2 sides |line| - 4 triangles. Smooth around, sharp at the ends.
+/// Adds a closed tube of `sides` corners around a line of points, flat ends included. 2 sides
+/// |line| - 4 triangles. Smooth around, sharp at the ends.
 inline void add_tube(Mesh& m, std::span<const Vec3> line, float radius, std::uint32_t sides) {
     const auto first = static_cast<std::uint32_t>(m.positions.size());
     const auto rings = static_cast<std::uint32_t>(line.size());

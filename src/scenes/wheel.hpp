@@ -8,7 +8,7 @@
 
 namespace mir::builtin {
 
-/// Section of a tyre of 0.335 m radius and 0.24 m width as (distance from the axle, x), clockwise
+/// Section of a tyre of 0.335 m radius and 0.24 m width. As (distance from the axle, x), clockwise
 /// from the inner bead on; between points `tread_begin` and `tread_end` it touches the road.
 struct TyreSection {
     static constexpr std::uint32_t tread_begin = 12;  ///< first point of the tread
@@ -30,7 +30,7 @@ struct TyreSection {
     }
 };
 
-/// Tyre about the x axis with a tread of blocks: four grooves around, and slanted cuts.
+/// Tyre about the x axis with a tread of blocks. Four grooves around, and slanted cuts.
 inline Mesh tyre(std::uint32_t rubber) {
     const std::uint32_t segments = 264;
     Mesh m = empty_mesh("tyre", rubber);
@@ -49,7 +49,7 @@ inline Mesh tyre(std::uint32_t rubber) {
     return smooth(std::move(m));
 }
 
-/// A rounded bar from `from` to `to` in the plane of the wheel, `half` wide across it, `depth`
+/// A rounded bar from `from` to `to` in the plane of the wheel. `half` wide across it, `depth`
 /// thick along the axle.
 inline Mesh spoke(std::uint32_t metal, Vec3 from, Vec3 to, float half, float depth) {
     const Vec3 along = 0.5f * (to - from);

@@ -5,7 +5,7 @@
 
 namespace mir::builtin {
 
-/// Woven wire: a parallelogram with corners p, p + a, p + a + b, p + b whose wires lie `mesh`
+/// Woven wire in a parallelogram. Its corners are p, p + a, p + a + b, p + b. Its wires lie `mesh`
 /// metres apart and pass over and under each other in turn.
 struct Fence {
     Vec3 p{0};               ///< a corner, metres

@@ -20,7 +20,7 @@ static_assert(!mir::KnownVisibility<mirtest::BruteForceVisibility>);
 static_assert(!mir::Visibility<Matrix::View>);
 static_assert(Matrix::View::group_size == mir::blocks::group_size);
 
-/// Brute force without its packet face.
+/// Brute force without its packet interface.
 struct Segments {
     static constexpr mir::Space space = mir::Space::host;
     mirtest::BruteForceVisibility brute;

@@ -69,12 +69,12 @@ check_options() {
     *) return 0 ;;
     esac
     case ${2:-} in
-    render | info | export | compare | devices) sub=$2 ;;
+    render | info | export | compare | devices | manual) sub=$2 ;;
     *) sub= ;;
     esac
     if [ ! -f "$work/help$sub" ]; then
         # shellcheck disable=SC2086
-        "$mir" $sub --help >"$work/help$sub"
+        "$mir" $sub --help-all >"$work/help$sub"
     fi
     for word in "$@"; do
         case $word in

@@ -116,7 +116,7 @@ check_links() {
 check_paths() {
     for page in $(pages); do
         # shellcheck disable=SC2016
-        grep -oE '`(include|src|backends|tools|tests|bench|examples|cmake|docs)/[^` ]*`' "$page" |
+        grep -oE '`(include|src|backends|tools|tests|bench|examples|cmake|python|docs)/[^` ]*`' "$page" |
             tr -d '`' | sort -u | while read -r path; do
                 [ -e "$path" ] || complain "$page names $path, which does not exist"
             done
@@ -143,14 +143,16 @@ section() {
 }
 
 check_options() {
-    for command in '' render info export compare devices; do
+    for command in '' render info export compare devices manual; do
         title=mir${command:+ $command}
+        # Without a command --help-all would tell the options of all.
+        help=--help${command:+-all}
         # shellcheck disable=SC2086
-        "$mir" $command --help | grep -E '^ +-' | sed 's/  *[^ -].*//' |
+        "$mir" $command $help | grep -E '^  -' | sed 's/  *[^ -].*//' |
             grep -oE -e '--[a-z][a-z-]*' | sort -u >"$work/help"
         section "$title" | grep -E '^\| `-' | cut -d'|' -f2 | grep -oE -e '--[a-z][a-z-]*' |
             sort -u >"$work/page"
-        [ -s "$work/help" ] || complain "$title --help shows no option"
+        [ -s "$work/help" ] || complain "$title $help shows no option"
         diff "$work/help" "$work/page" >"$work/diff" ||
             complain "options of '$title' (<) and docs/command_line.md (>) differ:
 $(grep '^[<>]' "$work/diff")"
@@ -186,7 +188,7 @@ check_names() {
 # Names in backquotes that look like those of code, with an underscore or a capital inside, occur in
 # the tree. Not those of options, nor of what other programs call so.
 check_words() {
-    set -- include src backends tools tests bench examples cmake docs/snippets CMakeLists.txt
+    set -- include src backends tools tests bench examples cmake python docs/snippets CMakeLists.txt
     { grep -rhI . "$@" && find "$@"; } | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$work/known"
     printf '%s\n' CornellBox libPyImath map_Ks map_Pr | sort -u - "$work/known" >"$work/all"
     for page in $(pages); do
@@ -211,20 +213,72 @@ check_columns() {
     done
 }
 
-# Words that no technical text of today has. Blocks of code, names in backquotes and titles in
-# quotes may hold them.
+# Words that no technical text of today has. In pages blocks of code, names in backquotes and titles
+# in quotes may hold them; in code only comments are looked at. First sentences of
+# `///` in public headers have at most 15 words.
 check_english() {
     words='anew|likewise|dear(er|est)?|foretold|foretell|but for|in place of|asked for w(as|ere)'
     words="$words|of which|thereof|whereof|therein|wherein|hitherto|henceforth|whilst|amongst|betwixt"
-    words="$words|who of (them|these|those)"
+    words="$words|who of|none but|save for|save that|lest|upon|so as to|hence|thence|albeit|shall"
+    words="$words|unless told"
+    # shellcheck disable=SC2016
+    spared='s/`[^`]*`//g; s/"[^"]*"//g; s/(any|all|none|some|most|each|both) of which//g'
     for page in $(pages); do
-        # shellcheck disable=SC2016
         awk '/^ *```/ { code = !code; print ""; next } { print code ? "" : $0 }' "$page" |
-            sed -E 's/`[^`]*`//g; s/"[^"]*"//g; s/(any|all|none|some|most|each|both) of which//g' |
-            grep -noiwE "$words" | while read -r found; do
+            sed -E "$spared" | grep -noiwE "$words" | while read -r found; do
                 complain "$page:${found%%:*}: \"${found#*:}\" is archaic"
             done
     done
+    comments >"$work/comments"
+    [ "$(wc -l <"$work/comments")" -gt 3000 ] || complain "comments of the code are not found"
+    cut -f 2 "$work/comments" | sed -E "$spared" | grep -noiwE "$words" | while read -r found; do
+        line=$(sed -n "${found%%:*}p" "$work/comments" | cut -f 1)
+        complain "$line: \"${found#*:}\" in a comment is archaic"
+    done
+    sed -n 's,^mir/,include/mir/,p' cmake/public_headers.txt | while read -r header; do
+        grep -E "^($header|backends/[a-z]*/$header):" "$work/comments"
+    done | awk -F '\t' '$3 != "" && $3 > 15 {
+        print $1 ": the first sentence has " $3 " words, at most 15 are read"
+    }' | while read -r line; do complain "$line"; done
+}
+
+# Every comment of the code as a line: FILE:LINE, text, and for those of `///` that stand alone the
+# number of words of the first sentence; between tabs. Line ends in a comment are blanks.
+comments() {
+    find include src backends tools -name '*.[ch]pp' -o -name '*.cu' -o -name '*.cuh' | sort |
+        xargs awk '
+        function flush(    first) {
+            if (text != "" && text !~ /SPDX/) {
+                first = text " "
+                sub(/\. .*/, "", first)
+                if (first ~ /^@/) first = ""
+                print place "\t" text "\t" (kind == "///" ? split(first, words, " ") : "")
+            }
+            text = ""
+        }
+        FNR == 1 { flush() }
+        match($0, /^ *\/\/\/?/) {
+            here = $0
+            sub(/^ */, "", here)
+            new = here ~ /^\/\/\// ? "///" : "//"
+            if (new != kind) flush()
+            kind = new
+            if (here ~ /^\/\/\/</) kind = "///<"
+            if (text == "") place = FILENAME ":" FNR
+            sub(/^\/\/\/?<? ?/, "", here)
+            gsub(/\t/, " ", here)
+            text = text == "" ? here : text " " here
+            next
+        }
+        { flush() }
+        / \/\/\/?</ {
+            text = $0
+            sub(/^.* \/\/\/?< ?/, "", text)
+            place = FILENAME ":" FNR
+            kind = "///<"
+            flush()
+        }
+        END { flush() }'
 }
 
 # docs/api.md: 40 names, each in the header that it links to, and the members of RenderSettings with
@@ -260,7 +314,8 @@ check_silence() {
 
 # The first two lines of a file of code name the licence.
 check_licence() {
-    find include src backends tools tests bench examples cmake docs CMakeLists.txt .ci ./*.sh -type f \
+    find include src backends tools tests bench examples cmake python docs CMakeLists.txt .ci ./*.sh \
+        -type f \
         \( -name '*.[ch]pp' -o -name '*.cu' -o -name '*.cuh' -o -name '*.py' -o -name '*.sh' \
         -o -name '*.cmake' -o -name CMakeLists.txt -o -path '.ci/run' \) >"$work/code"
     [ "$(wc -l <"$work/code")" -gt 100 ] || complain "no code is found"

@@ -53,7 +53,7 @@ RenderResult draw_on_backend(const Scene& scene, const RenderSettings& settings,
     int trees = 0;
     const auto make_tree = [&] {
         ++trees;
-        return mir::KdTree(geometry, {}, executor);
+        return std::make_shared<const mir::KdTree>(geometry, mir::KdTreeOptions{}, executor);
     };
     Frame frame(job, Host(executor), make_tree, options);
     RenderResult result = mir::render_vpls(frame);
@@ -76,7 +76,12 @@ RenderResult draw_split(const Scene& scene, const RenderSettings& settings,
     std::vector<std::unique_ptr<mir::RenderFrame>> parts;
     for (const BackendFrameOptions& of : options)
         parts.push_back(std::make_unique<Frame>(
-            job, Host(executor), [&] { return mir::KdTree(geometry, {}, executor); }, of));
+            job, Host(executor),
+            [&] {
+                return std::make_shared<const mir::KdTree>(geometry, mir::KdTreeOptions{},
+                                                           executor);
+            },
+            of));
     if (with_host) parts.push_back(mir::host_frame(job, traced, mir::HostScheduler::cpu_blocks));
     mir::SplitFrame frame(job, std::move(parts));
     return mir::render_vpls(frame);
@@ -242,7 +247,7 @@ TEST_CASE("A frame on a backend says how long its stages took") {
     const mir::StageSeconds& s = frame.statistics.seconds;
     for (const double seconds :
          {s.build, s.bound, s.bootstrap, s.sampling, s.gbuffer, s.visibility, s.response, s.direct,
-          s.reconstruction, s.ledger, s.film, s.guides, s.download, s.other})
+          s.reconstruction, s.light_budget, s.film, s.guides, s.download, s.other})
         CHECK(seconds > 0.0);
     double sum = 0.0;
     for (const mir::RenderStage& stage : mir::render_stages) sum += s.*stage.seconds;

@@ -18,6 +18,14 @@ install_mir(${SCRATCH}/prefix)
 # mir::io was compiled with nlohmann-json, and needs it no more.
 use_prefix(${SCRATCH}/prefix ${SCRATCH}/first -D CMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON)
 
+foreach(file IN ITEMS man/man1/mir.1 bash-completion/completions/mir zsh/site-functions/_mir
+                      fish/vendor_completions.d/mir.fish)
+    file(STRINGS ${SCRATCH}/prefix/share/${file} options REGEX "vpls")
+    if(NOT options)
+        message(FATAL_ERROR "share/${file} does not name the options of mir")
+    endif()
+endforeach()
+
 file(GLOB_RECURSE config ${SCRATCH}/prefix/*.cmake)
 foreach(file IN LISTS config)
     file(STRINGS ${file} absolute REGEX "${SCRATCH}|${MIR_SOURCE_DIR}|${MIR_BUILD_DIR}")

@@ -100,7 +100,7 @@ const std::array<Vpl, 4> places{{{{-0.4f, 1.201f, -0.3f}, {0, 1, 0}, {1, 1, 1}},
                                  {{-0.999f, 0.5f, 0.4f}, {1, 0, 0}, {1, 1, 1}},
                                  {{0.2f, 0.001f, -0.7f}, {0, 1, 0}, {1, 1, 1}}}};
 
-/// Hides the packet face of a visibility.
+/// Hides the packet interface of a visibility.
 struct SingleRays {
     static constexpr mir::Space space = mir::Space::host;
     mirtest::BruteForceVisibility inner;

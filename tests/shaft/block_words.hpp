@@ -7,7 +7,7 @@
 
 namespace mirtest {
 
-/// Words of a stage by the block face, laid out like those of ShaftPass.
+/// Words of a stage by the block interface, laid out like those of ShaftPass.
 inline std::vector<std::uint32_t> by_blocks(const ShaftStage& stage,
                                             const mir::CascadeLimits& limits = {},
                                             mir::InstructionSet set = mir::best_instruction_set()) {

@@ -10,21 +10,21 @@
 #include <cmath>
 #include <vector>
 
-// Forms that are kept, and what they do to the 32 segments of a pair, against hits_segment().
+// Planes that are kept, and what they do to the 32 segments of a pair, against hits_segment().
 
 namespace {
 
-using mir::FormRange;
-using mir::KeptForms;
+using mir::KeptPlanes;
 using mir::LaneGroup;
+using mir::PlaneRange;
 using mir::Vec3;
 
-using Words = std::array<std::uint32_t, sizeof(mir::SureForms) / 4>;
+using Words = std::array<std::uint32_t, sizeof(mir::SurePlanes) / 4>;
 
 constexpr float sigma = 0x1p-19f;
 const Vec3 apex(0.1f, -0.05f, 0.9f);
 
-/// A VPL, a cluster and triangles between them, of which forms were made.
+/// A VPL, a cluster and triangles between them, of which planes were made.
 class FormedPair {
  public:
     /// Triangles of about that size.
@@ -41,50 +41,50 @@ class FormedPair {
         for (std::uint32_t k = 0; k < triangles; ++k) add_triangle(k, middle.position, size);
     }
 
-    [[nodiscard]] std::uint32_t by_forms(FormRange range, std::uint32_t lit) const {
+    [[nodiscard]] std::uint32_t by_forms(PlaneRange range, std::uint32_t lit) const {
         const mirtest::HitRun run(hits_);
         const LaneGroup group;
         mir::PairSegments segments(group, run.view(), 32, pyramid_);
-        return segments.lit_behind(forms_, range, rows_.data(), lit);
+        return segments.lit_behind(planes_, range, rows_.data(), lit);
     }
-    [[nodiscard]] std::uint32_t by_triangles(FormRange range, std::uint32_t lit) const {
+    [[nodiscard]] std::uint32_t by_triangles(PlaneRange range, std::uint32_t lit) const {
         for (std::uint32_t k = 0; k < 32; ++k)
             for (std::uint32_t t = range.first; t < range.end; ++t)
                 if (mir::hits_segment(rows_[place(t)], apex, hits_[32 + k].position))
                     lit &= ~(1u << k);
         return lit;
     }
-    [[nodiscard]] const KeptForms& forms() const { return forms_; }
+    [[nodiscard]] const KeptPlanes& planes() const { return planes_; }
 
  private:
-    [[nodiscard]] static std::uint32_t place(std::uint32_t form) { return 38 - form; }
+    [[nodiscard]] static std::uint32_t place(std::uint32_t kept) { return 38 - kept; }
 
-    /// Every third has an edge across one of the segments, which forms are not sure of.
-    void add_triangle(std::uint32_t form, Vec3 towards, float size) {
-        const bool is_close = form % 3 == 0;
-        const Vec3 end = is_close ? hits_[32 + form].position : towards;
+    /// Every third has an edge across one of the segments, which planes are not sure of.
+    void add_triangle(std::uint32_t kept, Vec3 towards, float size) {
+        const bool is_close = kept % 3 == 0;
+        const Vec3 end = is_close ? hits_[32 + kept].position : towards;
         const Vec3 at = apex + (0.3f + 0.6f * random_.next()) * (end - apex);
         const auto aside = [&] { return size * mirtest::point_in_cube(random_); };
         const Vec3 a = at + aside();
         const Vec3 b = is_close ? at + (at - a) : at + aside();
-        rows_[place(form)] = mir::make_triangle_rows(a, b, at + aside());
-        mir::SegmentForms made;
-        static_cast<void>(mir::occlusion(rows_[place(form)], pyramid_, made));
-        forms_.put(form,
-                   mir::in_margins(made, mir::OcclusionMargins::plane * sigma,
-                                   mir::OcclusionMargins::hit_share),
-                   place(form));
+        rows_[place(kept)] = mir::make_triangle_rows(a, b, at + aside());
+        mir::ShadowPlanes made;
+        static_cast<void>(mir::occlusion(rows_[place(kept)], pyramid_, made));
+        planes_.put(kept,
+                    mir::in_margins(made, mir::OcclusionMargins::plane * sigma,
+                                    mir::OcclusionMargins::hit_share),
+                    place(kept));
     }
 
     mir::Random random_;
     std::vector<mir::Hit> hits_;
     mir::Pyramid pyramid_;
     std::vector<mir::TriangleRows> rows_ =
-        std::vector<mir::TriangleRows>(39);  ///< places are not those of forms
-    KeptForms forms_;
+        std::vector<mir::TriangleRows>(39);  ///< places are not those of planes
+    KeptPlanes planes_;
 };
 
-mir::SureForms numbered_forms(float n) {
+mir::SurePlanes numbered_planes(float n) {
     return {{n, n + 1, n + 2, n + 3},
             {n + 4, n + 5, n + 6, n + 7},
             {n + 8, n + 9, n + 10, n + 11},
@@ -93,22 +93,22 @@ mir::SureForms numbered_forms(float n) {
 
 }  // namespace
 
-TEST_CASE("Kept forms are what was put there, at all places and in any order") {
-    KeptForms forms;
-    for (std::uint32_t k = 0; k < KeptForms::capacity; ++k) {
-        const std::uint32_t at = k * 5 % KeptForms::capacity;
-        forms.put(at, numbered_forms(100.0f * static_cast<float>(at)), 1000 + at);
+TEST_CASE("Kept planes are what was put there, at all places and in any order") {
+    KeptPlanes planes;
+    for (std::uint32_t k = 0; k < KeptPlanes::capacity; ++k) {
+        const std::uint32_t at = k * 5 % KeptPlanes::capacity;
+        planes.put(at, numbered_planes(100.0f * static_cast<float>(at)), 1000 + at);
     }
-    forms.put(3, numbered_forms(7.0f), 77);
-    for (std::uint32_t at = 0; at < KeptForms::capacity; ++at) {
-        const mir::SureForms there = forms.get(at);
-        const mir::SureForms wanted =
-            numbered_forms(at == 3 ? 7.0f : 100.0f * static_cast<float>(at));
+    planes.put(3, numbered_planes(7.0f), 77);
+    for (std::uint32_t at = 0; at < KeptPlanes::capacity; ++at) {
+        const mir::SurePlanes there = planes.get(at);
+        const mir::SurePlanes wanted =
+            numbered_planes(at == 3 ? 7.0f : 100.0f * static_cast<float>(at));
         CHECK(std::bit_cast<Words>(there) == std::bit_cast<Words>(wanted));
-        CHECK(forms.triangle(at) == (at == 3 ? 77 : 1000 + at));
+        CHECK(planes.triangle(at) == (at == 3 ? 77 : 1000 + at));
     }
-    CHECK(FormRange{4, 4}.empty());
-    CHECK_FALSE(FormRange{4, 5}.empty());
+    CHECK(PlaneRange{4, 4}.empty());
+    CHECK_FALSE(PlaneRange{4, 5}.empty());
 }
 
 TEST_CASE("Segments of a pair are hidden where a triangle of the range hits them") {
@@ -121,7 +121,7 @@ TEST_CASE("Segments of a pair are hidden where a triangle of the range hits them
             const auto first = static_cast<std::uint32_t>(random.next() * 31.99f);
             const auto count = 1 + static_cast<std::uint32_t>(random.next() *
                                                               (31.99f - static_cast<float>(first)));
-            const FormRange range = k == 0 ? FormRange{0, 32} : FormRange{first, first + count};
+            const PlaneRange range = k == 0 ? PlaneRange{0, 32} : PlaneRange{first, first + count};
             const std::uint32_t lit = k % 3 == 0 ? ~0u : 0x0F0F3355u << k % 4;
             const std::uint32_t truth = pair.by_triangles(range, lit);
             wrong += pair.by_forms(range, lit) == truth ? 0 : 1;

@@ -83,9 +83,9 @@ TEST_CASE("compare has a help that names every option") {
     const Outcome help = compare({"--help"});
     CHECK(help.exit_code == 0);
     CHECK(help.err.empty());
-    for (const char* option :
-         {"--layer", "--html", "--error", "--json", "--max-rmse", "--max-relmse", "--max-flip",
-          "--max-mean-difference", "--epsilon", "--pixels-per-degree", "--exposure"})
+    for (const char* option : {"--second-reference", "--layer", "--html", "--error", "--json",
+                               "--max-rmse", "--max-relmse", "--max-flip", "--max-mean-difference",
+                               "--epsilon", "--pixels-per-degree", "--exposure"})
         CHECK(has(help.out, option));
 }
 
@@ -102,6 +102,7 @@ TEST_CASE("compare prints metrics for programs") {
                                               "mse",
                                               "relmse",
                                               "relmse_epsilon",
+                                              "scaled_relmse",
                                               "mae",
                                               "flip",
                                               "flip_exposures",
@@ -124,6 +125,13 @@ TEST_CASE("compare prints metrics for programs") {
     CHECK(m.at("rmse").get<double>() == Approx(std::sqrt(mse)));
     CHECK(m.at("relmse").get<double>() == Approx(mse / 0.26));
     CHECK(m.at("relmse_epsilon") == 0.01);
+    const json scaled = m.at("scaled_relmse");
+    const double light = 0.25 * 1.01;
+    CHECK(scaled.at("mean").get<double>() == Approx(mse / light));
+    // One of 384 pixels is the worst 0.5 %.
+    CHECK(scaled.at("trimmed").get<double>() == Approx(0.01 / light));
+    CHECK(scaled.at("worst_share") == 0.005);
+    CHECK(scaled.at("epsilon") == 0.01);
     CHECK(m.at("mae").get<double>() == Approx(((values - 1) * 0.1 + 2.0) / values));
     CHECK(m.at("mean_radiance").at("image").at(0).get<double>() == Approx(0.6));
     CHECK(m.at("mean_radiance").at("reference").at(2).get<double>() == Approx(0.5));
@@ -143,8 +151,9 @@ TEST_CASE("compare prints the same metrics for people, on standard output alone"
     const Outcome outcome = compare({p.a, p.b});
     CHECK(outcome.exit_code == 0);
     CHECK(outcome.err.empty());
-    for (const char* label : {"RMSE ", "relMSE ", "MAE ", "HDR-FLIP ", "LDR-FLIP ", "mean R, G, B ",
-                              "ratio of means ", "mean difference ", "2 (G of pixel 5, 7)"})
+    for (const char* label :
+         {"RMSE ", "relMSE ", "scaled relMSE ", "MAE ", "HDR-FLIP ", "LDR-FLIP ", "mean R, G, B ",
+          "ratio of means ", "mean difference ", "2 (G of pixel 5, 7)"})
         CHECK(has(outcome.out, label));
     CHECK(p.folder.files() == 2);
 }
@@ -172,6 +181,36 @@ TEST_CASE("compare reads the layer asked for, and options reach the metrics") {
     CHECK(dark.at("exposure") == -5.0);
     CHECK(dark.at("ldr_flip").get<double>() < usual.at("ldr_flip").get<double>());
     CHECK(dark.at("flip") == usual.at("flip"));
+}
+
+TEST_CASE("a second reference takes part in the scaled relMSE alone") {
+    const Pictures p;
+    const std::string second = store(p.folder / "second.exr", plain(0.7f));
+    const json one = metrics({p.a, p.b});
+    const json two = metrics({p.a, p.b, "--second-reference", second});
+    CHECK(two.at("second_reference") == second);
+    for (const char* key : {"mse", "relmse", "mae", "flip", "mean_radiance"})
+        CHECK(two.at(key) == one.at(key));
+    CHECK(two.at("scaled_relmse").at("trimmed").get<double>() ==
+          Approx(0.1 * -0.1 / (0.36 * 1.01)));
+    const json half = metrics({p.a, p.b, "--second-reference", second, "--layer", "half"});
+    CHECK(half.at("scaled_relmse").at("trimmed").get<double>() ==
+          Approx(two.at("scaled_relmse").at("trimmed").get<double>()));
+    const Outcome people = compare({p.a, p.b, "--second-reference", second});
+    CHECK(has(people.out, second));
+    CHECK(has(people.out, "noise of the references left out"));
+}
+
+TEST_CASE("a second reference is held to what the first is") {
+    const Pictures p;
+    const auto with = [&](const std::string& file) {
+        return Words{p.a, p.b, "--second-reference", file};
+    };
+    check_failure(compare(with("no.exr")), 3, "no.exr");
+    const std::string small = store(p.folder / "small.exr", Picture({3, 2}));
+    check_failure(compare(with(small)), 3, "small.exr has 3x2");
+    const std::string second = store(p.folder / "second.exr", plain(0.7f));
+    check_failure(compare(with(second) + Words{"--error", second}), 2, "would replace");
 }
 
 TEST_CASE("a limit that is passed gives code 1, is named, and leaves the results complete") {

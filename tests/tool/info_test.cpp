@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 
@@ -122,6 +123,22 @@ TEST_CASE("info reads OBJ and PLY, and names the place of what is wrong in them"
     std::ofstream(ply) << "ply\nformat ascii 1.0\nelement vertex 1000000000\nproperty float x\n"
                           "end_header\n1\n";
     check_failure(run_mir({"info", ply}), 3, "header, line 3: it announces 1000000000");
+}
+
+TEST_CASE("info and render say what one will see of what is not supported") {
+    const TemporaryFolder folder("info_effects");
+    const std::string obj = (folder / "scene.obj").string();
+    std::ofstream(obj) << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl glass\nf 1 2 3\n";
+    std::ofstream(folder / "a.mtl") << "newmtl glass\nillum 4\nKd 1 1 1\n";
+    const std::string name = "transparency (illum, Tf)";
+    const std::string words = "glass is opaque, in the colour of its material";
+    CHECK(info_json(obj).at("ignored").at(name) == 1);
+    CHECK(info_json(obj).at("visible_effects").at(name) == words);
+    const std::string line = "ignored: " + name + " (1): " + words + "\n";
+    CHECK(has(run_mir({"info", obj}).out, "  " + line));
+    Words render = small_render(folder / "a.exr", obj) + Words{"--sun", "0,0,1"};
+    render.erase(std::find(render.begin(), render.end(), "--quiet"));
+    CHECK(has(run_mir(render).err, "mir: " + obj + ": " + line));
 }
 
 TEST_CASE("the triangles of the shared scenes are those of their table") {

@@ -52,7 +52,7 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
         CHECK(seconds.at(key).get<double>() == 0.0);
     double sum = 0.0;
     for (const char* key : {"geometry", "build", "bound", "sampling", "gbuffer", "direct",
-                            "reconstruction", "ledger", "film", "guides", "hash", "other"}) {
+                            "reconstruction", "light_budget", "film", "guides", "hash", "other"}) {
         CHECK(seconds.at(key).get<double>() > 0.0);
         sum += seconds.at(key).get<double>();
     }

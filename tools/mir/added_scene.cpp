@@ -29,17 +29,17 @@ mir::Mesh ground_mesh(const mir::Bounds& bounds, std::uint32_t material) {
     return mesh;
 }
 
-/// `bounds` are counted from `origin`, which is a place of the file as those of `added` are.
+/// `bounds` count from `origin`, a place of the file like those of `added`.
 /// @throws mir::Error(invalid_argument) unless it looks somewhere.
 mir::Camera camera_of(const AddedScene& added, const mir::Bounds& bounds, mir::DVec3 origin) {
     const mir::Vec3 eye(*added.eye - origin);
     const mir::Vec3 target = added.look_at ? mir::Vec3(*added.look_at - origin) : bounds.centre();
-    const mir::Vec3 way = target - eye;
-    mir::expects(glm::length(way) > 0.0f && std::isfinite(glm::length(way)),
+    const mir::Vec3 direction = target - eye;
+    mir::expects(glm::length(direction) > 0.0f && std::isfinite(glm::length(direction)),
                  "the camera of --eye is where it looks at (it has no direction); move it, or "
                  "give another --look-at");
     // Straight up or down, the top of the picture is away from the viewer on the ground.
-    const bool upright = std::hypot(way.x, way.z) < 1e-4f * glm::length(way);
+    const bool upright = std::hypot(direction.x, direction.z) < 1e-4f * glm::length(direction);
     const mir::Vec3 up = upright ? mir::Vec3(0, 0, -1) : mir::Vec3(0, 1, 0);
     const float radians = added.fov * std::numbers::pi_v<float> / 180.0f;
     mir::Camera camera = mir::Camera::look_at(eye, target, up, radians);

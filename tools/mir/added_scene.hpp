@@ -6,7 +6,7 @@
 
 namespace mirtool {
 
-/// Puts the sun, the ground and the camera that were asked for into a scene, which may have none.
+/// Puts the sun, the ground and the camera that were asked for into a scene. It may have none.
 /// @throws mir::Error(invalid_argument) for a sun without direction, and a camera without.
 void add_to_scene(const AddedScene& added, SceneAndReport& loaded);
 

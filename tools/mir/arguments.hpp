@@ -7,11 +7,17 @@
 
 namespace mirtool {
 
-/// Declares the arguments of `mir render` but for the scene; what is given goes to `options`.
+/// Declares the arguments of `mir render` except for the scene. What is given goes to `options`.
 void add_render(CLI::App& app, RenderOptions& options);
+
+/// Declares those of them that say what the picture is, and not where it goes.
+void add_picture(CLI::App& app, RenderOptions& options);
 
 /// Declares those of them that say how light is found.
 void add_light(CLI::App& app, mir::RenderSettings& settings);
+
+/// Declares the argument that lets a scene name any file.
+void add_allow_outside(CLI::App& app, mir::Limits& limits);
 
 /// Declares the arguments that put an environment around a scene.
 void add_environment(CLI::App& app, EnvironmentOptions& options);

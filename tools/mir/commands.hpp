@@ -11,5 +11,6 @@ int run(const InfoOptions& options);
 int run(const ExportOptions& options);
 int run(const CompareOptions& options);
 int run(const DevicesOptions& options);
+int run(const ManualOptions& options);
 
 }  // namespace mirtool

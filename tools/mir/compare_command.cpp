@@ -48,6 +48,14 @@ std::vector<std::string> find_exceeded(const Comparison& c, const CompareOptions
     return exceeded;
 }
 
+/// From both references where there are two.
+mir::ScaledRelMse scaled_error(const Comparison& c, const CompareOptions& o) {
+    if (o.second_reference.empty()) return mir::scaled_rel_mse(c.image, c.reference);
+    const mir::Image<mir::Rgb> second = read_picture(o.second_reference, o.layer).image;
+    mir::check_comparable(c.image, second, o.image, o.second_reference);
+    return mir::scaled_rel_mse(c.image, c.reference, second);
+}
+
 Comparison compare(const CompareOptions& o, mir::Monitor& monitor) {
     Comparison c;
     Picture image = read_picture(o.image, o.layer);
@@ -58,6 +66,7 @@ Comparison compare(const CompareOptions& o, mir::Monitor& monitor) {
     c.reference_origin = reference.origin;
     mir::check_comparable(c.image, c.reference, o.image, o.reference);
     c.metrics = mir::compare_images(c.image, c.reference, o.epsilon);
+    c.scaled = scaled_error(c, o);
     c.exposure = o.exposure ? *o.exposure : mir::auto_exposure(c.reference);
     c.flip_exposures = mir::flip_exposures(c.reference);
     mir::TbbExecutor threads;

@@ -59,6 +59,12 @@ void add_origins(Rows& rows, const Comparison& c) {
     rows.emplace_back("origin of reference", place(c.reference_origin) + " m");
 }
 
+std::string scaled_text(const Comparison& c, const CompareOptions& o) {
+    return number(c.scaled.mean) + " (" + number(c.scaled.trimmed) + " without the worst " +
+           number(100.0 * mir::ScaledRelMseSettings{}.worst_share) + " % of the pixels" +
+           (o.second_reference.empty() ? ")" : "; noise of the references left out)");
+}
+
 Rows rows_of(const Comparison& c, const CompareOptions& o) {
     const mir::ImageMetrics& m = c.metrics;
     const mir::FlipExposures& e = c.flip_exposures;
@@ -66,11 +72,13 @@ Rows rows_of(const Comparison& c, const CompareOptions& o) {
               {"reference", o.reference},
               {"layer", o.layer.empty() ? "beauty" : o.layer},
               {"size", std::to_string(c.image.width()) + " x " + std::to_string(c.image.height())}};
+    if (!o.second_reference.empty()) rows.emplace_back("second reference", o.second_reference);
     add_origins(rows, c);
     rows.insert(rows.end(),
                 {{"RMSE", number(m.rmse())},
                  {"MSE", number(m.mse)},
                  {"relMSE", number(m.rel_mse) + " (epsilon " + number(o.epsilon) + ")"},
+                 {"scaled relMSE", scaled_text(c, o)},
                  {"MAE", number(m.mae)},
                  {"HDR-FLIP", number(c.flip) + " (" + std::to_string(e.count) + " exposures from " +
                                   number(e.start) + " to " + number(e.stop) + " EV)"},
@@ -82,8 +90,20 @@ Rows rows_of(const Comparison& c, const CompareOptions& o) {
 
 /// What was compared.
 Json head_of(const Comparison& c, const CompareOptions& o) {
-    return {{"version", mir::version}, {"image", o.image},         {"reference", o.reference},
-            {"layer", o.layer},        {"width", c.image.width()}, {"height", c.image.height()}};
+    Json head{{"version", mir::version}, {"image", o.image}, {"reference", o.reference}};
+    if (!o.second_reference.empty()) head["second_reference"] = o.second_reference;
+    head["layer"] = o.layer;
+    head["width"] = c.image.width();
+    head["height"] = c.image.height();
+    return head;
+}
+
+Json scaled_json(const Comparison& c) {
+    const mir::ScaledRelMseSettings settings;
+    return {{"mean", c.scaled.mean},
+            {"trimmed", c.scaled.trimmed},
+            {"worst_share", settings.worst_share},
+            {"epsilon", settings.epsilon}};
 }
 
 void add_flip(Json& out, const Comparison& c, const CompareOptions& o) {
@@ -107,6 +127,7 @@ Json json_of(const Comparison& c, const CompareOptions& o) {
     out["mse"] = m.mse;
     out["relmse"] = m.rel_mse;
     out["relmse_epsilon"] = o.epsilon;
+    out["scaled_relmse"] = scaled_json(c);
     out["mae"] = m.mae;
     add_flip(out, c, o);
     out["mean_radiance"] = {
@@ -142,7 +163,9 @@ void write_report(const Comparison& c, const CompareOptions& o,
 }  // namespace
 
 void check_outputs(const CompareOptions& o) {
-    check_output_places({o.image, o.reference}, {o.report, o.error}, "comparison");
+    std::vector<std::string> inputs{o.image, o.reference};
+    if (!o.second_reference.empty()) inputs.push_back(o.second_reference);
+    check_output_places(inputs, {o.report, o.error}, "comparison");
 }
 
 void write_outputs(const Comparison& c, const CompareOptions& o) {

@@ -3,6 +3,7 @@
 
 #include "mir/compare/hdr_flip.hpp"
 #include "mir/compare/metrics.hpp"
+#include "mir/compare/scaled_rel_mse.hpp"
 #include "options.hpp"
 
 #include <string>
@@ -17,6 +18,7 @@ struct Comparison {
     mir::DVec3 origin{0.0};            ///< from which positions of `image` are counted, metres
     mir::DVec3 reference_origin{0.0};  ///< and those of `reference`
     mir::ImageMetrics metrics;
+    mir::ScaledRelMse scaled;    ///< from two references where two were given
     mir::Image<float> flip_map;  ///< HDR-FLIP
     double flip = 0.0;           ///< mean of it
     double ldr_flip = 0.0;       ///< mean, at `exposure`
@@ -25,8 +27,8 @@ struct Comparison {
     std::vector<std::string> exceeded;  ///< metrics above their limits, as the JSON names them
 };
 
-/// Makes sure, before any work is done, that the files asked for can be written and that none of
-/// them would replace another or a picture to compare.
+/// Checks, before any work is done, that the files asked for can be written. None of them may
+/// replace another or a picture to compare.
 /// @throws mir::Error(io or invalid_argument).
 void check_outputs(const CompareOptions& options);
 

@@ -13,6 +13,23 @@ inline constexpr int exit_input = 3;
 inline constexpr int exit_no_device = 4;
 inline constexpr int exit_interrupted = 130;
 
+/// What an exit code means, for the manual page.
+struct ExitMeaning {
+    int code;
+    const char* words;
+};
+
+inline constexpr ExitMeaning exit_meanings[] = {
+    {exit_done, "Done"},
+    {exit_failure,
+     "Failed while running: a file cannot be written, memory is short; compare: a metric is beyond "
+     "its limit"},
+    {exit_usage, "Wrong usage: an unknown option, a value out of range"},
+    {exit_input,
+     "The scene or picture cannot be used: missing, broken, unsupported, without light"},
+    {exit_no_device, "The device that --backend names is not there"},
+    {exit_interrupted, "Interrupted; the picture of the finished passes is written"}};
+
 /// Exit code for a failure of the library.
 inline int exit_code_of(mir::ErrorCode code) {
     switch (code) {

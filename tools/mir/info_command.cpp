@@ -103,6 +103,9 @@ void print_json(const std::string& name, const SceneAndReport& loaded, bool acce
     out["cameras"] = cameras_of(r);
     if (loaded.scene.environment) out["environment"] = environment_of(*loaded.scene.environment);
     out["ignored"] = r.ignored;
+    out["visible_effects"] = Json::object();
+    for (const auto& [what, times] : r.ignored)
+        out["visible_effects"][what] = mir::visible_effect(what);
     out["notes"] = r.notes;
     out["remarks"] = r.remarks;
     if (accel) out["kd_tree"] = kd_tree_of(loaded.scene);
@@ -147,7 +150,7 @@ void print_text(const std::string& name, const SceneAndReport& loaded, bool acce
         std::printf("%s\n", c.index ? "" : " (not supported)");
     }
     for (const auto& [what, times] : r.ignored)
-        std::printf("  ignored: %s (%llu)\n", what.c_str(), static_cast<unsigned long long>(times));
+        std::printf("  ignored: %s\n", ignored_text(what, times).c_str());
     for (const std::string& note : r.notes) std::printf("  note: %s\n", note.c_str());
     for (const std::string& remark : r.remarks) std::printf("  remark: %s\n", remark.c_str());
     if (!accel) return;

@@ -9,8 +9,8 @@
 
 namespace mirtool {
 
-/// Number of insertions, deletions, replacements and swaps of neighbours that turn one word into
-/// the other, none of them touched twice (Damerau 1964, "optimal string alignment").
+/// Edit distance of two words, swaps of neighbours included. It counts insertions, deletions,
+/// replacements and swaps, none of them touched twice (Damerau 1964, "optimal string alignment").
 inline std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> before;  // the row of a prefix that is two letters shorter
     std::vector<std::size_t> above;

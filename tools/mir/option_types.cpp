@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "option_types.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
@@ -8,8 +9,8 @@
 namespace mirtool {
 namespace {
 
-/// Why CLI11 would not read a number as it is meant; empty when it would. It takes whole ones that
-/// begin with a zero for octal ones, or others.
+/// Why CLI11 would not read a number as meant; empty when it would. It takes whole ones that begin
+/// with a zero for octal ones, or others.
 std::string misread(const std::string& value) {
     const std::size_t sign = !value.empty() && (value[0] == '-' || value[0] == '+') ? 1 : 0;
     const bool has_zero = value.size() > sign + 1 && value[sign] == '0';
@@ -18,6 +19,8 @@ std::string misread(const std::string& value) {
 }
 
 }  // namespace
+
+void begin_group(CLI::App& app, const std::string& title) { app.option_defaults()->group(title); }
 
 CLI::Validator between(double low, double high, const std::string& text) {
     return {[=](std::string& value) {
@@ -52,6 +55,21 @@ std::optional<mir::DVec3> read_vector(const std::string& text) {
         begin = end + 1;
     }
     return v;
+}
+
+CLI::Option* add_words(CLI::App& app, const std::string& name, std::vector<std::string>& target,
+                       const std::vector<std::string>& words, const std::string& help) {
+    const std::string names = CLI::detail::join(words, "|");
+    return app.add_option(name, target, help)
+        ->delimiter(',')
+        ->check(CLI::Validator(
+            [words, names](const std::string& word) {
+                return std::find(words.begin(), words.end(), word) != words.end()
+                           ? std::string()
+                           : "'" + word + "' is unknown; choose some of " + names;
+            },
+            ""))
+        ->type_name(names);
 }
 
 CLI::Option* add_vector(CLI::App& app, const std::string& name, std::optional<mir::DVec3>& target,

@@ -10,10 +10,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mirtool {
 
-/// A number within [low, high], which `text` says in words; CLI11's own check prints bounds with
+/// Options that are added from now on stand under this title in the help.
+void begin_group(CLI::App& app, const std::string& title);
+
+/// A number within [low, high], which `text` says in words. CLI11's own check prints bounds with
 /// hundreds of digits.
 CLI::Validator between(double low, double high, const std::string& text);
 
@@ -47,6 +51,10 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target,
             help)
         ->type_name(names);
 }
+
+/// Some words of a list, separated by commas.
+CLI::Option* add_words(CLI::App& app, const std::string& name, std::vector<std::string>& target,
+                       const std::vector<std::string>& words, const std::string& help);
 
 /// Reads three finite numbers that are separated by commas.
 std::optional<mir::DVec3> read_vector(const std::string& text);

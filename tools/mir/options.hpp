@@ -84,9 +84,10 @@ struct ExportOptions {
 struct CompareOptions {
     std::string image;
     std::string reference;
-    std::string layer;   ///< empty: the beauty
-    std::string report;  ///< HTML; empty: none
-    std::string error;   ///< PNG or EXR of the signed error; empty: none
+    std::string second_reference;  ///< independent of the first; empty: none
+    std::string layer;             ///< empty: the beauty
+    std::string report;            ///< HTML; empty: none
+    std::string error;             ///< PNG or EXR of the signed error; empty: none
     double epsilon = mir::default_rel_mse_epsilon;
     float pixels_per_degree = mir::default_pixels_per_degree;
     std::optional<float> exposure;  ///< EV of pictures and LDR-FLIP; none: automatic
@@ -102,7 +103,14 @@ struct DevicesOptions {
     bool json = false;
 };
 
-using Command =
-    std::variant<RenderOptions, InfoOptions, ExportOptions, CompareOptions, DevicesOptions>;
+/// `mir manual`.
+struct ManualOptions {
+    enum class Language { man, bash, zsh, fish };
+
+    Language language = Language::man;
+};
+
+using Command = std::variant<RenderOptions, InfoOptions, ExportOptions, CompareOptions,
+                             DevicesOptions, ManualOptions>;
 
 }  // namespace mirtool

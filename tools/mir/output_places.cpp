@@ -14,14 +14,14 @@
 namespace mirtool {
 namespace {
 
-/// Device and number of what a name leads to, links followed; none where there is nothing.
+/// Device and number of what a name leads to, links followed. None where there is nothing.
 std::optional<std::string> number_of(const std::filesystem::path& path) {
     struct stat found {};
     if (stat(path.c_str(), &found) != 0) return std::nullopt;
     return std::to_string(found.st_dev) + ":" + std::to_string(found.st_ino);
 }
 
-/// Equal for names that lead to one file, or would: one folder may have several names.
+/// Equal for names that lead to one file, or would. One folder may have several names.
 std::string identity_of(const std::string& name) {
     if (const auto file = number_of(name)) return *file;
     std::error_code failure;

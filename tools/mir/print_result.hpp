@@ -10,8 +10,8 @@
 
 namespace mirtool {
 
-/// Names a file that was written on standard output, for scripts byte by byte as it is, for people
-/// as a terminal may show it.
+/// Names a file that was written on standard output. For scripts byte by byte, for people as a
+/// terminal may show it.
 inline void print_result(const std::string& name) {
     std::printf("%s\n", (isatty(STDOUT_FILENO) != 0 ? shown(name) : name).c_str());
 }

@@ -36,7 +36,7 @@ inline std::string sentence_of(const std::exception& e) {
     return "unexpected failure: " + shown(e.what());
 }
 
-/// Says why the program fails, on standard error, the first time that it is called: what follows
+/// Says why the program fails, on standard error, the first time that it is called. What follows
 /// from a failure is no news.
 inline void say_failure(const std::string& sentence) {
     static std::atomic<bool> is_said{false};
@@ -59,8 +59,8 @@ namespace detail {
     std::_Exit(exit_failure);
 }
 
-/// Files that the program opens would take the numbers of closed ones, and what is meant for people
-/// would be written into them.
+/// Opens the numbers of closed streams before files can take them. What is meant for people would
+/// be written into these files.
 inline void open_standard_streams() {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
         const bool is_closed = fcntl(descriptor, F_GETFD) < 0 && errno == EBADF;
@@ -79,7 +79,7 @@ inline void prepare_process() {
     std::set_terminate(detail::end_after_failure);
 }
 
-/// The exit code of a program that would end with `code`, once its results are written.
+/// The exit code of a program, once its results are written. It would end with `code`.
 inline int end_results(int code) {
     errno = 0;
     std::cout.flush();

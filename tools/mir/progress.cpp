@@ -79,7 +79,8 @@ void Progress::look(Clock::time_point now) {
     pace_.look(work_, std::chrono::duration<double>(now - pass_start_).count());
 }
 
-/// Where lines stay: a stage is told once it has lasted, and again from time to time.
+/// For outputs where lines stay: a stage is told when it has lasted. It is told again from time to
+/// time.
 bool Progress::is_due(Clock::time_point now) {
     constexpr std::chrono::seconds lasting(1);
     constexpr std::chrono::seconds from_time_to_time(10);

@@ -12,7 +12,7 @@
 
 namespace mirtool {
 
-/// Tells on stderr how a render gets on: on a terminal one line, rewritten five times a second;
+/// Tells on stderr how a render gets on. On a terminal one line, rewritten five times a second;
 /// elsewhere a line for each stage that lasts a second, and one every ten seconds. Stops with its
 /// life.
 class Progress {
@@ -48,7 +48,7 @@ class Progress {
 /// "light of VPLs 45 %, 172.0 M contributions/s, 3.2 s left".
 std::string progress_text(const mir::RenderWork& work, const mir::RenderPace& pace);
 
-/// Makes Ctrl-C cancel `monitor` for the life of the object; a second Ctrl-C ends the program.
+/// Makes Ctrl-C cancel `monitor` for the life of the object. A second Ctrl-C ends the program.
 class CancelOnInterrupt {
  public:
     explicit CancelOnInterrupt(mir::Monitor& monitor);

@@ -19,7 +19,7 @@ struct OutputPaths {
 /// The journal of --resume; empty without.
 std::string journal_of(const RenderOptions& options, const OutputPaths& paths);
 
-/// Decides the names and makes sure that all can be written, before any work is done.
+/// Decides the names and checks that all can be written, before any work.
 /// @throws mir::Error(io or invalid_argument).
 OutputPaths choose_outputs(const RenderOptions& options);
 
@@ -29,12 +29,6 @@ mir::PreviewLook preview_look(const RenderOptions& options, const mir::Image<mir
 /// Writes EXR and preview. Both appear complete or not at all.
 void write_outputs(const OutputPaths& paths, const mir::RenderResult& result,
                    const RenderOptions& options);
-
-/// What --sampler calls the sampler of a render; the integrator where there is none.
-const char* sampler_name(const mir::RenderSettings& settings);
-
-/// Contributions per second of everything that pairs of luxels and VPLs cost.
-double contributions_per_second(const mir::RenderStatistics& statistics);
 
 /// Largest resident set of the process so far.
 std::uint64_t peak_memory_bytes();

@@ -4,8 +4,10 @@
 #include "mir/core/math.hpp"
 #include "mir/core/number_text.hpp"
 #include "mir/core/printable.hpp"
+#include "mir/io/visible_effect.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace mirtool {
@@ -22,10 +24,15 @@ inline std::string place(mir::DVec3 v, int digits = 15) {
            mir::number_text(v.z, digits) + ")";
 }
 
-/// A name of a file or of something in one, as a terminal may show it.
+/// A name of or in a file, as a terminal may show it.
 inline std::string shown(const std::string& name) {
     constexpr std::size_t longest = 1000;
     return mir::printable(name, longest);
+}
+
+/// An entry of SceneReport::ignored and what one sees of it.
+inline std::string ignored_text(const std::string& what, std::uint64_t times) {
+    return what + " (" + std::to_string(times) + "): " + mir::visible_effect(what);
 }
 
 /// A share of 0..1 in percent.

@@ -9,7 +9,7 @@
 
 namespace mir::blocks {
 
-/// Radiance of the luxels of a group while VPLs are added to it, structure of arrays.
+/// Radiance of the luxels of a group, structure of arrays. VPLs are added to it.
 struct alignas(64) GroupRadiance {
     float r[group_size] = {};
     float g[group_size] = {};
@@ -26,7 +26,7 @@ struct LaneRun {
 };
 
 /// Lanes of one vector register. Where a group is several, compilers loop over them inside of the
-/// loop over VPLs, which then does anew for each VPL what depends on the luxel alone.
+/// loop over VPLs, which then repeats for each VPL what depends on the luxel alone.
 constexpr std::uint32_t lanes_shaded_by(InstructionSet set) {
     if (set == InstructionSet::avx512) return 16;
     return set == InstructionSet::avx2 ? 8 : 4;
@@ -42,11 +42,11 @@ struct WaysAhead {
     /// Sets those of luxel `k`.
     template <DistanceShading F>
     [[gnu::always_inline]] void find(std::uint32_t k, const Hit& hit, const Vpl& vpl) {
-        const Vec3 way = vpl.position - hit.position;
-        x.at[k] = way.x;
-        y.at[k] = way.y;
-        z.at[k] = way.z;
-        inverse.at[k] = F::inverse_distance(way);
+        const Vec3 offset = vpl.position - hit.position;
+        x.at[k] = offset.x;
+        y.at[k] = offset.y;
+        z.at[k] = offset.z;
+        inverse.at[k] = F::inverse_distance(offset);
     }
 };
 
@@ -57,11 +57,11 @@ template <DistanceShading F, std::uint32_t First, std::uint32_t Lanes>
     for (std::uint32_t k = 0; k < Lanes; ++k) ahead.find<F>(k, hits.load(k), vpl);
 }
 
-/// Adds the VPL to the luxels of a run whose bit is set in `lit`, which is the group's. Every lane
-/// is computed, so that the loop becomes one pass over vector registers. A root and a quotient wait
-/// for one another at the beginning of most shadings, and no processor looks far enough ahead to
-/// begin with the next VPL meanwhile: a DistanceShading finds ways and inverse distances of this
-/// VPL in `ahead`, which is then given those of the `next`.
+/// Adds the VPL to the luxels of a run whose `lit` bit is set. Every lane is computed, so that the
+/// loop becomes one pass over vector registers. A root and a quotient wait for one another at the
+/// beginning of most shadings, and no processor looks far enough ahead to begin with the next VPL
+/// meanwhile: a DistanceShading finds ways and inverse distances of this VPL in `ahead`, which is
+/// then given those of the `next`.
 template <std::uint32_t First, std::uint32_t Lanes, Shading F>
 [[gnu::always_inline]] inline void add_shaded(LaneRun<First, Lanes>, SoaView<const Hit> hits,
                                               SoaView<const typename F::Surface> surfaces, Vpl vpl,
@@ -75,10 +75,10 @@ template <std::uint32_t First, std::uint32_t Lanes, Shading F>
     for (std::uint32_t k = 0; k < Lanes; ++k) {
         Rgb c;
         if constexpr (DistanceShading<F>) {
-            const Vec3 way{ahead.x.at[k], ahead.y.at[k], ahead.z.at[k]};
+            const Vec3 offset{ahead.x.at[k], ahead.y.at[k], ahead.z.at[k]};
             const float inverse = ahead.inverse.at[k];
             ahead.find<F>(k, hits.load(k), next);
-            c = shade.at_distance(hits.load(k), surfaces.load(k), vpl, way, inverse);
+            c = shade.at_distance(hits.load(k), surfaces.load(k), vpl, offset, inverse);
         } else {
             c = shade(hits.load(k), surfaces.load(k), vpl);
         }

@@ -12,7 +12,7 @@
 
 namespace mir::blocks {
 
-/// What the luxels of a block have in common, for tests that throw whole blocks away. Every test is
+/// What a block's luxels have in common, for tests that reject whole blocks. Every test is
 /// lossless: it is true only if faces() is false for every luxel of the block. That needs no
 /// margin: rounding to the nearest keeps the order of numbers and is the same for both signs, so
 /// that the operations of faces() in their order, done to the ends of intervals, bound what faces()
@@ -40,9 +40,10 @@ struct BlockBounds {
     }
 
  private:
-    /// Upper bound of a dot product, as glm::dot() rounds it, of two vectors that lie in boxes. Of
-    /// each two products that comes first which may be infinite where the other is no number,
-    /// because differences overflowed: glm::max() forgets a second argument that is no number.
+    /// Upper bound of a dot product of two vectors that lie in boxes. It holds for glm::dot() with
+    /// its rounding. Of each two products that comes first which may be infinite where the other is
+    /// no number, because differences overflowed: glm::max() forgets a second argument that is no
+    /// number.
     static float largest_dot(Vec3 a_low, Vec3 a_high, Vec3 b_low, Vec3 b_high) {
         const Vec3 largest = glm::max(glm::max(a_low * b_low, a_low * b_high),
                                       glm::max(a_high * b_high, a_high * b_low));
@@ -50,7 +51,7 @@ struct BlockBounds {
     }
 };
 
-/// Bounds of a block, sixteen of its luxels at a time: a box for each lane, widened without a
+/// Bounds of a block, sixteen luxels at a time. There is a box for each lane, widened without a
 /// branch.
 class BoundsOfLanes {
  public:

@@ -7,7 +7,7 @@
 
 namespace mir::blocks {
 
-/// The shading that has the bits of `shade` and is fastest in loops that are compiled for `Set`.
+/// The fastest shading with the bits of `shade` in loops compiled for `Set`.
 template <InstructionSet Set, Shading F>
 [[nodiscard]] F compiled_for(const F& shade) {
     return shade;

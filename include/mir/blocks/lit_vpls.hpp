@@ -11,8 +11,8 @@
 
 namespace mir::blocks {
 
-/// VPLs of which is known which luxels of a block they light. The luxels of a vector register meet
-/// all of them before the next ones do, so that what a shading makes of a luxel alone is computed
+/// VPLs for which the lit luxels of a block are known. The luxels of a vector register meet all
+/// of them before the next ones do, so that what a shading makes of a luxel alone is computed
 /// once.
 class LitVpls {
  public:
@@ -31,13 +31,13 @@ class LitVpls {
         ++count_;
     }
 
-    /// Adds the light of all to luxels, `sums` having a place for each group, and forgets them.
-    /// For all of this the caller is compiled for `Set`.
+    /// Adds the light of all to luxels and forgets them. `sums` has a place for each group. For all
+    /// of this the caller is compiled for `Set`.
     template <InstructionSet Set, Shading F, class Hits>
     [[gnu::always_inline]] void shade(const LuxelBlock<F, Hits>& block, const F& shading,
                                       GroupRadiance* sums) {
         for (std::uint32_t group = 0; group < groups_per_block; ++group) {
-            // A copy, of which the compiler knows that no luxel is read from it.
+            // A copy: the compiler knows that no luxel is read from it.
             GroupRadiance sum = sums[group];
             shade_group<Set>(block, compiled_for<Set>(shading), group,
                              [&](std::uint32_t) -> GroupRadiance& { return sum; });
@@ -46,7 +46,7 @@ class LitVpls {
         count_ = 0;
     }
 
-    /// Adds what each does to the luxels of all groups: `sums` has a place for each VPL.
+    /// Adds what each does to the luxels of all groups. `sums` has a place for each VPL.
     template <InstructionSet Set, Shading F, class Hits>
     [[gnu::always_inline]] void shade_each(const LuxelBlock<F, Hits>& block, const F& shading,
                                            GroupRadiance* __restrict sums) {
@@ -57,7 +57,7 @@ class LitVpls {
     }
 
  private:
-    /// Adds VPL i to `sum_of(i)`, for each that a luxel of the group sees, and forgets which do.
+    /// Adds VPL i to `sum_of(i)` if a luxel of the group sees it. Forgets which do.
     template <InstructionSet Set, class Luxels, Shading F, class SumOf>
     [[gnu::always_inline]] void shade_group(const Luxels& block, const F& shading,
                                             std::uint32_t group, const SumOf& sum_of) {
@@ -77,8 +77,8 @@ class LitVpls {
             shade_runs<typename Run::Next>(block, shading, group, lighting, sum_of);
     }
 
-    /// The same for one run, VPLs in the order of their bits in `left`, which has some. The loop
-    /// always shades, so that what does not change in it may move out of it.
+    /// The same for one run, VPLs in the order of bits in `left`. It has some. The loop always
+    /// shades, so that what does not change in it may move out of it.
     template <class Run, class Luxels, Shading F, class SumOf>
     [[gnu::always_inline]] void shade_run(const Luxels& block, const F& shading,
                                           std::uint32_t group, std::uint64_t left,

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t group_size = PointPacket::width;
 inline constexpr std::uint32_t groups_per_block = BlockMask::packets;
 static_assert(groups_per_block * group_size == BlockedLayout::block_size);
 
-/// Calls `body` for each group of a block. Kept a loop, of which compilers make vectors: once they
-/// have unrolled it into sixteen numbers they do not.
+/// Calls `body` for each group of a block. Kept a loop, which compilers vectorise: once they have
+/// unrolled it into sixteen numbers they do not.
 template <class Body>
 [[gnu::always_inline]] inline void each_group(const Body& body) {
     // nvcc does not know the pragma.
@@ -41,7 +41,7 @@ struct HitBlock {
     std::uint32_t candidates[groups_per_block] = {};  ///< luxels that count, a bit each
     bool none_counts = true;                          ///< no bit is set in `candidates`
 
-    /// One of the blocks of a tile; luxel i of it counts if it sees something and `wanted(i)`.
+    /// One of the blocks of a tile. Luxel i of it counts if it sees something and `wanted(i)`.
     template <class Wanted>
     HitBlock(SoaView<const Hit> tile, Block b, const Wanted& wanted)
         : place(b), hits(starting_at(tile, first_luxel(b))) {
@@ -62,7 +62,7 @@ struct HitBlock {
     }
 };
 
-/// The same with bounds of the luxels that count, for tests that throw whole blocks away.
+/// The same with bounds of the luxels that count, for rejecting whole blocks.
 struct BoundedHitBlock : HitBlock {
     BlockBounds bounds;
 
@@ -99,7 +99,7 @@ struct LuxelBlock : Hits {
           surfaces(starting_at(tile_surfaces, first_luxel(b))) {}
 };
 
-/// Positions of a group as the packet face of Visibility wants them.
+/// Positions of a group as the packet interface of Visibility wants them.
 inline void load_points(SoaView<const Hit> group, PointPacket& points) {
     for (std::uint32_t k = 0; k < group_size; ++k) {
         const Vec3 p = group.load(k).position;
@@ -153,8 +153,9 @@ class BlockSight {
     const V& visibility_;
 };
 
-/// Finds the luxels of the block that count and see a VPL, from what is known; true if there are
-/// some. Both in one go: masks are stored half a vector at a time, and who reads them as one waits.
+/// Finds the luxels of the block that count and see a VPL. It knows visibility already; true if
+/// there are some. Both in one go: masks are stored half a vector at a time, and who reads them as
+/// one waits.
 template <KnownVisibility V>
 [[gnu::always_inline]] inline bool find_known(const HitBlock& block, VplIndex j, const V& known,
                                               BlockMask& lit) {

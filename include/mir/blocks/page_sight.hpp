@@ -12,7 +12,7 @@
 
 namespace mir::blocks {
 
-/// One page of a submitted tile: the grain of parallel work where visibility is asked for 256
+/// One page of a submitted tile. The grain of parallel work where visibility is asked for 256
 /// luxels at a time.
 struct PlacedPage {
     TileIndex tile = 0;  ///< of the image or band
@@ -25,7 +25,7 @@ inline void append_pages(std::vector<PlacedPage>& all, TileIndex index, const Ti
     for (std::uint32_t i = 0; i < pages.count(); ++i) all.push_back({index, pages[i]});
 }
 
-/// Which luxels of a page count, face and see VPLs, by a BlockVisibility that is asked for 256
+/// Which luxels of a page count, face and see VPLs, by a BlockVisibility. It is asked for 256
 /// luxels at a time: blocks of the image, or clusters where packets of the image reach across
 /// surfaces and once the page turned out to be worth sorting. The bits are those of the page's
 /// blocks, block by block. Nothing is prepared for VPLs that nobody faces.
@@ -35,7 +35,7 @@ class PageSight {
     static constexpr std::uint32_t most_vpls = PageClusters::most_vpls;  ///< at a time
     static_assert(most_vpls <= 32, "a word has a bit for each");
 
-    /// Of a page of a tile; the luxel in a slot of the page counts if it sees something and
+    /// Of a page of a tile. The luxel in a slot of the page counts if it sees something and
     /// `wanted(slot)`. The planes of `tile` and `visibility` must outlive it.
     template <class Wanted>
     PageSight(const SoaView<const Hit>& tile, const LuxelPage& page, const V& visibility,
@@ -47,9 +47,9 @@ class PageSight {
     PageSight& operator=(const PageSight&) = delete;
     ~PageSight() = default;
 
-    /// Asks for VPLs first .. first + count - 1, at most `most_vpls`, of which those count that
-    /// `matters(vpl)`: nobody sees the others. Returns which ones are seen by some luxel: bit k is
-    /// VPL first + k.
+    /// Asks for VPLs first .. first + count - 1, at most `most_vpls`; those with `matters(vpl)`
+    /// count: nobody sees the others. Returns which ones are seen by some luxel: bit k is VPL first
+    /// + k.
     template <VplSet P, class Matters>
     [[gnu::always_inline]] std::uint32_t look(const P& vpls, VplIndex first, std::uint32_t count,
                                               const Matters& matters) {
@@ -73,19 +73,19 @@ class PageSight {
         return seen;
     }
 
-    /// Luxels of block `b` of the page that see the `k`-th of the VPLs that were asked for last.
-    /// Only for those that look() returned a bit of: others may have no value.
+    /// Luxels of block `b` of the page that see the `k`-th VPL asked for last. Only for those that
+    /// look() returned a bit of: others may have no value.
     [[nodiscard]] BlockMask seen(std::uint32_t b, std::uint32_t k) const {
         return clusters_.get(b, k);
     }
 
  private:
-    /// How often a VPL has lit a packet in part before the page is sorted: about as much was asked
+    /// How often a VPL has lit a packet in part before the page is sorted. About as much was asked
     /// until then as sorting costs (docs/decisions/002).
     static constexpr std::uint32_t parted_packets_of_sort = 64;
 
-    /// 256 luxels of the page, and, once one of them faces a VPL, what the visibility knows of
-    /// them, which may refer to them: so it neither copies nor moves.
+    /// 256 luxels of the page and, once one faces a VPL, the prepared block. The block may refer to
+    /// them, so it neither copies nor moves.
     struct Cluster {
         BoundedHitBlock luxels;
         std::optional<typename V::Block> known;

@@ -36,7 +36,7 @@ inline void check_finite(const Image<Rgb>& image, const std::string& name) {
 
 }  // namespace detail
 
-/// Makes sure that two images can be compared: equal size, at least one pixel, finite numbers.
+/// Makes sure that two images can be compared. Equal size, at least one pixel, finite numbers.
 /// Pixels are counted from 0 at the top left.
 /// @throws Error(invalid_input) that calls the images by the names given.
 inline void check_comparable(const Image<Rgb>& image, const Image<Rgb>& reference,

@@ -25,7 +25,7 @@ inline Image<Rgb> difference(const Image<Rgb>& image, const Image<Rgb>& referenc
     return out;
 }
 
-/// The size of luminance that a picture of `errors` shows in full colour: the 99th percentile of
+/// The size of luminance that a picture of `errors` shows in full colour. The 99th percentile of
 /// the errors' absolute luminance among those that are not zero, so that a few outliers do not hide
 /// the rest; 0 when all are zero.
 inline float error_range(const Image<Rgb>& errors) {
@@ -61,7 +61,7 @@ inline Rgb magma(float t) {
 
 }  // namespace detail
 
-/// Picture of signed errors in linear light: grey where image and reference agree, towards red
+/// Picture of signed errors in linear light. Grey where image and reference agree, towards red
 /// where the image is brighter in luminance, towards blue where it is darker, in full colour from
 /// `range` on. A range of 0 shows the sign alone.
 inline Image<Rgb> signed_error_picture(const Image<Rgb>& errors, float range) {
@@ -79,7 +79,7 @@ inline Image<Rgb> signed_error_picture(const Image<Rgb>& errors, float range) {
     return picture;
 }
 
-/// Picture of a FLIP map in linear light: black for 0, over violet and orange to pale yellow for 1.
+/// Picture of a FLIP map in linear light. Black for 0, over violet and orange to pale yellow for 1.
 inline Image<Rgb> flip_picture(const Image<float>& errors) {
     Image<Rgb> picture(errors.extent());
     std::transform(errors.pixels().begin(), errors.pixels().end(), picture.pixels().begin(),

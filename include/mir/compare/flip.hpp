@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// Pixels per degree of visual angle of FLIP's usual observer, 67.02: 0.7 m in front of a screen of
+/// Pixels per degree of visual angle of FLIP's usual observer, 67.02. 0.7 m in front of a screen of
 /// 0.7 m with 3840 pixels across.
 inline constexpr float default_pixels_per_degree = 3840.0f * pi / 180.0f;
 
@@ -52,7 +52,7 @@ Image<float> feature_strength(const Image<float>& plane, const FilterWeights& de
     return strength;
 }
 
-/// Colour pipeline up to the colour difference: blur by contrast sensitivity, back to what a
+/// Colour pipeline up to the colour difference. Blur by contrast sensitivity, back to what a
 /// display can show, to a perceptually uniform space.
 template <Executor E>
 Image<Vec3> seen_colour(const Image<Rgb>& image, const FlipFilters& f, E& executor) {
@@ -95,7 +95,7 @@ inline float colour_error(Vec3 a, Vec3 b) {
                         : knee_error + (share - knee) / (1.0f - knee) * (1.0f - knee_error);
 }
 
-/// Error of every pixel: the colour error, raised where one image has an edge or point that the
+/// Error of every pixel. The colour error, raised where one image has an edge or point that the
 /// other lacks.
 template <Executor E>
 Image<float> flip_errors(const Percept& a, const Percept& b, E& executor) {
@@ -121,9 +121,10 @@ inline FlipFilters checked_flip_filters(float pixels_per_degree) {
 
 }  // namespace detail
 
-/// LDR-FLIP: for each pixel how much an observer notices who flips between two pictures on a
-/// display, 0 (nothing) to 1. Numbers are linear light of the display, not sRGB codes, and are
-/// clamped to 0..1. Symmetric. The result does not depend on the executor.
+/// LDR-FLIP: how visible the difference of two pictures is, pixel by pixel. It says how much an
+/// observer notices who flips between them on a display, 0 (nothing) to 1. Numbers are linear light
+/// of the display, not sRGB codes, and are clamped to 0..1. Symmetric. The result does not depend
+/// on the executor.
 /// @throws Error(invalid_input) as check_comparable(); Error(invalid_argument) when
 ///         `pixels_per_degree` is not within 1 to 1000.
 /// Source: Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom and Fairchild, "FLIP: A Difference

@@ -25,8 +25,8 @@ struct FlipExposures {
 
 namespace detail {
 
-/// Tone curve of HDR-FLIP, (a x^2 + b x) / (c x^2 + d x + e) of scene-referred x: Narkowicz's fit
-/// to ACES with its own exposure, 0.6.
+/// Tone curve of HDR-FLIP: Narkowicz's fit to ACES with its own exposure, 0.6. It is (a x^2 + b x)
+/// / (c x^2 + d x + e) of scene-referred x.
 struct AcesCurve {
     static constexpr float exposure = 0.6f;
     static constexpr float a = 2.51f, b = 0.03f, c = 2.43f, d = 0.59f, e = 0.14f;
@@ -58,7 +58,7 @@ inline Image<Rgb> tone_mapped(const Image<Rgb>& image, float exposure_ev) {
 
 }  // namespace detail
 
-/// Exposures for a reference: from the one that tames its brightest pixel to the one that shows its
+/// Exposures for a reference. From the one that tames its brightest pixel to the one that shows its
 /// median (the upper one of an even number; at least 2^-23, where more than half is black).
 /// @pre the image has a pixel.
 inline FlipExposures flip_exposures(const Image<Rgb>& reference) {
@@ -76,7 +76,7 @@ inline FlipExposures flip_exposures(const Image<Rgb>& reference) {
     return range;
 }
 
-/// HDR-FLIP: the largest LDR-FLIP of each pixel over a range of exposures, each tone mapped with
+/// HDR-FLIP: the largest LDR-FLIP of each pixel over a range of exposures. Each is tone mapped with
 /// Narkowicz's fit to ACES. Numbers are scene-referred and linear; negative ones count as 0. Not
 /// symmetric: the exposures are flip_exposures(reference). The result does not depend on the
 /// executor.

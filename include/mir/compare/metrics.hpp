@@ -33,7 +33,7 @@ struct ImageMetrics {
     /// Root of the mean squared error, L.
     [[nodiscard]] double rmse() const { return std::sqrt(mse); }
 
-    /// |mean - reference_mean| / |reference_mean| of the channel where it is largest; two zeros
+    /// |mean - reference_mean| / |reference_mean| of the channel where it is largest. Two zeros
     /// differ by 0, a mean of zero and another by infinity.
     [[nodiscard]] double mean_difference() const {
         double most = 0.0;
@@ -46,7 +46,7 @@ struct ImageMetrics {
     }
 };
 
-/// Epsilon of the relative squared error where none is given, L^2: where the reference is darker
+/// Epsilon of the relative squared error where none is given, L^2. Where the reference is darker
 /// than 0.1, differences count less than relatively. The value of Rousselle, Knaus and Zwicker,
 /// "Adaptive Sampling and Reconstruction using Greedy Error Minimization", 2011.
 inline constexpr double default_rel_mse_epsilon = 0.01;
@@ -73,7 +73,7 @@ inline void add_pixel(ImageMetrics& m, Rgb image, Rgb reference, double epsilon,
 
 }  // namespace detail
 
-/// Compares an image with its reference, pixel by pixel; sums are of doubles in row order.
+/// Compares an image with its reference, pixel by pixel. Sums are of doubles in row order.
 /// `epsilon` is that of ImageMetrics::rel_mse and not negative; with 0 a difference where the
 /// reference is black makes it infinite. Thread-safe.
 /// @throws Error(invalid_input) as check_comparable(), Error(invalid_argument) for the epsilon.

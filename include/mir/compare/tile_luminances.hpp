@@ -9,14 +9,14 @@
 
 namespace mir {
 
-/// Mean luminance of an image in square tiles, W m^-2 sr^-1 where the image is radiance.
+/// Mean luminance of an image in square tiles. In W m^-2 sr^-1 where the image is radiance.
 struct TileLuminances {
     std::uint32_t side = 1;    ///< of a tile, pixels; those at the right and below may be smaller
     Extent tiles;              ///< across and down
     std::vector<double> mean;  ///< row by row, each over the pixels of its own tile
 };
 
-/// At most `most` >= 1 tiles in each direction, of 8 pixels along a side or more.
+/// At most `most` >= 1 tiles in each direction. Sides have 8 pixels or more.
 inline TileLuminances tile_luminances(const Image<Rgb>& image, std::uint32_t most) {
     const auto parts = [](std::uint32_t whole, std::uint32_t part) {
         return (whole + part - 1) / part;

@@ -11,7 +11,7 @@
 #include "mir/concepts/visibility.hpp"
 #include "mir/concepts/vpl_set.hpp"
 
-/// The poorest legal model of each concept: it has what the concept names and nothing besides, not
+/// The poorest legal model of each concept. It has what the concept names and nothing else, not
 /// even a default constructor or an assignment. A generic function that compiles with these asks
 /// for no more than it says. They compute nothing useful and belong in tests, of this library and
 /// of code that extends it. All are safe to use from any thread.
@@ -84,7 +84,7 @@ struct DeviceVisibility : Value {
     [[nodiscard]] bool visible(Vec3, Vec3) const { return true; }
 };
 
-/// Visibility with the packet face.
+/// Visibility with the packet interface.
 struct PacketVisibility : Visibility {
     using Visibility::Visibility;
 
@@ -95,7 +95,7 @@ struct PacketVisibility : Visibility {
     }
 };
 
-/// Visibility with the block face.
+/// Visibility with the block interface.
 struct BlockVisibility : PacketVisibility {
     using PacketVisibility::PacketVisibility;
     using Block = Pinned;  ///< what block() finds: nothing
@@ -144,7 +144,7 @@ struct DistanceShading : Shading {
 
     /// 1/d, m^-1, if all lay a metre away.
     [[nodiscard]] static float inverse_distance(Vec3) { return 1.0f; }
-    /// What it adds at any distance; neither the way, metres, nor 1/d, m^-1, is looked at.
+    /// Radiance added at any distance. Neither the offset, metres, nor 1/d, m^-1, is read.
     [[nodiscard]] Rgb at_distance(const Hit&, const Surface&, const Vpl& vpl, Vec3, float) const {
         return vpl.intensity;
     }

@@ -69,8 +69,8 @@ concept BackendQueue = requires(Q q, const typename B::Event done,
     done.sync();
 };
 
-/// A machine that kernels run on: a copyable handle that hands out queues, memory of its own and
-/// host memory from which copies are fastest. It knows nothing about VPLs.
+/// A machine that kernels run on. It is a copyable handle that hands out queues, memory of its own
+/// and host memory from which copies are fastest. It knows nothing about VPLs.
 ///
 /// Axioms (tests/conformance/backend_suite.hpp):
 ///  1. the work of one queue happens in the order in which it was given;

@@ -38,12 +38,12 @@ concept Bsdf = WordCopyable<typename B::Params> &&
     { B::is_black(p) } -> std::same_as<bool>;
 };
 
-/// A Bsdf that finds once what it makes of a point and of `wo` for all directions of light, and
-/// rounds its sums of products as it is told (core/rounding.hpp): with
-/// o = B::outgoing<SeparateRounding>(p, n, wo), o(wi, n.wi) is eval(p, n, wi, wo) in every bit
-/// where `wo` lies above `n`; with FusedRounding it is the same function, rounded otherwise. The
-/// type of `o` names B as its Model: what derives from B may reflect otherwise, so that its base's
-/// does not count.
+/// A Bsdf that prepares a point and `wo` once for all directions of light. Its sums of products are
+/// rounded as the template argument says (core/rounding.hpp). With o =
+/// B::outgoing<SeparateRounding>(p, n, wo), o(wi, n.wi) is eval(p, n, wi, wo) in every bit where
+/// `wo` lies above `n`; with FusedRounding it is the same function, rounded differently. The type
+/// of `o` names B as its Model: a member inherited from a base is ignored, because a derived class
+/// may reflect differently.
 template <class B>
 concept PreparedBsdf = Bsdf<B> &&
     requires(const typename B::Params& p, Vec3 n, Vec3 wi, Vec3 wo, float cos_i) {

@@ -32,7 +32,7 @@ concept TiledGBuffer = requires(const T t, TileIndex i) {
     { t.view(i) } -> GBuffer;
 };
 
-/// A TiledGBuffer on the host whose tiles are runs of words, as they are copied to a device.
+/// A TiledGBuffer on the host whose tiles are runs of words. They can be copied to a device.
 template <class T>
 concept PackedGBuffer = TiledGBuffer<T> && requires(const T t, TileIndex i) {
     { t.hit_words_of(i) } -> std::same_as<std::span<const std::uint32_t>>;

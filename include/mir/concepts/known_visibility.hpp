@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// Visibility that was found before: which luxels of which tile face and see which VPL. It belongs
-/// to one G-buffer and one list of VPLs, whose intensities and surfaces may change.
+/// Visibility found before: which luxels of a tile face and see which VPL. It belongs to one
+/// G-buffer and one list of VPLs, whose intensities and surfaces may change.
 ///
 /// Axioms (tests/data/visibility_matrix_test.cpp):
 ///  1. sees(t, i, j) is faces() and visible() of luxel i of tile t and VPL j;
@@ -20,7 +20,7 @@ concept KnownVisibility = DeviceCopyable<V> &&
     { v.block_masks(t, block, j) } -> std::same_as<const std::uint16_t*>;
 };
 
-/// What a scheduler may be told about visibility: how to find out, or what was found.
+/// What a scheduler gets as visibility: rays to trace, or bits already traced.
 template <class V>
 concept VisibilitySource = Visibility<V> || KnownVisibility<V>;
 

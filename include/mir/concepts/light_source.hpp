@@ -9,7 +9,8 @@
 
 namespace mir {
 
-/// One light: from where it shines, in which directions, how much, and how likely each choice is.
+/// One light: where it shines from and to, how much, and how likely. Choices of places and
+/// directions have these odds.
 ///
 /// - `origin` says whether rays meet it, and `has_extent` whether a point or direction is drawn.
 /// - `sample(u, from)` is a point for a receiver at `from`: next-event estimation. `start(u, side)`

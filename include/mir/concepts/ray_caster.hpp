@@ -18,15 +18,15 @@ concept RayCaster = std::copy_constructible<R> && requires(const R r, Ray ray) {
     { r.closest_hit(ray) } -> std::same_as<std::optional<SurfacePoint>>;
 };
 
-/// A RayCaster that stops early: closest_hit(ray, reach) is closest_hit(ray) where that lies within
-/// `reach` metres; of what lies farther it may find nothing. Detected and used where present.
+/// A RayCaster that can stop early. closest_hit(ray, reach) is closest_hit(ray) where that lies
+/// within `reach` metres; beyond, it may find nothing. Detected and used where present.
 template <class R>
 concept ShortRayCaster = RayCaster<R> && requires(const R r, Ray ray, float reach) {
     { r.closest_hit(ray, reach) } -> std::same_as<std::optional<SurfacePoint>>;
 };
 
-/// The face of a RayCaster for kernels, which know no std::optional: find_point() writes what the
-/// ray sees first and says whether that is something.
+/// The interface of a RayCaster for kernels, which know no std::optional. find_point() writes what
+/// the ray sees first and returns whether there is anything.
 ///
 /// Axioms: those of RayCaster.
 template <class R>
@@ -35,8 +35,8 @@ concept PointFinder = DeviceCopyable<R> && requires(const R r, const Ray& ray, S
     { r.find_point(ray, p) } -> std::same_as<bool>;
 };
 
-/// Finds surface points in code that reads memory of space `S`: a PointFinder that reads it too or,
-/// on the host, any RayCaster.
+/// Finds surface points in code that reads memory of space `S`. Either a PointFinder that reads it
+/// too or, on the host, any RayCaster.
 template <class R, Space S>
 concept CastsRaysFrom = (PointFinder<R> && AccessibleFrom<R, S>) ||
                         (RayCaster<R> && !PointFinder<R> && S == Space::host);

@@ -9,9 +9,9 @@
 
 namespace mir {
 
-/// Finds the first triangle along a ray, from kernels: the face of a ray engine that knows nothing
-/// of surfaces. `triangle` of the answer is TriangleHit::none for rays that leave the scene.
-/// `hides` says whether a triangle lies between two points.
+/// Finds the first triangle along a ray, from kernels. The interface of a ray engine that knows
+/// nothing of surfaces. `triangle` of the answer is TriangleHit::none for rays that leave the
+/// scene. `hides` says whether a triangle lies between two points.
 ///
 /// Axioms: those of RayCaster, once the answer went through find_surface().
 template <class F>

@@ -8,15 +8,15 @@
 
 namespace mir {
 
-/// What a scheduler opens for one image: owns queues and buffers and dies with the call.
+/// What a scheduler opens for one image. Owns queues and buffers and dies with the call.
 template <class P>
 concept Pipeline = requires(P p, TileIndex t) {
     p.submit(t);  // may return before the tile is done
     p.finish();   // every submitted luxel is written, once
 };
 
-/// One of the arrangements in time of the paper's section 5: a value that opens pipelines.
-/// `Inputs` is mir::Inputs<...> of reconstruct.hpp.
+/// An arrangement in time of the paper's section 5, as a value that opens pipelines. `Inputs` is
+/// mir::Inputs<...> of reconstruct.hpp.
 ///
 /// Axioms (validation/scheduler.hpp): each luxel of each submitted tile is written
 /// exactly once; the order of tiles does not change the image; no VPLs give black; the image is

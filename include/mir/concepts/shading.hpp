@@ -22,10 +22,10 @@ concept Shading = DeviceCopyable<F> &&
     { f(h, s, v) } -> std::same_as<Rgb>;
 };
 
-/// Shading that can be told way and distance beforehand, which take a root and a quotient that most
-/// others wait for: with w = v.position - h.position, metres, f.at_distance(h, s, v, w,
-/// F::inverse_distance(w)) is f(h, s, v) in every bit. F declares it itself: what derives from such
-/// a shading may shade otherwise, so that its base's does not count.
+/// Shading that accepts a precomputed offset and inverse distance. Callers can so hide the latency
+/// of the square root and the division. With w = v.position - h.position, metres, f.at_distance(h,
+/// s, v, w, F::inverse_distance(w)) is f(h, s, v) in every bit. F itself must declare the member:
+/// an inherited one is ignored, because a derived class may shade differently.
 template <class F>
 concept DistanceShading = Shading<F> &&
     std::same_as<decltype(&F::at_distance), Rgb (F::*)(const Hit&, const typename F::Surface&,
@@ -34,8 +34,8 @@ concept DistanceShading = Shading<F> &&
     { F::inverse_distance(w) } -> std::same_as<float>;
 };
 
-/// Shading that finds once, in a type of its own, what it makes of a luxel for all VPLs: with
-/// p = f.prepared(h, s), f(p, v) is f(h, s, v) in every bit. F declares it itself, as a
+/// Shading that prepares a luxel once for all VPLs, in a type of its own. With p =
+/// f.prepared(h, s), f(p, v) is f(h, s, v) in every bit. F declares it itself, as a
 /// DistanceShading does.
 template <class F>
 concept PreparedShading = Shading<F> &&
@@ -45,15 +45,15 @@ concept PreparedShading = Shading<F> &&
     { f(p, v) } -> std::same_as<Rgb>;
 };
 
-/// Shading that is zero beyond a distance, so that whole blocks can be skipped without loss.
+/// Shading that is zero beyond a distance, so that whole blocks can be skipped.
 template <class F>
 concept ReachLimitedShading = Shading<F> && requires(const F f) {
     { f.reach_squared() } -> std::same_as<float>;
 };
 
-/// Shading that can tell from the surface alone that it reflects nothing, so that no ray is traced
-/// for it. `reflects` may only be false where every contribution is zero. It is also asked of empty
-/// luxels, whose surfaces mean nothing, and must not fail there.
+/// Shading that knows from the surface alone that it reflects nothing. No ray is traced then.
+/// `reflects` may only be false where every contribution is zero. It is also asked of empty luxels,
+/// whose surfaces mean nothing, and must not fail there.
 template <class F>
 concept SurfaceSelectiveShading = Shading<F> && requires(const F f, const typename F::Surface& s) {
     { f.reflects(s) } -> std::same_as<bool>;

@@ -34,11 +34,11 @@ struct alignas(64) PointPacket {
     float z[width];                             ///< metres
 };
 
-/// The packet face of Visibility: one origin against up to sixteen points. Bit i of the result is
-/// set when bit i of `active` is set and point i sees the origin.
+/// The packet interface of Visibility: one origin against up to sixteen points. Bit i of the result
+/// is set when bit i of `active` is set and point i sees the origin.
 ///
 /// Axiom: bit i equals visible(origin, point i). Engines of our own keep it always; Embree keeps it
-/// but for segments that touch an edge or a vertex to the last bit, where its packets and its
+/// except for segments that touch an edge or a vertex to the last bit, where its packets and its
 /// single rays may decide the tie differently (docs/validation.md has the measured rate).
 template <class V>
 concept PacketVisibility = Visibility<V> &&
@@ -46,7 +46,8 @@ concept PacketVisibility = Visibility<V> &&
     { v.visible_packet(origin, points, m) } -> std::same_as<std::uint32_t>;
 };
 
-/// Luxels of a block of 256, a bit each: word g is for the packet of luxels 16 g to 16 g + 15.
+/// A bit for each luxel of a block of 256. Word g belongs to the packet of luxels 16 g to 16 g +
+/// 15.
 struct alignas(64) BlockMask {
     static constexpr std::uint32_t luxels = 256;                           ///< bits of a mask
     static constexpr std::uint32_t packets = luxels / PointPacket::width;  ///< words of a mask
@@ -61,12 +62,12 @@ struct alignas(64) BlockMask {
     }
 };
 
-/// The block face of Visibility: one origin against up to 256 luxels, which is asked for many
-/// origins. What an engine wants to know about a block is found once, `block(luxels, set)`, from
-/// its luxels in planes, padded with empty ones, which must outlive it; `set` is the instruction
-/// set that its loops may use. Then visible_block(block, origin, mask) clears the bits of luxels
-/// that do not see the origin; no bit may be set of a luxel that is empty or not a number. A block
-/// may be shared by threads.
+/// The block interface of Visibility: one origin against up to 256 luxels. Each block is asked
+/// for many origins. `block(luxels, set)` prepares a block once, from its luxels in planes,
+/// padded with empty ones, which must outlive it; its loops may use the instruction set `set`.
+/// Then visible_block(block, origin, mask) clears the bits of luxels that do not see the
+/// origin; no bit may be set of a luxel that is empty or not a number. A block may be shared by
+/// threads.
 ///
 /// Axioms (tests/conformance/block_suite.hpp):
 ///  1. what is left is set in the mask that was given;

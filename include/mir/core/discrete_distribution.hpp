@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// Index of the first of `count` values that `holds` is true of, found by halving: it must be true
+/// Index of the first of `count` values that `holds` is true of, found by halving. It must be true
 /// of all behind that one. `count` if there is none.
 template <class T, class Predicate>
 MIR_HD std::uint32_t first_that(const T* values, std::uint32_t count, const Predicate& holds) {
@@ -55,8 +55,8 @@ struct DiscreteDistributionView {
         return static_cast<float>((cumulative[i] - before) / total);
     }
 
-    /// Where `u` lies among the numbers for which sample() picks `i`, in [0, 1): uniform when `u`
-    /// is and i = sample(u).
+    /// Where `u` lies among the numbers that sample() maps to `i`, in [0, 1). It is uniform when
+    /// `u` is and i = sample(u).
     [[nodiscard]] MIR_HD float place_in(std::uint32_t i, float u) const {
         const double before = i == 0 ? 0.0 : cumulative[i - 1];
         const double place = (static_cast<double>(u) * total - before) / (cumulative[i] - before);
@@ -65,7 +65,7 @@ struct DiscreteDistributionView {
     }
 };
 
-/// Picks an index with probability proportional to its weight, by binary search in the cumulative
+/// Picks an index with probability proportional to its weight. By binary search in the cumulative
 /// sum. Indices of weight zero are never picked. Immutable; const use from any thread.
 class DiscreteDistribution {
  public:

@@ -39,7 +39,7 @@ struct DiscreteDistribution2dView {
     }
 };
 
-/// Picks a cell of a grid with probability proportional to its weight: the row, then the column.
+/// Picks a cell of a grid with probability proportional to its weight. The row, then the column.
 /// Cells of weight zero are never picked. Immutable; const use from any thread.
 class DiscreteDistribution2d {
  public:

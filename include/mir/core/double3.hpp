@@ -13,7 +13,7 @@ MIR_HD inline double l1_norm(Double3 v) {
     return strict::add(strict::add(fabs(v.x), fabs(v.y)), fabs(v.z));
 }
 
-/// The smaller and the larger number of each axis, that of `a` where they are equal.
+/// The smaller and the larger number of each axis, of equal ones that of `a`.
 MIR_HD inline Double3 smaller_axes(Double3 a, Double3 b) {
     return {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z};
 }

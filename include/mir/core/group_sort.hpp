@@ -5,9 +5,9 @@
 
 namespace mir {
 
-/// Sorts every aligned run of `run` of the first `count` items, the smallest first, by a group.
-/// Both are powers of two, `count` is at least 64, `run` at least 2 and at most `count`. The items
-/// are in memory that all lanes reach; count log2(run)^2 / 4 comparisons.
+/// Sorts every aligned run of `run` items by a group, the smallest first. It takes the first
+/// `count` items. Both are powers of two, `count` is at least 64, `run` at least 2 and at most
+/// `count`. The items are in memory that all lanes reach; count log2(run)^2 / 4 comparisons.
 /// Source: Batcher, "Sorting networks and their applications", AFIPS 1968 (bitonic sort).
 template <class T>
 MIR_HD void sort_runs(const LaneGroup& group, T* items, std::uint32_t count, std::uint32_t run) {

@@ -8,9 +8,9 @@
 
 namespace mir {
 
-/// Up to N elements without any memory but its own, in the part of std::vector's interface that
-/// kernels need. Growing past N is the caller's error and not checked. Trivially copyable: a copy
-/// is one of all N elements.
+/// Up to N elements inside the object, with the kernels' part of std::vector's interface. Growing
+/// past N is the caller's error and not checked. Trivially copyable: a copy is one of all N
+/// elements.
 template <class T, std::uint32_t N>
 class InlineVector {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -9,11 +9,11 @@
 
 namespace mir {
 
-/// Thirty-two lanes that work in step: a warp of the device, a loop on the host. Kernels of
+/// Thirty-two lanes in step: a warp of the device, a loop on the host. Kernels of
 /// Backend::Queue::for_each_group() are written for all lanes at once: what differs from lane to
 /// lane is a PerLane, what each lane does a function of the lane's number, and everything else is
-/// the same for all, loops above all. Source, and the results of kernels that only combine lanes
-/// by the members below, are the same on both.
+/// the same for all, loops above all. Source, and the results of kernels that only combine lanes by
+/// the members below, are the same on both.
 ///
 /// Every member must be called by all lanes together: never inside of each(), nor behind a
 /// condition that differs between lanes.
@@ -22,7 +22,7 @@ class LaneGroup {
     static constexpr std::uint32_t width = 32;         ///< lanes
     static constexpr std::uint32_t all = 0xFFFFFFFFu;  ///< the bits of all lanes
 
-    /// Whether lanes are those of a warp, of which none is done before the others.
+    /// Whether lanes are those of a warp, none of them done before the others.
     static constexpr bool is_warp =
 #if defined(__CUDA_ARCH__)
         true;
@@ -110,7 +110,7 @@ class LaneGroup {
 #endif
     }
 
-    /// For each lane the value of the lane whose number, 0 to width - 1, it has in `from`.
+    /// For each lane the value of the lane that `from` names. Numbers are 0 to width - 1.
     [[nodiscard]] MIR_HD PerLane<std::uint32_t> gather(const PerLane<std::uint32_t>& values,
                                                        const PerLane<std::uint32_t>& from) const {
         PerLane<std::uint32_t> gathered;
@@ -122,7 +122,7 @@ class LaneGroup {
         return gathered;
     }
 
-    /// Replaces each value by the sum of those of the lanes before; returns the sum of all.
+    /// Replaces each value by the sum of those of the lanes before. Returns the sum of all.
     MIR_HD std::uint32_t sums_before(PerLane<std::uint32_t>& values) const {
 #if defined(__CUDA_ARCH__)
         const std::uint32_t own = values[0];
@@ -144,7 +144,7 @@ class LaneGroup {
 #endif
     }
 
-    /// All values, joined in pairs by `join`, in the same order on host and device: lane 0 with 16,
+    /// All values, joined in pairs by `join`, in the same order on host and device. Lane 0 with 16,
     /// 1 with 17 and so on, then 0 with 8.
     template <class T, class Join>
     [[nodiscard]] MIR_HD T combined(PerLane<T> values, const Join& join) const {
@@ -250,7 +250,7 @@ class LaneGroup {
     }
 
  private:
-    /// Integers in the order of the values: the device compares those of a warp in one instruction.
+    /// Integers in the order of the values. The device compares those of a warp in one instruction.
     [[nodiscard]] MIR_HD PerLane<std::int32_t> places_of(const PerLane<float>& values) const {
         PerLane<std::int32_t> places;
         each_apart([&](std::uint32_t lane) {

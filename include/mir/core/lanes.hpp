@@ -18,7 +18,7 @@ namespace mir::detail {
 
 inline constexpr std::uint32_t lane_count = 16;
 
-/// Bit k of lane k, from memory: not every instruction set shifts lanes by different counts.
+/// Bit k of lane k, from memory. Not every instruction set shifts lanes by different counts.
 inline constexpr auto lane_bits = [] {
     std::array<std::uint32_t, lane_count> bits{};
     for (std::uint32_t k = 0; k < lane_count; ++k) bits[k] = 1u << k;
@@ -86,7 +86,7 @@ inline std::uint32_t bits_of(const SlotTruths& truths) {
     const LaneTruths& truths) {
     return _mm512_movepi32_mask(_mm512_load_si512(truths.at));
 }
-/// Likewise.
+/// The same.
 [[gnu::target("avx512f,avx512dq,avx512bw,avx512vl")]] inline std::uint32_t bits_by_avx512(
     const SlotTruths& truths) {
     return _mm256_movepi32_mask(_mm256_load_si256(reinterpret_cast<const __m256i*>(truths.at)));
@@ -102,7 +102,7 @@ std::uint32_t bits_of(const Truths& truths) {
     return bits_of(truths);
 }
 
-/// One bit per lane: lane k where `test(k)`. A test without branches, `&` in place of `&&`, makes
+/// One bit per lane: lane k where `test(k)`. A test without branches, `&` instead of `&&`, makes
 /// one loop of it.
 template <InstructionSet Set = InstructionSet::baseline, class Test>
 std::uint32_t lanes_where(const Test& test) {

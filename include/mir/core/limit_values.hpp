@@ -16,7 +16,7 @@ struct Limits {
     std::uint64_t picture_bytes = 32ull << 30;     ///< of one render's picture, see picture_bytes()
     std::uint64_t file_bytes = 4ull << 30;         ///< of one input file
     std::uint64_t visibility_bytes = 8ull << 30;   ///< of stored visibility, with its luxels
-    /// Of the JSON of one glTF file, as far as something is read from it: numbers, texts and lists,
+    /// Of the JSON of one glTF file, as far as something is read from it. Numbers, texts and lists,
     /// and 4 or 24 more for what becomes a structure. One takes about 100 bytes at most, beside
     /// what a text holds.
     std::uint64_t json_values = 8'000'000;

@@ -13,7 +13,7 @@ namespace mir {
 struct Monitor {
     std::atomic<std::uint64_t> contributions{0};          ///< luxel-VPL pairs done
     std::atomic<std::uint64_t> planned_contributions{0};  ///< 0 until known
-    std::atomic<std::uint64_t> looping_contributions{0};  ///< of the present loop, done as it is
+    std::atomic<std::uint64_t> looping_contributions{0};  ///< of the present loop that are done
     std::atomic<std::uint64_t> gathers{0};                ///< of render_discs(): luxels done
     std::atomic<std::uint64_t> planned_gathers{0};        ///< times bounces; 0 until known
     std::atomic<std::uint32_t> bands{0};                  ///< of the image: begun

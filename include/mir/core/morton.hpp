@@ -9,7 +9,7 @@ namespace mir {
 
 namespace detail {
 
-/// Bits of the cells of a point of the unit cube, 2^bits on each axis, interleaved.
+/// Interleaved bits of the cells of a point of the unit cube. Each axis has 2^bits cells.
 MIR_HD inline std::uint64_t morton_code(Vec3 p, int bits) {
     const auto cells = static_cast<float>(1 << bits);
     std::uint64_t code = 0;
@@ -23,9 +23,9 @@ MIR_HD inline std::uint64_t morton_code(Vec3 p, int bits) {
 
 }  // namespace detail
 
-/// Place of a point of the unit cube along Morton's curve, below 2^30: points with similar codes
-/// are close to each other, and mostly the other way round. Points outside are clamped.
-/// Source: Morton 1966.
+/// Place of a point of the unit cube along Morton's curve, below 2^30. Points with similar codes
+/// are close to each other, and mostly the other way round. Points outside are clamped. Source:
+/// Morton 1966.
 MIR_HD inline std::uint64_t morton_code(Vec3 p) { return detail::morton_code(p, 10); }
 
 /// The same in cells of 2^-21, below 2^63.

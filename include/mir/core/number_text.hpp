@@ -17,20 +17,20 @@ inline std::string print_number(double value, std::chars_format format, int prec
 
 }  // namespace detail
 
-/// A number in up to `digits` digits, at most 100, as printf's "%.6g" writes it in the locale "C",
-/// whatever locale the program has chosen: with a point and without groups. 17 tell every double,
-/// 9 every float.
+/// A number in up to `digits` digits, at most 100, like "%.6g". As in the locale "C", whatever
+/// locale the program has chosen: with a point and without groups. 17 tell every double, 9 every
+/// float.
 inline std::string number_text(double value, int digits = 6) {
     return detail::print_number(value, std::chars_format::general, digits);
 }
 
-/// A number with so many digits behind the point, at most 100, as "%.2f" writes it in the
-/// locale "C".
+/// A number with so many digits behind the point, at most 100. As "%.2f" writes it in the locale
+/// "C".
 inline std::string fixed_text(double value, int digits = 0) {
     return detail::print_number(value, std::chars_format::fixed, digits);
 }
 
-/// A number in as few characters as tell it from every other double, in any
+/// A number in the fewest characters that identify the double, in any
 /// locale.
 inline std::string shortest_text(double value) {
     std::array<char, 32> text{};

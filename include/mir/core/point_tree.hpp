@@ -26,7 +26,7 @@ class PointTree {
         build(0, nodes_.size());
     }
 
-    /// Square of the distance to the k-th nearest point, from 1; a point at `from` itself counts.
+    /// Square of the distance to the k-th nearest point, from 1. A point at `from` itself counts.
     /// @throws Error(invalid_argument) unless there are k points.
     [[nodiscard]] float kth_distance_squared(Vec3 from, std::uint32_t k) const {
         expects(k >= 1 && k <= nodes_.size(),

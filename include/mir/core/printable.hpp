@@ -10,7 +10,7 @@
 namespace mir {
 namespace detail {
 
-/// A character at the front of a text; `bytes` is 0 where the text begins with no UTF-8.
+/// A character at the front of a text. `bytes` is 0 where the text begins with no UTF-8.
 struct CodePoint {
     std::uint32_t value = 0;
     std::size_t bytes = 0;
@@ -37,7 +37,7 @@ inline CodePoint first_code_point(std::string_view text) {
     return overlong || surrogate || value > 0x10ffff ? CodePoint{} : CodePoint{value, bytes};
 }
 
-/// True for what a terminal obeys or what changes the order of the letters around it: C0, DEL, C1,
+/// True for what a terminal obeys or what reorders the letters around it. That is C0, DEL, C1,
 /// controls of writing direction, and separators of lines and paragraphs.
 inline bool is_control(std::uint32_t code) {
     const auto within = [code](std::uint32_t low, std::uint32_t high) {
@@ -64,13 +64,13 @@ inline std::string escaped_control(std::uint32_t code) {
 
 }  // namespace detail
 
-/// `text`, which may come from a stranger's file, as it can be shown in a terminal, a message or a
-/// report: one line of valid UTF-8 without controls. Those become `\n`, `\t`, `\r`, `\x1b` or
+/// `text` in a form safe for a terminal, a message or a report. It may come from a stranger's file
+/// and becomes one line of valid UTF-8 without controls. Those become `\n`, `\t`, `\r`, `\x1b` or
 /// `\u202e`, bytes that are no UTF-8 `\xff`; everything else stays, backslashes too. What is then
 /// longer than `longest` bytes ends in "... (N bytes)", N being the size of `text`, and has
-/// `longest` bytes with that, or fewer, so that no character is cut; at least that ending. What was
-/// made printable stays as it is when it is made so again, by no smaller `longest`.
-/// Throws nothing but std::bad_alloc.
+/// `longest` bytes with that, or fewer, so that no character is cut; at least that ending. Making
+/// printable text printable again changes nothing, for no smaller `longest`. Throws nothing but
+/// std::bad_alloc.
 inline std::string printable(std::string_view text, std::size_t longest = 200) {
     const std::string ending = "... (" + std::to_string(text.size()) + " bytes)";
     const std::size_t room = longest - std::min(longest, ending.size());

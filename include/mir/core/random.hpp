@@ -40,8 +40,8 @@ struct Bits128 {
     friend MIR_HD constexpr bool operator==(const Bits128&, const Bits128&) = default;
 };
 
-/// Philox 4x32 with 10 rounds: 128 random bits from a 128-bit counter and a 64-bit key.
-/// Source: Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011.
+/// Philox 4x32 with 10 rounds. 128 random bits from a 128-bit counter and a 64-bit key. Source:
+/// Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011.
 MIR_HD constexpr Bits128 philox4x32(Bits128 counter, std::uint64_t key) {
     std::uint32_t c0 = counter.word[0], c1 = counter.word[1];
     std::uint32_t c2 = counter.word[2], c3 = counter.word[3];
@@ -64,8 +64,8 @@ MIR_HD constexpr float to_unit_float(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;
 }
 
-/// Counter-based source of uniform numbers in [0, 1): the i-th number is a pure function of
-/// (seed, stream, index, i), on any machine and in any order. A small value; not shared by threads.
+/// Counter-based source of uniform numbers in [0, 1). The i-th number is a pure function of (seed,
+/// stream, index, i), on any machine and in any order. A small value; not shared by threads.
 class Random {
  public:
     /// `index` names the consumer inside the stream, for example the luxel or the light path.
@@ -104,7 +104,7 @@ class Random {
     Bits128 block_{};
 };
 
-/// Random::at() for who asks for neighbouring dimensions one after the other: the last four numbers
+/// Random::at() for who asks for neighbouring dimensions one after the other. The last four numbers
 /// are kept, because making one costs as much as making four. Not shared by threads.
 class NearbyNumbers {
  public:

@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Standard allocator whose containers leave new elements unwritten, where no value is given: who
+/// Standard allocator whose containers leave new elements unwritten, where no value is given. Who
 /// fills them touches their pages first, on as many threads as they like. For plain values only.
 /// Thread-safe.
 template <class T>

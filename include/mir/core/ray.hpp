@@ -14,8 +14,8 @@ struct Ray {
 /// Where a ray met the scene. Normals are unit: the geometric one against the ray, the other on its
 /// side. `front` says whether that is the side on which vertices turn counter-clockwise.
 struct SurfacePoint {
-    /// World space, metres: on the surface, not lifted, and off the triangle's edges by four times
-    /// `offset` where the triangle is wide enough (GeometryView::place()).
+    /// World space, metres; on the surface, not lifted. It keeps off the triangle's edges by four
+    /// times `offset` where the triangle is wide enough (GeometryView::place()).
     Vec3 position{0};
     /// Distance by which segments that leave it are lifted, metres; lift() takes at least
     /// least_offset().
@@ -33,14 +33,14 @@ struct SurfacePoint {
     bool mirrored_texture = false;  ///< u, v and the front's normal are left-handed with v up
 };
 
-/// Lifts a point off its surface by `offset` metres along the unit normal of the side it is seen
-/// from, so that segments leaving it do not meet the surface again. `offset` is that of the point:
+/// Lifts a point off its surface so that segments leaving it miss the surface. It moves by `offset`
+/// metres along the unit normal of the side it is seen from. `offset` is that of the point:
 /// GeometryView::offset_at().
 MIR_HD inline Vec3 lift(Vec3 position, Vec3 normal, float offset) {
     return position + offset * normal;
 }
 
-/// Least distance, metres, by which a point at `position` may be lifted: more than twice what
+/// Least distance, metres, by which a point at `position` may be lifted. It is more than twice what
 /// rounding displaces a plane and a point there (accel/detail/thick_triangle.hpp).
 MIR_HD inline float least_offset(Vec3 position) { return 0x1p-19f * max_abs(position); }
 
@@ -49,8 +49,8 @@ MIR_HD inline Vec3 lift(const SurfacePoint& p) {
     return lift(p.position, p.geometric_normal, larger(p.offset, least_offset(p.position)));
 }
 
-/// Moves a point that a ray met at the distance `t`, metres, so that segments leave it on the ray
-/// before it arrives: four offsets before the surface's plane, but not before half of the way.
+/// Moves a point that a ray met at `t`, metres, back along the ray. It then lies four offsets
+/// before the surface's plane, but at most half of the distance back.
 MIR_HD inline void leave_on_ray(SurfacePoint& p, const Ray& ray, float t) {
     p.offset = larger(p.offset, least_offset(p.position));
     const float cosine = larger(fabsf(glm::dot(p.geometric_normal, ray.direction)), 1e-6f);

@@ -17,9 +17,10 @@ struct SeparateRounding {
     [[nodiscard]] MIR_HD static float mul_add(float a, float b, float c) { return a * b + c; }
 };
 
-/// Sums of products that are rounded once: two thirds of the operations, with the same bits on
-/// every processor and device. Code for any x86-64, which has no such instruction, calls a function
-/// of the C library for each: host loops want run_with(), and FusedRoundingFor its `set`.
+/// Sums of products that are rounded once. That is two thirds of the operations, with the same bits
+/// on every processor and device. Code for any x86-64, which has no such instruction, calls a
+/// function of the C library for each: host loops should use run_with(), and FusedRoundingFor of
+/// its `set`.
 struct FusedRounding {
     /// a * b + c, rounded once.
     [[nodiscard]] MIR_HD static float mul_add(float a, float b, float c) {
@@ -27,12 +28,12 @@ struct FusedRounding {
     }
 };
 
-/// The bits of FusedRounding by double precision alone, for loops in vector registers without fused
-/// operations: sums below 2^127, of products that no double underflows for.
+/// The bits of FusedRounding by double precision alone. For loops in vector registers without fused
+/// operations, sums below 2^127, and products that do not underflow in double.
 struct SimulatedFusedRounding {
-    /// a * b + c, rounded once. The product of two floats is a double; the sum is one but for
+    /// a * b + c, rounded once. The product of two floats is a double; the sum is one apart from
     /// `error`. It decides where the sum lies in the middle of two floats, and nowhere else.
-    // Inlined by force: a call would keep loops from being vectorised.
+    /// Inlined by force: a call would keep loops from being vectorised.
     [[nodiscard, gnu::always_inline]] MIR_HD static float mul_add(float a, float b, float c) {
         const double product = static_cast<double>(a) * static_cast<double>(b);
         const double addend = c;
@@ -49,7 +50,7 @@ struct SimulatedFusedRounding {
     }
 };
 
-/// FusedRounding as it is fastest in host loops that are compiled for `Set`.
+/// FusedRounding in its fastest form for host loops compiled for `Set`.
 template <InstructionSet Set>
 using FusedRoundingFor =
 #if defined(__FP_FAST_FMAF)

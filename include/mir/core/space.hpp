@@ -8,7 +8,7 @@ namespace mir {
 /// Where the memory behind a view lives. `any`: a value without pointers, usable on both sides.
 enum class Space { host, device, any };
 
-/// A value that may be passed to a kernel: its bytes are all there is to it.
+/// A value that may be passed to a kernel. Its bytes are all there is to it.
 template <class T>
 concept DeviceCopyable = std::is_trivially_copyable_v<T>;
 

@@ -10,7 +10,7 @@ namespace mir::loose {
 // Operations whose last bits may differ between host and device: for decisions that carry their own
 // margin, such as the order in which a traversal visits cells.
 
-/// 1 / a with a relative error of at most 2^-22; `a` between 2^-120 and 2^120 in size.
+/// 1 / a with a relative error of at most 2^-22. `a` between 2^-120 and 2^120 in size.
 [[nodiscard]] MIR_HD inline float rough_reciprocal(float a) {
 #if defined(__CUDA_ARCH__)
     float estimate = 0.0f;
@@ -21,7 +21,7 @@ namespace mir::loose {
 #endif
 }
 
-/// 1 / a with a relative error below 2^-23; `a` between 2^-120 and 2^120 in size.
+/// 1 / a with a relative error below 2^-23. `a` between 2^-120 and 2^120 in size.
 [[nodiscard]] MIR_HD inline float reciprocal(float a) {
 #if defined(__CUDA_ARCH__)
     const float estimate = rough_reciprocal(a);
@@ -175,7 +175,7 @@ namespace mir::strict {
 #endif
 }
 
-/// 1 / a, rounded once, of a number from 2^-110 to 2^110 in size; see usual_sqrt().
+/// 1 / a, rounded once, of a number from 2^-110 to 2^110 in size. See usual_sqrt().
 [[nodiscard]] MIR_HD inline float usual_reciprocal(float a) {
 #if defined(__CUDA_ARCH__)
     const float estimate = loose::rough_reciprocal(a);

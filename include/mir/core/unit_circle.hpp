@@ -5,7 +5,7 @@
 
 namespace mir {
 
-/// Point of the unit circle after `turns` whole turns from (1, 0): cosine and sine of 2 pi turns.
+/// Point of the unit circle after `turns` whole turns from (1, 0). Cosine and sine of 2 pi turns.
 /// Absolute error of either below 1.5e-7 for |turns| < 2^21; exact at multiples of a quarter. Made
 /// of products and sums in a fixed order, so equal in bits on every machine where none are fused
 /// (docs/embedding.md): the sine and cosine of a math library are not, and one differing bit sends

@@ -47,7 +47,7 @@ MIR_HD inline Vec3 square_to_cone(Vec2 u, float cos_max) {
 /// Its density, per steradian.
 MIR_HD inline float cone_pdf(float cos_max) { return 1.0f / (2.0f * pi * (1.0f - cos_max)); }
 
-/// Barycentric coordinates (of the second and third vertex) uniform over a triangle; the density is
+/// Uniform barycentric coordinates (of the second and third vertex) of a triangle. The density is
 /// one over its area. Folding keeps the map continuous almost everywhere and needs no square root.
 MIR_HD inline Vec2 square_to_triangle(Vec2 u) {
     if (u.x + u.y > 1.0f) return {1.0f - u.x, 1.0f - u.y};

@@ -9,10 +9,11 @@
 
 namespace mir {
 
-/// The picks of one block: a number for each node of a cut and each group of luxels, by which the
-/// node picks a VPL. Numbers of one node are stratified over the groups: neighbouring luxels, and
-/// those of a pixel before all, pick from parts of the node that lie far apart, so that their mean
-/// is better than that of independent picks. Each number alone is uniform.
+/// The picks of one block: a number for each node and group. The nodes are those of a cut, the
+/// groups those of luxels; by the number the node picks a VPL. Numbers of one node are stratified
+/// over the groups: neighbouring luxels, and those of a pixel before all, pick from parts of the
+/// node that lie far apart, so that their mean is better than that of independent picks. Each
+/// number alone is uniform.
 class CutPicks {
  public:
     /// `numbers` names the block. The cut may have 2^31 nodes.
@@ -39,8 +40,8 @@ class CutPicks {
                                                                   << 28;
     }
 
-    /// Sixteenth of a node from which a group picks, before the digital shift of the node. Groups
-    /// are the places in squares of 4 x 4 luxels: those of each square of 2 x 2 get a quarter each.
+    /// Sixteenth of a node from which a group picks, before the digital shift. Groups are the
+    /// places in squares of 4 x 4 luxels: those of each square of 2 x 2 get a quarter each.
     [[nodiscard]] static constexpr std::uint32_t stratum(std::uint32_t group) {
         const std::uint32_t x = group % 4;
         const std::uint32_t y = group / 4;

@@ -16,9 +16,10 @@ using VplCut = std::vector<VplNode>;
 template <Shading F>
 using CutBlock = blocks::LuxelBlock<F, blocks::BoundedHitBlock>;
 
-/// Chooses the cut by which a block of luxels gathers the light of a tree of VPLs. What it returns
-/// must depend on nothing but its arguments: not on threads, tiles, or the picks to come. Any cut
-/// is unbiased; a good one makes the picks of a node differ little in what they bring.
+/// Chooses the cut by which a block of luxels gathers a tree of VPLs. The result must
+/// depend only on the arguments, not on threads, tiles or the picks to come. Any cut
+/// is unbiased; a good one makes the picks of a node differ little in what they
+/// bring.
 ///
 /// Axioms (tests/cuts/cut_suite.hpp): the nodes hold every leaf once, in leaf order; the same
 /// arguments give the same cut, for every instruction set.
@@ -28,7 +29,7 @@ concept CutPolicy = Shading<F> &&
     { p.template choose<InstructionSet::baseline>(block, tree, shading) } -> std::same_as<VplCut>;
 };
 
-/// Every VPL, one by one: the sum that every other cut must have as its mean. Model of CutPolicy.
+/// Every VPL, one by one: the sum that is the mean of every other cut. Model of CutPolicy.
 struct CompleteCut {
     /// All leaves.
     template <InstructionSet Set, Shading F>

@@ -9,18 +9,18 @@
 
 namespace mir {
 
-/// Divides the node whose pick deviates most, again and again: how far is told by a few VPLs of
-/// the node with nothing in between, so that no ray is traced. A node that may hold a VPL next to
-/// the block, which those few can miss, counts at least as `floor` of the most that its light can
-/// be. Model of CutPolicy.
-/// Source: Walter et al., "Lightcuts", SIGGRAPH 2005, with a deviation in place of a bound.
+/// Divides the node whose pick deviates most, again and again. A few VPLs of the node, with nothing
+/// in between, estimate the deviation, so no ray is traced. A node that may hold a VPL next to the
+/// block, which those few can miss, counts at least as `floor` of the most that its light can be.
+/// Model of CutPolicy. Source: Walter et al., "Lightcuts", SIGGRAPH 2005, with a deviation instead
+/// of a bound.
 struct DeviationCut {
     std::uint32_t picks = 256;  ///< most nodes, at least 1
     /// Share of the largest light of a node, 0..1. Measured: 1e-4 is best or near it from 16 to
     /// 1024 picks (docs/decisions/050).
     float floor = 1e-4f;
 
-    /// A cut of at most `picks` nodes; of fewer where all are leaves that are left.
+    /// A cut of at most `picks` nodes; fewer where all are leaves.
     template <InstructionSet Set, Shading F>
     [[nodiscard]] VplCut choose(const CutBlock<F>& block, const VplTree& tree,
                                 const F& shading) const {
@@ -62,7 +62,8 @@ struct DeviationCut {
         return {node, larger(deviation, floor * largest_light(block.bounds, tree, node, shading))};
     }
 
-    /// The most that the VPLs of a node can bring to a luxel of the block that reflects all light.
+    /// The most that a node's VPLs can bring to the block. The luxel reflects all light. The luxel
+    /// reflects all light.
     template <Shading F>
     [[nodiscard]] static float largest_light(const blocks::BlockBounds& luxels, const VplTree& tree,
                                              const VplNode& node, const F& shading) {

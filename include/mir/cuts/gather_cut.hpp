@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Adds the light of a cut to the luxels of a block: for each group and node one pick, traced to
+/// Adds the light of a cut to the luxels of a block. For each group and node one pick, traced to
 /// the luxels that face it and weighed by the inverse of its probability. `sums` has a place for
 /// each group.
 template <InstructionSet Set, Shading F, PacketVisibility V>

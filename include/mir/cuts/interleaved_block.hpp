@@ -9,8 +9,8 @@
 
 namespace mir::blocks {
 
-/// Copies a block of 256 luxels so that the luxels of a group lie four apart: group s holds luxel s
-/// of each of the block's sixteen squares of 4 x 4. Groups pick other VPLs, so neighbours do.
+/// Copies a block of 256 luxels so that a group's luxels lie four apart. Group s holds luxel s of
+/// each of the block's sixteen squares of 4 x 4. Groups pick other VPLs, so neighbours do.
 template <Shading F>
 class InterleavedBlock {
  public:
@@ -28,7 +28,8 @@ class InterleavedBlock {
         return {surfaces_.data(), size};
     }
 
-    /// Place in the block of luxel `k` of group `s`, and the place here of luxel k of square s.
+    /// Place in the block of luxel `k` of group `s`. It is also the place here of luxel k of square
+    /// s.
     [[nodiscard]] static constexpr std::uint32_t swapped(std::uint32_t i) {
         return i % group_size * groups_per_block + i / group_size;
     }

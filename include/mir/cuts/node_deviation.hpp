@@ -9,10 +9,10 @@
 
 namespace mir {
 
-/// Estimates how far the light of one pick of a node lies from that of the node, for the luxels of
-/// one group of a block, with nothing in between: root of the mean variance of luminance, in the
-/// unit of the shading. Few VPLs of the node tell it, those at fixed fractions of its weight; all
-/// of them where they are few. `batch` must be empty, and is again afterwards.
+/// Estimates how far one pick's light lies from that of its node. For the luxels of one group of a
+/// block, with nothing in between: root of the mean variance of luminance, in the unit of the
+/// shading. Few VPLs of the node tell it, those at fixed fractions of its weight; all of them where
+/// they are few. `batch` must be empty, and is again afterwards.
 template <InstructionSet Set, Shading F, class Hits>
 [[gnu::always_inline]] inline float node_deviation(const blocks::LuxelBlock<F, Hits>& block,
                                                    std::uint32_t group, const VplTree& tree,

@@ -48,8 +48,8 @@ class VplTree {
     /// Bounds of a node.
     [[nodiscard]] const VplBounds& bounds(const VplNode& node) const { return bounds_[node.place]; }
 
-    /// The leaf that a number picks: each with the probability of its share in the node's weight.
-    /// `u` is a fraction of 2^64.
+    /// The leaf that a number picks. Its probability is its share in the node's weight. `u` is a
+    /// fraction of 2^64.
     [[nodiscard]] std::uint32_t pick(const VplNode& node, std::uint64_t u) const {
         const std::uint64_t before = sums_[node.first];
         const std::uint64_t at = detail::high_product(u, weight(node));

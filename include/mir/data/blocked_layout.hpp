@@ -11,10 +11,10 @@ struct LuxelPlace {
     std::uint32_t y = 0;  ///< row, 0 at the top
 };
 
-/// Order of the luxels of one tile in memory: squares of 16x16, one after another (figure 4 of the
-/// paper), each cut into 8x4 and those into 4x4, so that 16 or 32 consecutive luxels (a vector
-/// register, a warp) are neighbours in both directions. The blocked index of a luxel is the global
-/// index of its CUDA thread. Ragged edges are padded to whole blocks.
+/// Order of the luxels of one tile in memory (figure 4 of the paper). Squares of 16x16 follow one
+/// another, each cut into 8x4 and those into 4x4: 16 or 32 consecutive luxels (a vector register, a
+/// warp) are neighbours in both directions. The blocked index of a luxel is the global index of its
+/// CUDA thread. Ragged edges are padded to whole blocks.
 struct BlockedLayout {
     static constexpr std::uint32_t side = 16;                 ///< of a block, luxels
     static constexpr std::uint32_t block_size = side * side;  ///< luxels of a block

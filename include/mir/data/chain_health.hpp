@@ -61,7 +61,7 @@ struct ChainHealth {
         capped = capped || chain.capped;
     }
 
-    /// Difference of the two estimates of P_c in standard errors; 0 when one has no paths, or both
+    /// Difference of the two estimates of P_c in standard errors. 0 when one has no paths, or both
     /// have no error.
     [[nodiscard]] double luminance_z() const {
         if (luminance.paths == 0 || large_step_luminance.paths == 0) return 0.0;

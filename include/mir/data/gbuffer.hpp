@@ -30,8 +30,8 @@ struct GBufferView {
     [[nodiscard]] MIR_HD Surface surface(LuxelIndex i) const { return surfaces.load(i); }
 };
 
-/// Owner of the luxels of an image (or of a band of it) on the host: blocked structure of arrays, a
-/// contiguous run of hit words and one of surface words per tile, so that a tile is two copies.
+/// Owner of the luxels of an image, or of a band, on the host. A blocked structure of arrays: each
+/// tile has a contiguous run of hit words and one of surface words, so a tile is two copies.
 /// `Alloc` may hand out pinned memory. Filling different luxels from different threads is safe.
 template <class Params, class Alloc = std::allocator<std::uint32_t>>
 class BlockedGBuffer {
@@ -59,7 +59,7 @@ class BlockedGBuffer {
         return {{hit_plane(t), luxels(t)}, {surface_plane(t), luxels(t)}};
     }
 
-    /// Words of a tile's hits, and of its surfaces, as they are copied to a device.
+    /// Words of a tile's hits and of its surfaces, as copied to a device.
     [[nodiscard]] std::span<const std::uint32_t> hit_words_of(TileIndex t) const {
         return {hit_plane(t), std::size_t{luxels(t)} * hit_words};
     }

@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// The memory of a G-buffer as kernels write it: per tile a run of hit words, then one of surface
+/// The memory of a G-buffer as kernels write it. Per tile a run of hit words, then one of surface
 /// words, as in BlockedGBuffer. A view; stores to different luxels may happen at the same time.
 template <class Params>
 struct GBufferWords {
@@ -48,7 +48,7 @@ struct LuxelImageView {
     const std::uint32_t* words = nullptr;  ///< as GBufferWords::words
     TileGrid tiles;                        ///< of the image or band
 
-    /// Of the luxel in column x and row y of the image, which must lie in it.
+    /// Of the luxel in column x and row y of the image. It must lie in it.
     [[nodiscard]] MIR_HD Hit hit(std::uint32_t x, std::uint32_t y) const {
         const TileIndex t = tile(x, y);
         return hits(t).load(index(t, x, y));

@@ -15,12 +15,12 @@ template <class T>
 class Image {
  public:
     Image() = default;
-    /// An image of `extent`, every element of which is `value`.
+    /// An image of `extent` with the same `value` everywhere.
     explicit Image(Extent extent, T value = {})
         : extent_(extent), data_(static_cast<std::size_t>(extent.area()), value) {}
 
-    /// An image whose elements have no value yet: for those who write every one of them, from
-    /// several threads if they like.
+    /// An image whose elements have no value yet. For code that writes every one of them, from
+    /// several threads if it likes.
     static Image unwritten(Extent extent) {
         Image image;
         image.extent_ = extent;

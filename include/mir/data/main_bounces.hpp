@@ -10,8 +10,8 @@
 
 namespace mir {
 
-/// For each geometric VPL of a list the bounce (PathVpl::bounce) that brings most of its intensity
-/// in luminance; the smallest of several that bring as much, the first recorded for a black VPL.
+/// For each geometric VPL the bounce that brings most of its luminance. The bounce is
+/// PathVpl::bounce; the smallest of several that bring as much, the first recorded for a black VPL.
 /// Thread-safe for a list that does not change.
 inline std::vector<std::uint8_t> main_bounces(const VplList& list) {
     std::vector<std::uint8_t> bounces(list.size());

@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// An estimate of P_c, the mean image luminance of the paths in the chain, W m^-2 sr^-1.
+/// An estimate of P_c, the chain's mean image luminance, W m^-2 sr^-1.
 struct PathLuminance {
     double mean = 0.0;               ///< W m^-2 sr^-1
     double standard_error = 0.0;     ///< of the mean, in the same unit; 0 for fewer than two paths

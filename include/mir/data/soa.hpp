@@ -15,9 +15,9 @@ namespace mir {
 template <class T>
 concept WordCopyable = DeviceCopyable<T> && sizeof(T) % 4 == 0 && alignof(T) <= 4;
 
-/// A T per luxel, stored as one plane per 32-bit word of T: neighbouring luxels are neighbouring
-/// words. Word k of luxel i is planes[k * stride + i]. `SoaView<const T>` only reads.
-/// A view: does not own, may be passed to kernels; concurrent stores to different luxels are safe.
+/// A T per luxel, stored as one plane per 32-bit word of T. Neighbouring luxels are neighbouring
+/// words. Word k of luxel i is planes[k * stride + i]. `SoaView<const T>` only reads. A view: does
+/// not own, may be passed to kernels; concurrent stores to different luxels are safe.
 template <class T>
     requires WordCopyable<std::remove_const_t<T>>
 struct SoaView {

@@ -23,7 +23,7 @@ struct Tile {
     std::uint32_t height = 0;  ///< rows, at least 1
 };
 
-/// Cuts `image` into tiles of `size` in row order; the last column and row may be smaller.
+/// Cuts `image` into tiles of `size` in row order. The last column and row may be smaller.
 /// @throws Error(invalid_argument) when an extent is zero.
 inline std::vector<Tile> cut_into_tiles(Extent image, Extent size) {
     expects(size.width > 0 && size.height > 0,

@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// What cut_into_tiles() does, in closed form for kernels: the tiles of an image in row order,
+/// What cut_into_tiles() does, in closed form for kernels. The tiles of an image in row order,
 /// their blocks of 16 x 16 numbered one tile after another. For fewer than 2^32 luxels.
 struct TileGrid {
     Extent image;  ///< luxels
@@ -54,7 +54,7 @@ struct TileGrid {
     [[nodiscard]] MIR_HD constexpr std::uint32_t blocks_across() const {
         return blocks_along(image.width, tile.width);
     }
-    /// Blocks one below the other in the whole image; each row of tiles is padded by itself.
+    /// Blocks one below the other in the whole image. Each row of tiles is padded by itself.
     [[nodiscard]] MIR_HD constexpr std::uint32_t blocks_down() const {
         return blocks_along(image.height, tile.height);
     }

@@ -10,7 +10,7 @@
 
 namespace mir {
 
-/// Masks of one tile of a VisibilityMatrix: who of its luxels sees which VPL. A view.
+/// Masks of one tile of a VisibilityMatrix: which luxels see which VPL. A view.
 template <Space S>
 struct TileMasks {
     static constexpr Space space = S;                ///< of the memory of the masks
@@ -26,7 +26,7 @@ struct TileMasks {
         return std::size_t{luxels / group_size} * vpls;
     }
 
-    /// Place of a mask: block by block, and in a block VPL by VPL, which is how blocks are shaded.
+    /// Place of a mask: block by block, and in a block VPL by VPL. Blocks are shaded in that order.
     [[nodiscard]] MIR_HD std::size_t index(std::uint32_t group, VplIndex j) const {
         return (std::size_t{group / groups_per_block} * vpls + j) * groups_per_block +
                group % groups_per_block;
@@ -49,7 +49,7 @@ struct VisibilityBits {
     const std::size_t* first_block = nullptr;  ///< of each tile
     std::uint32_t vpls = 0;                    ///< number of VPLs
 
-    /// Bit k: luxel `group_size * group + k` of tile `t` faces and sees VPL `j`.
+    /// Bit k: luxel `group_size * group + k` of tile `t` faces and sees `j`.
     [[nodiscard]] MIR_HD std::uint32_t mask(TileIndex t, std::uint32_t group, VplIndex j) const {
         return masks[index(t, group, j)];
     }
@@ -97,7 +97,7 @@ class VisibilityMatrix {
         masks_.resize(first_block_.back() * vpls * View::groups_per_block);
     }
 
-    /// Bytes that a matrix takes; the largest number when that is more than a number can say.
+    /// Bytes that a matrix takes; the largest number where that overflows.
     static std::uint64_t bytes_for(const std::vector<Tile>& tiles, std::uint32_t vpls) {
         std::uint64_t blocks = 0;
         for (const Tile& t : tiles) {

@@ -9,9 +9,9 @@
 
 namespace mir {
 
-/// Which luxels of one tile face and see which VPL: a word of 32 neighbouring luxels for each VPL,
-/// word (i / 32) vpls + j. Neighbouring threads that work on one VPL each, and all threads that
-/// work on 32 neighbouring luxels, read neighbouring words or the same one. A view.
+/// Which luxels of one tile face and see which VPL, in words. A word holds 32 neighbouring luxels
+/// for each VPL: word (i / 32) vpls + j. Neighbouring threads that work on one VPL each, and all
+/// threads that work on 32 neighbouring luxels, read neighbouring words or the same one. A view.
 template <Space S>
 struct VisibilityWords {
     static constexpr Space space = S;           ///< of the memory of the words

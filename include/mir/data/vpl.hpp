@@ -7,8 +7,8 @@
 
 namespace mir {
 
-/// A geometric VPL, its path VPLs already summed: a point that shines into the hemisphere of its
-/// geometric normal with radiant intensity J cos(theta).
+/// A geometric VPL, its path VPLs already summed. It is a point that shines into the hemisphere of
+/// its geometric normal with radiant intensity J cos(theta).
 struct Vpl {
     Vec3 position{0};  ///< lifted off the surface, metres
     Vec3 normal{0};    ///< unit geometric normal
@@ -21,8 +21,8 @@ enum class VplKind : std::uint8_t {
     reflective  ///< a point that reflects: indirect light
 };
 
-/// Which point of which surface a geometric VPL is, and how much stands on it.
-/// Kernels that light luxels do not read it.
+/// Which point of a surface a geometric VPL is, and how much stands on it. Kernels that light
+/// luxels do not read it.
 struct VplOrigin {
     VplKind kind = VplKind::reflective;  ///< part of the point's identity
     std::uint32_t triangle = 0;          ///< identity of the point: triangle and barycentrics

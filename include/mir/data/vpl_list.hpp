@@ -38,15 +38,15 @@ struct PathVpl {
     std::uint16_t light_group = 0;  ///< group of the light that feeds it
 };
 
-/// Owner of geometric VPLs, the path VPLs that each is made of and their origins, in the order of
-/// generation, which is the order of every sum.
+/// Owner of geometric VPLs, of the path VPLs of each, and of their origins. They stand in the order
+/// of generation, which is the order of every sum.
 class VplList {
  public:
     /// Adds a path VPL, which becomes a geometric VPL of its own. `weight` counts recorded states.
     void push_back(const Vpl& vpl, const VplOrigin& origin, std::uint8_t bounce = 2,
                    std::uint16_t light_group = 0, float weight = 1.0f);
 
-    /// Adds a path VPL: it joins the last geometric VPL when that is the same point of the same
+    /// Adds a path VPL. It joins the last geometric VPL when that is the same point of the same
     /// side of the surface, else it becomes one of its own (algorithm 2 of the paper).
     void append(const Vpl& vpl, const VplOrigin& origin, std::uint8_t bounce = 2,
                 std::uint16_t light_group = 0, float weight = 1.0f);
@@ -70,7 +70,7 @@ class VplList {
     /// All VPLs. Valid until the list changes.
     [[nodiscard]] VplSpan<Space::host> span() const { return span_of(vpls_); }
 
-    /// All VPLs at their places, with the intensity of one bounce alone; black where it has none.
+    /// All VPLs at their places, with the intensity of one bounce alone. Black where it has none.
     [[nodiscard]] std::vector<Vpl> bounce(std::uint8_t b) const {
         return only([b](const PathVpl& p) { return p.bounce == b; });
     }

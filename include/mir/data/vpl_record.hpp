@@ -17,8 +17,8 @@ enum class Normalisation {
                     ///< side, W m^-2 sr^-1; the normalisation stage makes J of it
 };
 
-/// One path VPL: a vertex that lights what the camera sees, with the light path behind it summed
-/// into `intensity`.
+/// One path VPL: a vertex that lights what the camera sees. The light path behind it is summed into
+/// `intensity`.
 struct VplRecord {
     Vpl vpl;                  ///< its intensity is what Normalisation says
     VplOrigin origin;         ///< surface or light that it lies on; equal for records of one point
@@ -29,7 +29,7 @@ struct VplRecord {
                                     ///< Lambertian here; 0 only on lamps and Lambertian surfaces
 };
 
-/// The light that a VPL passes on, as it arrives there: what its surface makes a lobe of.
+/// The light that arrives at a VPL: what its surface makes a lobe of.
 struct VplArrival {
     Vec3 towards_light{0};       ///< unit
     Vec3 shading_normal{0};      ///< unit, of the VPL's surface

@@ -21,10 +21,11 @@
 
 namespace mir {
 
-/// Turns the radiance of luxels into pixels: L_pixel = sum(w L) / sum(w) over the luxels that the
-/// filter reaches. Accumulation is signed: the negative lobes of a filter stay, and with them
-/// negative pixels next to strong edges; only a display clamps. A film holds one or several layers
-/// (direct light, emission, ...) that share the weights, which cost more than a layer.
+/// Turns the radiance of luxels into pixels through a filter. L_pixel = sum(w L) / sum(w) over the
+/// luxels that the filter reaches. Accumulation is signed: the negative lobes of a filter stay, and
+/// with them negative pixels next to strong edges; only a display clamps. A film holds one or
+/// several layers (direct light, emission, ...) that share the weights, which cost more than a
+/// layer.
 ///
 /// Every pixel adds its luxels row by row, in a row cell column by cell column, in that from right
 /// to left. So the result is equal in every bit for any cut into bands, any number of threads or
@@ -50,7 +51,7 @@ class Film {
           instructions_(std::min(instructions, InstructionSet::avx2)),
           sums_(std::size_t{grid.pixels.height} * blocks() * planes() * detail::film_columns) {}
 
-    /// Adds a band of complete luxel rows, radiance in W m^-2 sr^-1, one image for each layer.
+    /// Adds a band of complete luxel rows, one image for each layer. Radiance is in W m^-2 sr^-1.
     /// Bands come from top to bottom without gaps; their heights are free.
     /// @throws Error(invalid_argument) when the number of images is not that of the layers, or a
     ///         band has the wrong width, does not start where the last one ended, does not fit into
@@ -96,12 +97,12 @@ class Film {
         return develop(executor, layer);
     }
 
-    /// What another film needs to go on below the rows added so far, which are rows of whole
-    /// pixels. It develops the pixels from FilmSeam::first_row on, this one those above.
+    /// What another film needs to go on below the rows added so far. They are rows of whole pixels.
+    /// It develops the pixels from FilmSeam::first_row on, this one those above.
     /// @throws Error(invalid_argument) when a band was added in part.
     [[nodiscard]] FilmSeam seam() const;
 
-    /// Goes on below another film of the same image, filter and layers, which left `seam`: only
+    /// Goes on below another film of the same image, filter and layers. That film left `seam`: only
     /// pixels from there on mean anything.
     /// @throws Error(invalid_argument) when the seam is not one of such a film, lies above rows
     ///         that were added, or a band was added in part.

@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Kernel over the luxels of a band in row order: where each lies in its pixel.
+/// Kernel over the luxels of a band in row order. Where each lies in its pixel.
 struct LuxelOffsets {
     LuxelGrid grid;               ///< of the whole image
     std::uint64_t seed = 0;       ///< that placed the luxels
@@ -25,7 +25,7 @@ struct LuxelOffsets {
     }
 };
 
-/// The sums of a film's pixels while luxels come: for each pixel one of weights, then three for
+/// The sums of a film's pixels while luxels come. For each pixel one of weights, then three for
 /// each layer. Rows of pixels take turns in a ring of rows. A view.
 struct FilmSums {
     double* sums = nullptr;    ///< planes() planes of rows * width sums
@@ -43,12 +43,12 @@ struct FilmSums {
     }
 };
 
-/// Kernel over the pixels that a band of luxels reaches, in row order: adds what Film::add_rows()
+/// Kernel over the pixels that a band of luxels reaches, in row order. Adds what Film::add_rows()
 /// adds to them, in its order.
 template <class Layer>
 struct FilmPass {
     LuxelGrid grid;                 ///< of the whole image
-    detail::TapView taps;           ///< of the filter; views, as it is
+    detail::TapView taps;           ///< of the filter; views, like this
     const Vec2* offsets = nullptr;  ///< LuxelOffsets of the band
     const Layer* layers = nullptr;  ///< colour of luxel (x, y) of the band: layers[l](x, y)
     FilmSums to;  ///< of the film; rows of the ring must hold all pixels that the band reaches
@@ -102,7 +102,7 @@ struct FilmPass {
     }
 };
 
-/// Kernel over the pixels of a FilmSeam in row order: copies their sums from a film.
+/// Kernel over a FilmSeam's pixels in row order: copies their sums from a film.
 struct LeaveSeam {
     FilmSums from;                ///< of the film that ends
     std::uint32_t first_row = 0;  ///< of pixels
@@ -132,7 +132,7 @@ struct EnterSeam {
     }
 };
 
-/// Kernel over finished pixels in row order: writes their colours, layer after layer, as
+/// Kernel over finished pixels in row order. Writes their colours, layer after layer, as
 /// Film::develop() makes them, and clears their sums for the next turn of the ring.
 struct DevelopPass {
     FilmSums from;                      ///< of the film

@@ -11,9 +11,9 @@
 
 namespace mir {
 
-/// Where a film ends between two luxel rows and another of the same image goes on: the sums of the
-/// pixels that rows on both sides reach. The other adds to them, so that they are those of one
-/// film, bit by bit.
+/// Where a film ends between two luxel rows and another goes on. It holds the sums of the pixels
+/// that rows on both sides reach; both films are of the same image. The other adds to them, so that
+/// they are those of one film, bit by bit.
 struct FilmSeam {
     std::uint32_t luxel_rows = 0;  ///< added to films so far; 0: nothing begun
     std::uint32_t first_row = 0;   ///< of pixels: those above are finished
@@ -21,8 +21,8 @@ struct FilmSeam {
     std::vector<double> sums;  ///< planes of `rows` rows: weights, then red, green, blue of each
                                ///< layer
 
-    /// The seam below `luxel_rows` whole rows of pixels, without sums, of filters that reach so far
-    /// to each side.
+    /// The seam below `luxel_rows` whole rows of pixels, without sums. Filters reach so far to each
+    /// side.
     [[nodiscard]] static FilmSeam below(std::uint32_t luxel_rows, const LuxelGrid& grid,
                                         std::uint32_t reach) {
         FilmSeam seam;
@@ -42,8 +42,8 @@ struct FilmSeam {
     }
 };
 
-/// Checks that a film with `planes` of sums and a filter of such a reach, to which `luxel_rows`
-/// were added, can go on below a seam.
+/// Checks that a film can go on below a seam. It has `planes` of sums and a filter of such a reach;
+/// `luxel_rows` were added to it.
 /// @throws Error(invalid_argument) when it cannot.
 inline void check_seam(const FilmSeam& seam, const LuxelGrid& grid, std::uint32_t reach,
                        std::size_t planes, std::uint32_t luxel_rows) {

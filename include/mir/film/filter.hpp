@@ -12,8 +12,8 @@
 
 namespace mir {
 
-/// sin(pi x), absolute error below 2e-7 for |x| < 2^20, exactly zero at every integer: libm's sine
-/// of a rounded pi is not.
+/// sin(pi x), absolute error below 2e-7 for |x| < 2^20, exactly zero at integers. libm's sine of a
+/// rounded pi is not.
 constexpr float sin_pi(float x) { return unit_circle(0.5f * x).y; }
 
 /// sin(pi x) / (pi x), 1 at 0.

@@ -34,8 +34,8 @@ struct Filter {
     friend bool operator==(const Filter&, const Filter&) = default;
 };
 
-/// The filter of a kind with its usual half-width: box 0.5, tent 1, gaussian 2, mitchell 2,
-/// lanczos 3 with tau 3.
+/// The filter of a kind with its usual half-width. That is 0.5 for box, 1 for tent, 2 for gaussian,
+/// 2 for mitchell, 3 with tau 3 for lanczos.
 constexpr Filter default_filter(FilterKind kind) {
     switch (kind) {
         case FilterKind::box:

@@ -24,7 +24,7 @@ struct LensPlane {
     [[nodiscard]] MIR_HD float depth(Vec3 point) const { return glm::dot(position - point, back); }
 };
 
-/// The guides of a pixel from its luxels in raster order: `luxels.hit(x, y)` and `.surface(x, y)`
+/// The guides of a pixel from its luxels in raster order. `luxels.hit(x, y)` and `.surface(x, y)`
 /// are those of a band that starts with row `y0` of the pixel at (x0, y0).
 template <Bsdf B, class Luxels>
 MIR_HD GuidePixel guides_of_pixel(const Luxels& luxels, const LuxelGrid& grid,

@@ -40,8 +40,8 @@ struct LuxelsByPlace {
 
 }  // namespace detail
 
-/// Makes the guides of the pixels in a G-buffer, which starts at luxel row `first_row` and holds
-/// whole rows of pixels.
+/// Makes the guides of the pixels in a G-buffer of whole pixel rows. It starts at luxel row
+/// `first_row`.
 template <Bsdf B, TiledGBuffer G, Executor E>
 void add_guides(Guides& guides, const G& gbuffer, std::uint32_t first_row, const LuxelGrid& grid,
                 const Camera& camera, E& executor) {

@@ -23,7 +23,8 @@ inline constexpr std::uint32_t max_luxels_per_pixel = 64;
 /// Source: Kensler, "Correlated Multi-Jittered Sampling", Pixar technical memo 13-01, 2013.
 class PixelPattern {
  public:
-    /// `pixel` is the raster index of the pixel; nx, ny >= 1 and nx * ny <= max_luxels_per_pixel.
+    /// Cells nx, ny >= 1 of a pixel, nx * ny <= max_luxels_per_pixel. `pixel` is the pixel's raster
+    /// index.
     MIR_HD PixelPattern(std::uint32_t nx, std::uint32_t ny, std::uint64_t pixel, std::uint64_t seed)
         : nx_(nx), ny_(ny), random_(seed, Stream::luxel, pixel) {
         Random draws = random_;
@@ -31,8 +32,8 @@ class PixelPattern {
         shuffle(row_order_, ny, draws);
     }
 
-    /// Position of the luxel of cell (cx, cy), in (0, 1)^2 of the pixel; the centre when the pixel
-    /// has one luxel.
+    /// Position of the luxel of cell (cx, cy), in (0, 1)^2 of the pixel. It is the centre when the
+    /// pixel has one luxel.
     [[nodiscard]] MIR_HD Vec2 operator()(std::uint32_t cx, std::uint32_t cy) const {
         if (nx_ * ny_ == 1) return {0.5f, 0.5f};
         // Even, so that both numbers come from one block of random bits.
@@ -60,7 +61,7 @@ class PixelPattern {
         }
     }
 
-    /// Point of a stratum, never on its border: jitter is rounded to the middles of 2^16 intervals,
+    /// Point of a stratum, never on its border. Jitter is rounded to the middles of 2^16 intervals,
     /// which leaves the sum exact.
     [[nodiscard]] MIR_HD float inside(std::uint32_t stratum, float jitter) const {
         const float kept = (floorf(jitter * 0x1p16f) + 0.5f) * 0x1p-16f;
@@ -97,9 +98,9 @@ struct LuxelGrid {
         return {per_pixel_x, per_pixel_y, std::uint64_t{py} * pixels.width + px, seed};
     }
 
-    /// Position of luxel (x, y) in pixels from the top left corner of the image: the pixel's centre
-    /// for one luxel per pixel, else multi-jittered inside the pixel. A pure function of (x, y,
-    /// seed), safe from any thread.
+    /// Position of luxel (x, y) in pixels from the image's top left corner. It is the pixel's
+    /// centre for one luxel per pixel, else multi-jittered inside the pixel. A pure function of (x,
+    /// y, seed), safe from any thread.
     [[nodiscard]] MIR_HD Vec2 position(std::uint32_t x, std::uint32_t y, std::uint64_t seed) const {
         const std::uint32_t px = x / per_pixel_x, py = y / per_pixel_y;
         const Vec2 offset = pattern(px, py, seed)(x % per_pixel_x, y % per_pixel_y);
@@ -118,8 +119,8 @@ struct LuxelGrid {
     }
 };
 
-/// Cuts each pixel of an image into `luxels_per_pixel` (1 to 64) cells, as nearly square as the
-/// number's factors allow: 16 gives 4 x 4, 8 gives 2 x 4, a prime n gives 1 x n.
+/// Cuts each pixel of an image into `luxels_per_pixel` (1 to 64) cells. They are as nearly square
+/// as the number's factors allow: 16 gives 4 x 4, 8 gives 2 x 4, a prime n gives 1 x n.
 /// @throws Error(invalid_argument) for an empty image or a number out of range, and
 ///         Error(limit_exceeded) when the image passes `limits`.
 inline LuxelGrid luxel_grid(Extent pixels, std::uint32_t luxels_per_pixel,

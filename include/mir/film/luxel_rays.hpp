@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// The camera rays of an image as kernels make them: one per luxel, a pure function of its place
+/// The camera rays of an image as kernels make them. One per luxel, a pure function of its place
 /// and the seed. CameraRays::luxel_rays() makes it. Host and device: see CameraOptics.
 struct LuxelRays {
     CameraOptics optics;     ///< of the camera

@@ -41,12 +41,13 @@ class TapTable {
     /// Number of taps along one axis.
     [[nodiscard]] std::uint32_t taps() const { return 2 * reach_ + 1; }
 
-    /// The taps of cell column `cx` that a luxel can reach; all others have weight zero.
+    /// The taps of cell column `cx` that a luxel can reach. All others have weight zero.
     [[nodiscard]] Range x(std::uint32_t cx) const { return ranges_[cx]; }
     /// The same along y.
     [[nodiscard]] Range y(std::uint32_t cy) const { return ranges_[columns_ + cy]; }
 
-    /// Sets weights[i] to the weight for `tap` of a luxel at `offsets[i]`, in (0, 1), in its pixel.
+    /// Sets weights[i] to the weight for `tap` of a luxel at `offsets[i]`. Offsets are in (0, 1),
+    /// in the pixel.
     void weigh(std::uint32_t tap, std::span<const float> offsets, double* weights) const {
         if (filter_.kind == FilterKind::box) {
             for (std::size_t i = 0; i < offsets.size(); ++i)

@@ -97,7 +97,8 @@ class Queue {
             }
         });
     }
-    /// Calls kernel(group, i, space) once for each i in [0, n), its lanes a loop on one thread.
+    /// Calls kernel(group, i, space) once for each i in [0, n). The lanes of a group are a loop on
+    /// one thread.
     template <class Kernel>
     void for_each_group(std::uint32_t n, const Kernel& kernel) {
         executor_->for_each(n, [&](std::size_t i) {
@@ -132,7 +133,7 @@ class Queue {
     E* executor_;
 };
 
-/// The host as a Backend, so that every scheduler runs, and is tested, without a GPU.
+/// The host as a Backend, so that every scheduler runs without a GPU.
 template <Executor E>
 class Backend {
  public:

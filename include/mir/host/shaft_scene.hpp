@@ -6,9 +6,9 @@
 
 namespace mir {
 
-/// A scene to trace through by way of a wide bounding volume hierarchy, whole blocks of luxels by
-/// shafts: owns the hierarchy, hands out the ray caster and the visibility that read it. The
-/// geometry must outlive it. Const use from any thread.
+/// A scene traced through a wide bounding volume hierarchy, whole blocks by shafts. Owns the
+/// hierarchy, hands out the ray caster and the visibility that read it. The geometry must outlive
+/// it. Const use from any thread.
 class ShaftScene {
  public:
     /// @throws Error what build_wide_bvh() throws.
@@ -20,7 +20,8 @@ class ShaftScene {
     explicit ShaftScene(const WorldGeometry& geometry)
         : scene_(geometry), lanes_(lanes_of(bvh(), geometry)) {}
 
-    /// Asks single segments, packets and whole blocks; the scene must outlive it and not be moved.
+    /// Traces single segments, packets and whole blocks. The scene must outlive it and not be
+    /// moved.
     [[nodiscard]] ShaftVisibility visibility() const {
         return {bvh().view(), lanes_.data(), {}, scene_.visibility().mask};
     }

@@ -18,9 +18,9 @@ class TbbExecutor {
     explicit TbbExecutor(unsigned threads = 0)
         : arena_(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads)) {}
 
-    /// Calls body(i) once for each i in [0, n), in any order, on the arena's threads; returns when
-    /// all are done. An exception of a body reaches the caller; bodies that have not begun by then
-    /// may be left out.
+    /// Calls body(i) once for each i in [0, n), on the arena's threads. The order is free; it
+    /// returns when all are done. An exception of a body reaches the caller; bodies that have not
+    /// begun by then may be left out.
     template <class Body>
     void for_each(std::size_t n, Body&& body) {
         HandOver edge;
@@ -42,8 +42,9 @@ class TbbExecutor {
     }
 
  private:
-    /// oneTBB orders the caller before the bodies and the bodies before the return, also when they
-    /// throw. Thread sanitizers cannot see into its binary; this counter tells them the same.
+    /// Tells thread sanitizers how oneTBB orders caller and bodies. oneTBB orders the caller before
+    /// the bodies and the bodies before the return, also when they throw. They cannot see into its
+    /// binary.
     class HandOver {
      public:
         void give() { edge_.fetch_add(1, std::memory_order_release); }

@@ -7,8 +7,8 @@
 
 namespace mir {
 
-/// Builds the hierarchy over all triangles of a scene that BackendWideBvh builds, in every byte, on
-/// the executor's threads.
+/// Builds the hierarchy of BackendWideBvh on the executor's threads, equal in every byte. It covers
+/// all triangles of a scene.
 /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
 ///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more, 2^30 where
 ///         they are to be split.

@@ -12,12 +12,12 @@
 
 namespace mir {
 
-/// A file that appears under its name complete or not at all: it is written under a temporary name
+/// A file that appears under its name complete or not at all. It is written under a temporary name
 /// in the same folder and renamed by `commit`. Until then an older file of that name stays as it
 /// was. A process that is killed leaves its temporary file, `.NAME.N.tmp`, to the next object for
 /// that name, which removes it. A file that replaces an older one has its permissions, and nobody
-/// else may read it before. Not thread-safe; several objects, processes included, may aim at
-/// one path, the last commit wins.
+/// else may read it before. Not thread-safe; several objects, processes included, may aim at one
+/// path, the last commit wins.
 class AtomicFile {
  public:
     /// Creates the empty temporary file, so that an unwritable folder is known before any work. A

@@ -33,12 +33,13 @@ void write_exr(const std::filesystem::path& path, Extent extent,
 struct ExrImage {
     Image<Rgb> image;                                             ///< as large as the data window
     std::vector<std::pair<std::string, std::string>> attributes;  ///< text only, sorted by name
-    std::vector<std::pair<std::string, DVec3>> vectors;           ///< those of type v3d, likewise
+    std::vector<std::pair<std::string, DVec3>> vectors;           ///< those of type v3d
 };
 
-/// Reads one layer of a single-part OpenEXR file, the beauty when `layer` is empty: R G B, else
-/// X Y Z, else Y or Z repeated three times. Values come as stored. OpenEXR itself is not hardened
-/// against hostile files in every version that distributions ship: read files that you trust.
+/// Reads one layer of a single-part OpenEXR file, the beauty when `layer` is empty. Channels are R
+/// G B, else X Y Z, else Y or Z repeated three times. Values come as stored. OpenEXR itself is not
+/// hardened against hostile files in every version that distributions ship: read files that you
+/// trust.
 /// @throws Error(invalid_input) when the file or the layer is missing or broken,
 ///         Error(unsupported) for several parts or deep pixels, Error(limit_exceeded) when the
 ///         file passes `limits`; std::bad_alloc.

@@ -26,9 +26,9 @@ struct HtmlReport {
     std::vector<HtmlFigure> figures;                        ///< in the order of the page
 };
 
-/// Writes a report as one HTML file that holds its pictures and needs nothing else, no network
-/// either. It follows the reader's choice of light or dark. Equal input gives equal bytes; the file
-/// replaces an older one only when complete.
+/// Writes a report as one self-contained HTML file. It needs nothing else, no network either. It
+/// follows the reader's choice of light or dark. Equal input gives equal bytes; the file replaces
+/// an older one only when complete.
 /// @throws Error(io) when the file cannot be written, Error(invalid_argument) for a missing or
 ///         empty picture.
 void write_html_report(const std::filesystem::path& path, const HtmlReport& report);

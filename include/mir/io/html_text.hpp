@@ -11,8 +11,8 @@
 
 namespace mir::detail {
 
-/// Text that no reader of HTML takes for markup, neither in elements nor in quoted attributes, nor
-/// for other letters than it has: it is made printable().
+/// Text that no reader of HTML takes for markup, in elements or quoted attributes. Nor does it show
+/// other letters than it has: it is made printable().
 inline std::string html_escaped(const std::string& text) {
     std::string out;
     for (const char c : printable(text, std::string::npos)) {

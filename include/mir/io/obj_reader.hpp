@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Reads a Wavefront OBJ scene with the material libraries (MTL) that it names, in UTF-8 or UTF-16.
+/// Reads a Wavefront OBJ scene with the material libraries (MTL) it names. Text is UTF-8 or UTF-16.
 /// Each group becomes one mesh per material; polygons are cut into triangles; faces without normals
 /// are flat; colours behind the coordinates of vertices are sRGB. Coordinates are metres as they
 /// stand, +y up, brought home by recentre(). Ke is radiance, Kd the base colour, the mean of Ks the

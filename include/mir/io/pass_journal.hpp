@@ -21,8 +21,8 @@
 
 namespace mir {
 
-/// The file in which a progressive render keeps its sums, so that another process can go on from
-/// them to the bits that this one would have reached. It belongs to one scene, one set of settings
+/// The file in which a progressive render keeps its sums. Another process can go on from them to
+/// the bits that this one would have reached. It belongs to one scene, one set of settings
 /// (SettingsHash) and one version of the library, and is good on machines of one kind. Nothing in
 /// it is trusted that its hash does not confirm; it is no protection against forgery.
 class PassJournal {

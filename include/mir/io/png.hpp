@@ -11,14 +11,14 @@
 
 namespace mir {
 
-/// Exposure in stops (EV) that maps the 90th percentile of the pixels' luminance to 0.8: multiply
-/// radiance by 2^EV. Where more than 90 % of the pixels are black, the percentile of the others.
-/// 0 when all are black. Pixels that are not finite are left out.
+/// Exposure in stops (EV) that maps the 90th percentile of luminance to 0.8. Multiply radiance by
+/// 2^EV. Where more than 90 % of the pixels are black, the percentile of the others. 0 when all are
+/// black. Pixels that are not finite are left out.
 [[nodiscard]] float auto_exposure(const Image<Rgb>& linear);
 
-/// 8-bit sRGB code of a linear value: clamped to [0, 1], then the curve of IEC 61966-2-1, which is
-/// rounded down after `rounding` was added: 0.5 for the nearest code, a random number of [0, 1) for
-/// codes whose mean is exact. NaN gives 0.
+/// 8-bit sRGB code of a linear value, clamped to [0, 1]. The curve of IEC 61966-2-1 is rounded down
+/// after `rounding` was added: 0.5 for the nearest code, a random number of [0, 1) for codes whose
+/// mean is exact. NaN gives 0.
 [[nodiscard]] std::uint8_t to_srgb8(float linear, float rounding = 0.5f);
 
 /// How a preview shows radiance.

@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// Reads a scene with the reader that the file's name asks for, in any case of letters: read_obj()
+/// Reads a scene with the reader that the file's name asks for. In any case of letters: read_obj()
 /// for .obj, read_ply() for .ply, read_gltf() for .gltf, .glb and .vrm. Under any other name a file
 /// is PLY where it begins so and glTF else. Thread-safe.
 /// @throws Error as these do; Error(unsupported) for files of other programs, with what to do.

@@ -41,7 +41,7 @@ struct SceneReport {
     Bounds bounds;                      ///< of all instances, metres, from Scene::origin on
 
     /// Features that change the picture and are not supported, with the number of their uses.
-    /// Nothing is dropped without an entry here.
+    /// Nothing is dropped without an entry here. visible_effect() says how that looks.
     std::map<std::string, std::uint64_t> ignored;
     std::vector<std::string> notes;  ///< sentences on choices that the reader made
     /// Sentences of recentre(): what is too fine for 32-bit numbers where it lies. The picture may
@@ -91,8 +91,8 @@ inline void make_printable(SceneReport& report) {
 
 }  // namespace detail
 
-/// Fills the counts and the bounds of `report` from a checked scene and notes what is missing.
-/// Cameras, `ignored` and earlier notes stay, made printable().
+/// Fills counts and bounds of `report` from a checked scene and notes what is missing. Cameras,
+/// `ignored` and earlier notes stay, made printable().
 /// @pre every index of `scene` is valid (the readers check this).
 inline void count_scene(const Scene& scene, SceneReport& report) {
     report.meshes = scene.meshes.size();
@@ -111,8 +111,8 @@ inline void count_scene(const Scene& scene, SceneReport& report) {
     detail::make_printable(report);
 }
 
-/// Gives a counted scene the light of `environment`, which no file format of read_scene() holds: in
-/// place of what it had, and of the note that it is dark.
+/// Gives a counted scene the light of `environment`, which no scene file holds. It replaces the
+/// scene's own, and the note that the scene is dark.
 inline void put_around(Scene& scene, Environment environment, SceneReport& report) {
     scene.environment = std::move(environment);
     report.environments = 1;

@@ -36,8 +36,9 @@ inline constexpr std::array<ToneCurveName, 4> tone_curve_names{
 
 namespace detail {
 
-/// Sobotka's AgX without a look, in Wrensch's polynomial fit of 2023: a mixture of the channels, a
-/// sigmoid over 16.5 stops around middle grey, the mixture undone, and the screen's power of 2.2.
+/// Sobotka's AgX without a look, in Wrensch's polynomial fit of 2023. It mixes the channels,
+/// applies a sigmoid over 16.5 stops around middle grey, undoes the mixture, and applies the
+/// screen's power of 2.2.
 inline std::array<double, 3> agx_curve(const std::array<double, 3>& c) {
     constexpr double low = -12.47393;
     constexpr double high = 4.026069;
@@ -67,7 +68,7 @@ inline double tone_of(double x, ToneCurve curve) {
     return x;
 }
 
-/// A channel that the curves can take: not negative, no NaN, not so large that they overflow.
+/// A channel in the range of the curves: not negative, no NaN, no overflow.
 inline double tone_input(float value) {
     return value > 0.0f ? std::min(static_cast<double>(value), 1e9) : 0.0;
 }
@@ -89,11 +90,11 @@ inline double tone_input(float value) {
     return {shown(c[0]), shown(c[1]), shown(c[2])};
 }
 
-/// Exposure in stops (EV) for a tone curve: multiply radiance by 2^EV, which maps the mean
-/// brightness of the picture to middle grey, 0.18. That is the geometric mean of luminance over
-/// pixels that are not black, where those below the 5th percentile and above the 95th count as
-/// lying there: a black background, lamps and sparks change little. 0 when all are black. Pixels
-/// that are not finite are left out.
+/// Exposure in stops (EV) that maps the picture's mean brightness to middle grey, 0.18. Multiply
+/// radiance by 2^EV. The mean is the geometric mean of luminance over pixels that are not black,
+/// where those below the 5th percentile and above the 95th count as lying there: a black
+/// background, lamps and sparks change little. 0 when all are black. Pixels that are not finite are
+/// left out.
 [[nodiscard]] inline float tone_exposure(const Image<Rgb>& linear) {
     std::vector<float> values;
     for (const Rgb& pixel : linear.pixels())

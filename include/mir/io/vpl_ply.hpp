@@ -7,10 +7,10 @@
 
 namespace mir {
 
-/// Writes VPLs as a PLY file of points, binary little endian: one vertex per geometric VPL, black
-/// ones included, in the order of the list. Properties: position x y z, metres; normal nx ny nz;
-/// intensity_red, intensity_green, intensity_blue, the J of Vpl in W sr^-1; bounce, that of
-/// main_bounces(). A comment names `origin`, from which positions are counted
+/// Writes VPLs as a PLY file of points, binary little endian. There is one vertex per geometric
+/// VPL, black ones included, in the order of the list. Properties: position x y z, metres; normal
+/// nx ny nz; intensity_red, intensity_green, intensity_blue, the J of Vpl in W sr^-1; bounce, that
+/// of main_bounces(). A comment names `origin`, from which positions are counted
 /// (RenderStatistics::origin), metres, where it is not zero. Equal lists give equal bytes; the file
 /// appears complete or not at all. Thread-safe for different files.
 /// @throws Error(io) when the file cannot be written.

@@ -15,8 +15,8 @@
 
 namespace mir::detail {
 
-/// Writes all bytes of a file, which appears under its name complete or not at all. `what` calls
-/// its content in the error, such as "the report".
+/// Writes all bytes of a file. It appears under its name complete or not at all. `what` calls its
+/// content in the error, such as "the report".
 /// @throws Error(io)
 inline void write_file(const std::filesystem::path& path, std::string_view bytes,
                        const char* what) {

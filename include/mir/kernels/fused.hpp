@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// One luxel, all VPLs, rays and shading in one place: the body of algorithm 3 of the paper as RC
+/// One luxel, all VPLs, rays and shading in one place. The body of algorithm 3 of the paper as RC
 /// runs it. Writes W m^-2 sr^-1, VPLs summed in their order.
 ///
 /// Rays go 32 at a time before what they found is shaded: neither then occupies the registers of
@@ -22,7 +22,7 @@ struct FusedKernel {
     F shade;                ///< not asked for VPLs that are hidden
     SoaView<Rgb> radiance;  ///< W m^-2 sr^-1 by blocked index
 
-    /// Threads in flight pay more than registers: GPUs are to hold as many blocks of 256 at least.
+    /// Threads in flight pay more than registers. GPUs are to hold as many blocks of 256 at least.
     static constexpr std::uint32_t resident_blocks = 5;
 
     /// Luxel `i` (blocked index) against all VPLs; an empty luxel gets black.

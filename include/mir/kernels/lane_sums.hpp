@@ -6,9 +6,9 @@
 
 namespace mir {
 
-/// Sums in single precision in the fast memory of a group of lanes: of as many VPLs as there are
-/// lanes, in sixteen columns of luxels each. A sum that a lane changes no other may touch
-/// between one LaneGroup::each() and the next.
+/// Sums in single precision in the fast memory of a group of lanes. Of as many VPLs as there are
+/// lanes, in sixteen columns of luxels each. A sum that a lane changes no other may touch between
+/// one LaneGroup::each() and the next.
 class LaneSums {
  public:
     static constexpr std::uint32_t columns = 16;  ///< of a VPL

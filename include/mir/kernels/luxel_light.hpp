@@ -7,13 +7,14 @@
 
 namespace mir {
 
-/// Where the rows of a G-buffer lie in the whole luxel image; random numbers are keyed by it.
+/// Where the rows of a G-buffer lie in the whole luxel image. Random numbers are keyed by it.
 struct LuxelBand {
     std::uint32_t first_row = 0;  ///< of the band, in luxels of the whole image
     LuxelGrid grid;               ///< of the whole image
     std::uint64_t seed = 0;       ///< of the rendering
 
-    /// Numbers of the pixel that holds luxel (x, y) of the band, the same for all its luxels.
+    /// Random numbers of the pixel of luxel (x, y) of the band. They are the same for all its
+    /// luxels.
     [[nodiscard]] MIR_HD Random pixel_numbers(std::uint32_t x, std::uint32_t y) const {
         const std::uint64_t pixel_row = (first_row + y) / grid.per_pixel_y;
         return {seed, Stream::direct_light, pixel_row * grid.pixels.width + x / grid.per_pixel_x};
@@ -43,7 +44,8 @@ struct LuxelLight {
     LuxelBand band;                      ///< where the luxels lie
     bool distant_vpls = false;           ///< DirectSamples::distant_vpls
 
-    /// W m^-2 sr^-1 towards the viewer of the luxel at (x, y) of the band, which is not empty.
+    /// Radiance towards the viewer of the luxel at (x, y), W m^-2 sr^-1. The luxel is one of the
+    /// band and not empty.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& surface,
                                         std::uint32_t x, std::uint32_t y) const {
         const SharedSamples shared{band.grid.per_pixel(), band.cell(x, y)};

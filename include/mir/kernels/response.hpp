@@ -14,7 +14,7 @@
 
 namespace mir {
 
-/// What VPLs of unit intensity do to one block of 16 x 16 luxels each: kernel for groups, over
+/// What VPLs of unit intensity do to one block of 16 x 16 luxels each. Kernel for groups, over
 /// pairs of a block of some rows of blocks of a tile and 32 VPLs. Both halves of the group prepare
 /// the same sixteen neighbouring luxels, then take one VPL each of those that any of them sees.
 /// Sums lanes of sixteen luxels in single and the lanes in double precision, exactly as ResponseSum
@@ -30,8 +30,8 @@ struct BlockResponse {
     G luxels;                        ///< of the tile
     P vpls;                          ///< whose intensities are not read
     VisibilityWords<G::space> seen;  ///< of the tile: which luxels face and see which VPL
-    /// A device asks it for all lanes, black luxels among them, and throws away what is not lit.
-    /// Luxels that it says to reflect nothing are not counted as lit.
+    /// A device asks for all lanes, black luxels too, and drops unlit ones. Luxels that it says to
+    /// reflect nothing are not counted as lit.
     F shade;
     std::uint32_t first_block = 0;  ///< of the tile
     std::uint32_t blocks_x = 0;     ///< of the tile
@@ -43,9 +43,9 @@ struct BlockResponse {
     /// Groups that cover so many blocks and the VPLs that are summed.
     [[nodiscard]] std::uint32_t groups(std::uint32_t blocks) const { return blocks * runs(); }
 
-    /// Group `i` < groups(): block first_block + i / r and the VPLs from first_vpl + 32 (i % r) on,
-    /// of which r are runs of 32. Writes the sum of VPL first_vpl + j to element j of the `count`
-    /// of that block; blocks lie in rows of `columns`.
+    /// Group `i` < groups(). Block first_block + i / r and the VPLs from first_vpl + 32 (i % r) on;
+    /// there are r runs of 32. Writes the sum of VPL first_vpl + j to element j of the `count` of
+    /// that block; blocks lie in rows of `columns`.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
         const std::uint32_t block = i / runs();
         const std::uint32_t first = i % runs() * LaneGroup::width;
@@ -106,7 +106,7 @@ struct BlockResponse {
         }
     }
 
-    /// Adds luxels first_luxel to first_luxel + 15, each to its lane of the sums; `own_lit` has a
+    /// Adds luxels first_luxel to first_luxel + 15, each to its lane of the sums. `own_lit` has a
     /// bit for each that sees the VPL of a lane of the group.
     MIR_HD void add_sixteen(const LaneGroup& group, LuxelIndex first_luxel,
                             const PerLaneVpls& own_vpls, const PerLaneBits& own_lit,
@@ -143,7 +143,8 @@ struct BlockResponse {
         });
     }
 
-    /// Adds the VPLs in places `at` and `at` + 1 of the workspace, one to each half of the group.
+    /// Adds the VPLs in places `at` and `at` + 1 of the workspace. Each goes to one half of the
+    /// group.
     MIR_HD void add_pair(const LaneGroup& group, const PerLaneLuxels& prepared, std::uint32_t at,
                          Workspace& space) const {
         group.each_apart([&](std::uint32_t lane) {
@@ -177,7 +178,7 @@ template <class G, class P, class F>
 BlockResponse(G, P, VisibilityWords<G::space>, F, std::uint32_t, std::uint32_t, VplIndex,
               std::uint32_t, ImageResponse*, std::uint32_t) -> BlockResponse<G, P, F>;
 
-/// Adds up each row of blocks from left to right: kernel over pairs of row and VPL.
+/// Adds up each row of blocks from left to right. Kernel over pairs of row and VPL.
 struct SumBlockRow {
     const ImageResponse* blocks = nullptr;  ///< as BlockResponse writes them
     std::uint32_t columns = 0;              ///< blocks of a row

@@ -13,7 +13,7 @@ namespace mir {
 template <GBuffer G, VplSet P, Shading F>
 struct ShadeOneVpl {
     G luxels;               ///< of the tile
-    P vpls;                 ///< of which one is read
+    P vpls;                 ///< one of them is read
     VplIndex vpl = 0;       ///< its place in `vpls`
     F shade;                ///< asked where luxel and VPL face each other
     SoaView<Rgb> radiance;  ///< W m^-2 sr^-1 by blocked index

@@ -11,8 +11,8 @@ namespace mir {
 /// surface, so that it runs while those are on their way (section 5.2 of the paper).
 template <GBuffer G, VplSet P, Visibility V>
 struct VisibilityPass {
-    G luxels;      ///< of which hits alone are read
-    P vpls;        ///< of which positions and normals are read
+    G luxels;      ///< only their hits are read
+    P vpls;        ///< only positions and normals are read
     V visibility;  ///< asked VPL first, where both face each other
 
     /// What the bits of luxel `i` (blocked index) have in common, for fill_bits().

@@ -6,9 +6,9 @@
 
 namespace mir {
 
-/// VPLs, without intensities, in the fast memory of a group of lanes: a place for each lane, with a
-/// word of the luxels that see the VPL. A place that a lane changes no other may touch between one
-/// LaneGroup::each() and the next.
+/// VPLs, without intensities, in the fast memory of a group of lanes. There is a place for each
+/// lane, with a word of the luxels that see the VPL. A place that a lane changes no other may touch
+/// between one LaneGroup::each() and the next.
 class VplRows {
  public:
     /// What is in a place.

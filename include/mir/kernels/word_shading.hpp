@@ -11,12 +11,12 @@
 
 namespace mir {
 
-/// ShadingPass for words of visibility (VisibilityWords): kernel for groups, 32 luxels each, a
+/// ShadingPass for words of visibility (VisibilityWords). Kernel for groups, 32 luxels each, a
 /// luxel per lane. Words are read 32 at a time and VPLs that none of the luxels sees skipped
 /// together. Writes W m^-2 sr^-1, VPLs summed in their order: the bits of ShadingPass.
 template <GBuffer G, VplSet P, Shading F>
 struct WordShading {
-    /// Four words, so that the device stores and fetches them as one: padding it stores by bytes.
+    /// Four words, so that the device stores and fetches them as one. Padding it stores by bytes.
     struct alignas(16) Intensity {
         float r = 0.0f;       ///< W sr^-1
         float g = 0.0f;       ///< W sr^-1
@@ -72,7 +72,7 @@ struct WordShading {
     }
 
  private:
-    /// VPL of a lane, the first for the last lane: highest bits are found faster than lowest ones.
+    /// VPL of a lane, the first for the last lane. Highest bits are found faster than lowest ones.
     [[nodiscard]] MIR_HD static VplIndex of_lane(VplIndex first, std::uint32_t lane) {
         return first + (LaneGroup::width - 1 - lane);
     }

@@ -29,7 +29,7 @@ inline const char* sentence_for(ChainNumber number) {
     }
 }
 
-/// Returns `value`, or NaN on a device unless `ok`: kernels cannot throw, and NaN is no
+/// Returns `value`, or NaN on a device unless `ok`. Kernels cannot throw, and NaN is no
 /// probability.
 /// @throws Error(internal) on the host unless `ok`.
 MIR_HD inline double checked(bool ok, double value, [[maybe_unused]] ChainNumber number,
@@ -56,9 +56,9 @@ MIR_HD inline double checked_positive(double value, ChainNumber number, Where at
 
 // Below, errors are thrown on the host; on a device the result is NaN instead.
 
-/// Probability min(1, f(y) / f(x)) of accepting y as the successor of x when y was proposed with
-/// a density that is symmetric in x and y.
-/// `f_x`, `f_y`: target function, any common scale. 0 when f(y) is 0.
+/// Probability min(1, f(y) / f(x)) of accepting y after x, symmetric proposals. The density of
+/// proposing y is symmetric in x and y. `f_x`, `f_y`: target function, any common scale. 0 when
+/// f(y) is 0.
 /// @throws Error(internal) unless f(x) is positive, f(y) not negative, and both finite.
 /// Source: Metropolis et al. 1953.
 MIR_HD inline double acceptance(double f_x, double f_y) {
@@ -67,10 +67,10 @@ MIR_HD inline double acceptance(double f_x, double f_y) {
     return y >= x ? 1.0 : y / x;
 }
 
-/// Probability min(1, [f(y) / K(y|x)] / [f(x) / K(x|y)]) of accepting y as the successor of x.
-/// `K_xy` = K(y|x) is the density with which y is proposed from x, `K_yx` = K(x|y) that of the way
-/// back, in the same measure as f. For Veach's bidirectional mutation both hold the sum over all
-/// strategies that could have inserted the vertices in question.
+/// Probability min(1, [f(y) / K(y|x)] / [f(x) / K(x|y)]) of accepting y after x. `K_xy` = K(y|x) is
+/// the density with which y is proposed from x, `K_yx` = K(x|y) that of the way back, in the same
+/// measure as f. For Veach's bidirectional mutation both hold the sum over all strategies that
+/// could have inserted the vertices in question.
 /// @throws Error(internal) unless f(x) and K(y|x) are positive, f(y) and K(x|y) not negative, and
 /// all finite.
 /// Source: Hastings 1970; Veach 1997, equation 11.5.

@@ -19,7 +19,7 @@ struct Bootstrap {
 
 namespace detail {
 
-/// Paths to draw in all: what the error so far makes likely to suffice, but between a tenth more
+/// Paths to draw in all. What the error so far makes likely to suffice, but between a tenth more
 /// and four times as many, because that error is an estimate too.
 inline std::uint64_t next_bootstrap_size(const PathLuminance& p, const BootstrapOptions& options) {
     const double ratio = p.contributing > 0 ? p.relative_error() / options.relative_error : 2.0;
@@ -31,9 +31,9 @@ inline std::uint64_t next_bootstrap_size(const PathLuminance& p, const Bootstrap
 
 }  // namespace detail
 
-/// Draws paths, more each time, until the relative error asked for is reached and some hundred
-/// paths carry light, or max_paths are drawn. All weights are 0 only when none of a million paths
-/// (or of max_paths) carries any. `draw(first, weights, places)` fills in paths from `first` on, on
+/// Draws paths, more each time, until the relative error is reached. Some hundred paths must carry
+/// light; max_paths is the limit. All weights are 0 only when none of a million paths (or of
+/// max_paths) carries any. `draw(first, weights, places)` fills in paths from `first` on, on
 /// whatever machine.
 template <class Draw>
 Bootstrap grow_bootstrap(const BootstrapOptions& options, const Draw& draw) {

@@ -24,8 +24,8 @@ struct BootstrapOptions {
         return o;
     }
 
-    /// Chains to start, out of `wanted`, when the paths drawn know P_c to a relative `error`. As
-    /// many as are wanted when that is what was asked for; else as many as deserve no less, but
+    /// Chains to start when the paths know P_c to a relative `error`. There are at most `wanted`.
+    /// As many as are wanted when that is what was asked for; else as many as deserve no less, but
     /// some hundred at least: where starts would come many times, mutations are worth more.
     [[nodiscard]] std::uint32_t starts_at(double error, std::uint32_t wanted) const {
         constexpr double fewest = 256.0;

@@ -25,7 +25,7 @@ struct ChainRules {
     MIR_HD static bool accepts(double number, double probability) { return number < probability; }
 };
 
-/// Where a Markov chain stands and what it has been through: all that a PathChain remembers, 17 kB.
+/// Where a Markov chain stands and what it has been through. All that a PathChain remembers, 17 kB.
 struct ChainState {
     /// Coordinates of the current path; under Mutation::bidirectional of its last large step.
     PrimarySample sample;
@@ -39,7 +39,7 @@ struct ChainState {
     bool is_broken = false;             ///< a number of an acceptance was none, on a device
 };
 
-/// A Markov chain of full paths whose stationary density is Y(F): the paths that matter to the
+/// A Markov chain of full paths whose stationary density is Y(F). The paths that matter to the
 /// image, each as often as it brings light. Over the paths of another generator it is their target;
 /// without a camera there are no bidirectional mutations. One thread at a time. Generator, options
 /// and state must outlive it. Source: algorithm 1 of Pajot, Barthe, Paulin 2009; Metropolis light
@@ -49,7 +49,7 @@ class PathChain {
     static_assert(path_dimension::count <= max_coordinates);
 
  public:
-    /// Chain number `chain` of a run where `state` stands: after start(), or where a PathChain of
+    /// Chain number `chain` of a run where `state` stands. After start(), or where a PathChain of
     /// the same arguments has left it.
     MIR_HD PathChain(const Generator& generator, const ChainOptions& options, std::uint64_t seed,
                      std::uint32_t chain, ChainState& state)
@@ -108,8 +108,8 @@ class PathChain {
     [[nodiscard]] MIR_HD const WeightMoments& large_step_weights() const {
         return state_.large_weights;
     }
-    /// True when on a device a number of an acceptance was negative or not finite, where the host
-    /// throws.
+    /// True when on a device an acceptance had a negative or infinite number. The host throws
+    /// there.
     [[nodiscard]] MIR_HD bool is_broken() const { return state_.is_broken; }
 
  private:
@@ -184,16 +184,16 @@ class PathChain {
                                                          const WeightedPath& y, PathGap out,
                                                          std::uint32_t n) const {
         const PathGap back{out.left, out.left + n + 1};
-        const auto way = [&](const WeightedPath& from, PathGap hole, const WeightedPath& to,
-                             std::uint32_t added) {
+        const auto density = [&](const WeightedPath& from, PathGap hole, const WeightedPath& to,
+                                 std::uint32_t added) {
             const std::uint32_t k = from.path.edges();
             return Rules::choice(gaps_, k, hole, added) *
                    Rules::refill(to.measure, to.path.edges(), hole.left, added);
         };
-        const double there = way(x, out, y, n);
+        const double there = density(x, out, y, n);
         if (!(there > 0.0)) return 0.0;
         return acceptance(luminance(x.measure.contribution), there,
-                          luminance(y.measure.contribution), way(y, back, x, out.vertices()));
+                          luminance(y.measure.contribution), density(y, back, x, out.vertices()));
     }
 
     MIR_HD bool accepts(const Random& numbers, double probability) {

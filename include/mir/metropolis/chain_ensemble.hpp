@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Chains over the paths of one generator, from their bootstrap to their records, on the threads of
+/// Chains over the paths of one generator, from bootstrap to records. They run on the threads of
 /// an executor. Generator, `suffix` and what they refer to must outlive it; const use from any
 /// thread.
 template <class World, class Generator>

@@ -30,11 +30,11 @@ struct SliceReport {
     bool has_ended = false;     ///< no slice of it is left
 };
 
-/// Where a chain in a kernel writes: a column of two tables, so that what all chains leave empty is
-/// the tables' end.
+/// Where a chain in a kernel writes: a column of two tables. What all chains leave empty is the
+/// tables' end.
 struct ChainColumn {
     VplRecord* records = nullptr;    ///< of the chain: the j-th at records[j columns]
-    TraceSample* samples = nullptr;  ///< likewise
+    TraceSample* samples = nullptr;  ///< as above
     std::size_t columns = 1;         ///< chains that share the tables
     TraceRhythm rhythm;              ///< which states are kept as samples
     std::uint64_t record_count = 0;  ///< written so far
@@ -48,7 +48,7 @@ struct ChainColumn {
     }
 };
 
-/// A slice of chains `first` to `first` + `count` - 1. Kernel over count * spread indices, of which
+/// A slice of chains `first` to `first` + `count` - 1. Kernel over count * spread indices, and
 /// every spread-th works: neighbouring threads of a device wait for each other, and chains part at
 /// once.
 template <class Walk>

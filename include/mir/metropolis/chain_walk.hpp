@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// What a chain remembers while it runs, 26 kB: too much for a thread's own memory.
+/// What a chain remembers while it runs, 26 kB. Too much for a thread's own memory.
 struct ChainMemory {
     ChainState state;  ///< where the chain stands
     /// With the current suffix, unless that is the state's own, and with a proposal.
@@ -44,9 +44,9 @@ struct ChainExtent {
     }
 };
 
-/// Runs chains, each from its start to its last record and in slices of any length, which leave no
+/// Runs chains, each from its start to its last record. Slices may have any length and leave no
 /// trace in the result. `intensity(path)` is what the record of a path gets. The same on host and
-/// device, but for where records go. `Suffix` is a SuffixProposal.
+/// device, except for where records go. `Suffix` is a SuffixProposal.
 template <class Generator, class Suffix, class Intensity>
 struct ChainWalk {
     /// The scene that paths run through.
@@ -98,8 +98,8 @@ struct ChainWalk {
     }
 
  private:
-    /// Names the random numbers of a state's suffixes, but for the refresh: 22 bits of the chain, 8
-    /// of the refresh, 32 of the state.
+    /// Names the random numbers of a state's suffixes, except for the refresh. It holds 22 bits of
+    /// the chain, 8 of the refresh, 32 of the state.
     MIR_HD static std::uint64_t index_of(std::uint32_t chain, std::uint64_t state) {
         return (std::uint64_t{chain} << 40) | static_cast<std::uint32_t>(state);
     }

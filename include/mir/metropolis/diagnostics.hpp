@@ -25,8 +25,8 @@ inline std::size_t common_length(const Traces& traces) {
     return length;
 }
 
-/// Both halves of every chain, as pieces of equal length (the middle of an odd length is left out):
-/// a chain that drifts disagrees with itself.
+/// Both halves of every chain, as pieces of equal length. The middle of an odd length is left out.
+/// A chain that drifts disagrees with itself.
 inline std::vector<std::span<const double>> split_halves(const Traces& traces) {
     const std::size_t length = common_length(traces);
     std::vector<std::span<const double>> halves;
@@ -43,7 +43,7 @@ inline std::vector<std::span<const double>> split_halves(const Traces& traces) {
     return halves;
 }
 
-/// Relative to the first value, so that equal values have exactly that mean and no variance.
+/// Relative to the first value. Equal values then have exactly that mean and no variance.
 inline double mean(std::span<const double> values) {
     double sum = 0.0;
     for (double x : values) sum += x - values[0];
@@ -89,7 +89,7 @@ class Spread {
         return means;
     }
 
-    /// Mean of all pieces of s^2 rho_t, s^2 with divisor n - 1 at every lag.
+    /// Mean of all pieces of s^2 rho_t. s^2 has the divisor n - 1 at every lag.
     [[nodiscard]] double covariance(std::size_t lag) const {
         double sum = 0.0;
         for (std::size_t p = 0; p < count(); ++p)
@@ -105,11 +105,11 @@ class Spread {
 
 }  // namespace detail
 
-/// Split R-hat: the factor by which the spread of the scalar might still shrink, near 1 once the
-/// chains, cut in halves, agree; 1.05 and more is a warning.
-/// Defined for every input: infinity when there are no chains or one has fewer than four steps
-/// (nothing is known), or when all halves are constant but differ; 1 when all values are equal. The
-/// latter cannot tell a constant scalar from a chain that never moved: look at its acceptance too.
+/// Split R-hat: the factor by which a scalar's spread might still shrink. It is near 1 once the
+/// chains, cut in halves, agree; 1.05 and more is a warning. Defined for every input: infinity when
+/// there are no chains or one has fewer than four steps (nothing is known), or when all halves are
+/// constant but differ; 1 when all values are equal. The latter cannot tell a constant scalar from
+/// a chain that never moved: look at its acceptance too.
 /// @throws Error(invalid_argument) when a value is not below 1e140 in magnitude.
 /// Source: Gelman et al., "Bayesian Data Analysis", third edition, section 11.4.
 inline double split_r_hat(const Traces& traces) {
@@ -119,7 +119,7 @@ inline double split_r_hat(const Traces& traces) {
     return spread.total() == 0.0 ? 1.0 : std::sqrt(spread.total() / spread.within());
 }
 
-/// Integrated autocorrelation time 1 + 2 sum(rho_t): how many steps are worth one independent draw
+/// Integrated autocorrelation time 1 + 2 sum(rho_t). How many steps are worth one independent draw
 /// of the scalar. At least 1, at most the length of a chain. The sum stops where pairs of
 /// neighbouring lags stop being positive and is made monotone, so its length adapts to the data.
 /// Defined for every input: 1 when all values are equal; the length of a chain when that is below
@@ -146,8 +146,8 @@ inline double autocorrelation_time(const Traces& traces) {
     return std::clamp(time, 1.0, longest);
 }
 
-/// Number of independent draws that would estimate the scalar's mean as well as all chains do:
-/// their steps over autocorrelation_time(). At least one per chain, 0 without steps.
+/// Number of independent draws with the variance of the chains' mean. It is their steps over
+/// autocorrelation_time(). At least one per chain, 0 without steps.
 /// @throws Error(invalid_argument) when a value is not below 1e140 in magnitude.
 inline double effective_sample_size(const Traces& traces) {
     const std::size_t draws = traces.size() * detail::common_length(traces);
@@ -161,8 +161,9 @@ struct Mixing {
     double autocorrelation_time = 0.0;  ///< steps of the traces per independent draw
 };
 
-/// Smallest effective sample size, largest R-hat and longest autocorrelation time over several
-/// scalars of the same chains. Without scalars: what is known of chains without steps.
+/// Worst diagnostics over several scalars of the same chains. They are the smallest effective
+/// sample size, largest R-hat and longest autocorrelation time. Without scalars: what is known of
+/// chains without steps.
 /// @throws Error(invalid_argument) when a value is not below 1e140 in magnitude.
 inline Mixing worst_mixing(std::span<const Traces> scalars) {
     Mixing worst;

@@ -10,8 +10,8 @@
 
 namespace mir {
 
-/// States recorded at most for each new VPL that ChainStop::paper waits for: it might wait for ever
-/// on a path that nothing moves.
+/// Most states recorded for each new VPL that ChainStop::paper waits for. Without it, a path that
+/// nothing moves would hold it for ever.
 inline constexpr std::uint64_t paper_stop_cap = 64;
 
 /// How many states a MetropolisSampler records, how far paths go, and how chains run.
@@ -25,8 +25,8 @@ struct MetropolisOptions : MetropolisTuning {
     [[nodiscard]] std::uint32_t min_edges() const { return emitter_vpls ? 2 : 3; }
     /// Most edges of a path: one more than it scatters.
     [[nodiscard]] std::uint32_t max_edges() const { return std::uint32_t{max_bounce} + 1; }
-    /// @throws Error(invalid_argument) that names the first bad value, Error(limit_exceeded) when
-    ///         more states are wanted than `limits` allows VPLs.
+    /// @throws Error(invalid_argument) that names the first bad value. Error(limit_exceeded) when
+    /// more states are wanted than `limits` allows VPLs.
     void check(const Limits& limits) const;
 };
 

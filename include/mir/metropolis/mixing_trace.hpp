@@ -24,7 +24,7 @@ struct TraceSample {
 class TraceRhythm {
  public:
     TraceRhythm() = default;
-    /// For a chain of `states` states, of which `seen` have passed.
+    /// For a chain of `states` states; `seen` of them have passed.
     MIR_HD explicit TraceRhythm(std::uint64_t states, std::uint64_t seen = 0)
         : stride_((states + most - 1) / most), seen_(seen) {}
 
@@ -43,7 +43,7 @@ class TraceRhythm {
     std::uint64_t seen_ = 0;
 };
 
-/// Numbers along one chain that judge its mixing: x, y and z of x_v, log Y(R) and k.
+/// Numbers along one chain that judge its mixing. They are x, y and z of x_v, log Y(R) and k.
 class MixingTrace {
  public:
     static constexpr std::size_t scalars = 5;  ///< numbers kept of each state
@@ -61,7 +61,7 @@ class MixingTrace {
 
     /// States between two that are kept.
     [[nodiscard]] std::uint64_t stride() const { return rhythm_.stride(); }
-    /// One number along all states kept: 0 to 2 are x, y and z of x_v, metres; 3 is log Y(R), 4 is
+    /// One number along all states kept. 0 to 2 are x, y and z of x_v, metres; 3 is log Y(R), 4 is
     /// k.
     [[nodiscard]] std::vector<double> values(std::size_t scalar) const {
         std::vector<double> values;

@@ -33,13 +33,13 @@ MIR_HD inline std::uint32_t choose_by_weight(const double* weights, std::uint32_
 
 }  // namespace detail
 
-/// One step of multiple-try Metropolis over candidates that were drawn independently of the current
-/// state and of one another, from one density q. With w = f / q the weight of a state, one of the
-/// candidates is chosen by weight and accepted with
-///     a = min(1, S / (S - w(chosen) + w(current))),  S = sum of the candidates' weights:
-/// the losers stand in for the way back, which therefore need not be drawn. With one candidate this
-/// is Metropolis' rule. Correlated candidates break detailed balance.
-/// `choice`, `decision`: two independent uniform numbers of [0, 1). Without weight nothing is
+/// One step of multiple-try Metropolis over independent candidates. They were drawn
+/// independently of the current state and of one another, from one density q. With w = f /
+/// q the weight of a state, one of the candidates is chosen by weight and accepted with a
+/// = min(1, S / (S - w(chosen) + w(current))), S = sum of the candidates' weights: the
+/// losers stand in for the way back, which therefore need not be drawn. With one candidate
+/// this is Metropolis' rule. Correlated candidates break detailed balance. `choice`,
+/// `decision`: two independent uniform numbers of [0, 1). Without weight nothing is
 /// accepted.
 /// @throws Error(internal) unless w(current) is positive, the others not negative, and all finite;
 /// on a device the acceptance is NaN instead.

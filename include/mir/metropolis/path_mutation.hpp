@@ -25,7 +25,7 @@ class GapChoices {
     MIR_HD GapChoices(std::uint32_t min_edges, std::uint32_t max_edges)
         : min_(min_edges), max_(max_edges) {}
 
-    /// Range to take out of a path of k edges, for one number in [0, 1).
+    /// Range to take out of a path of k edges. One number in [0, 1) picks it.
     [[nodiscard]] MIR_HD PathGap sample_gap(std::uint32_t k, double u) const {
         PathGap last{0, k + 1};
         double rest = u * total_weight(k);
@@ -51,7 +51,7 @@ class GapChoices {
         }
         return last;
     }
-    /// Probability that sample_count() puts `n` vertices into this gap; 0 where no path comes of
+    /// Probability that sample_count() puts `n` vertices into this gap. 0 where no path comes of
     /// it.
     [[nodiscard]] MIR_HD double count_probability(std::uint32_t k, PathGap gap,
                                                   std::uint32_t n) const {
@@ -74,7 +74,7 @@ class GapChoices {
                 if (const double w = weight_of(k, {left, right}); w > 0.0)
                     body(PathGap{left, right}, w);
     }
-    /// Small gaps are likelier; the one that moves x1 alone is rare, because it yields no new VPL.
+    /// Small gaps are likelier. The one that moves x1 alone is rare, because it yields no new VPL.
     /// An edge can be cut open only where a vertex fits in.
     [[nodiscard]] MIR_HD double weight_of(std::uint32_t k, PathGap gap) const {
         const bool at_end = gap.left == 0 || gap.right == k + 1;
@@ -105,8 +105,8 @@ class GapChoices {
     std::uint32_t max_;
 };
 
-/// Density of the `n` vertices between the ends of a gap in a path of k edges, over all splits of
-/// them into a camera's and a light's side. Leaving out splits that could have built the same
+/// Density of the `n` vertices between the ends of a gap. The path has k edges; all splits of them
+/// into a camera's and a light's side count. Leaving out splits that could have built the same
 /// vertices would break detailed balance. x2 counts in PathMeasure::area_unit too: what is x2 of
 /// the one path may be x3 of the other.
 MIR_HD inline double refill_density(const PathMeasure& m, std::uint32_t k, std::uint32_t left,
@@ -126,9 +126,9 @@ MIR_HD inline double refill_density(const PathMeasure& m, std::uint32_t k, std::
     return sum * (holds_second ? m.area_unit : 1.0) / static_cast<double>(n - fewest + 1);
 }
 
-/// Takes the gap out of `x` and puts `n` new vertices in, `from_eye` of them grown from the
-/// camera's side, the others from the light's, and connects. False when that leads nowhere; the
-/// light that passes is not computed.
+/// Replaces the gap of `x` by `n` new vertices and connects. `from_eye` of them grow from the
+/// camera's side, the others from the light's. False when that leads nowhere; the light that passes
+/// is not computed.
 template <class World, class Numbers>
 MIR_HD bool refill(const World& world, Numbers& u, const Path& x, PathGap gap, std::uint32_t n,
                    std::uint32_t from_eye, Path& y) {

@@ -22,7 +22,7 @@ inline constexpr std::uint32_t max_coordinates = 400;
 inline constexpr std::uint32_t max_chains = 1u << 22;
 inline constexpr std::uint32_t max_tries = 255;  ///< of one step
 
-/// The first numbers of a step are free for its decisions (kind, choice, acceptance); number
+/// The first numbers of a step are free for its decisions (kind, choice, acceptance). Number
 /// `step_decisions + d` moves coordinate d.
 inline constexpr std::uint32_t step_decisions = 8;
 
@@ -45,7 +45,7 @@ MIR_HD inline Random step_numbers(std::uint64_t seed, std::uint32_t chain, std::
     return {seed, Stream::mutation, detail::mutation_index(chain, step, 0)};
 }
 
-/// Large step that chain `chain` proposes at `step` as its try `attempt`; one try is number 0.
+/// Large step that chain `chain` proposes at `step` as its try `attempt`. One try is number 0.
 /// @throws Error(invalid_argument) unless chain < max_chains and attempt < max_tries.
 MIR_HD inline LargeStep large_step(std::uint32_t chain, std::uint32_t step,
                                    std::uint32_t attempt = 0) {
@@ -54,17 +54,17 @@ MIR_HD inline LargeStep large_step(std::uint32_t chain, std::uint32_t step,
     return {Stream::mutation, detail::mutation_index(chain, step, attempt + 1)};
 }
 
-/// State of a Markov chain in primary sample space: a point of [0, 1)^400 whose coordinates are
-/// computed when they are asked for. It is a pure function of seed, chain, the large step it
-/// descends from and the small steps accepted since, so equal on any machine; what is cached never
-/// shows. Proposals are views that write nothing: rejecting one costs nothing.
+/// State of a Markov chain in primary sample space, a point of [0, 1)^400. Coordinates are computed
+/// when they are asked for. It is a pure function of seed, chain, the large step it descends from
+/// and the small steps accepted since, so equal on any machine; what is cached never shows.
+/// Proposals are views that write nothing: rejecting one costs nothing.
 ///
 /// A value of 5.3 kB without memory elsewhere. Copies are independent. Not to be used by two
 /// threads at once.
 /// Source: Kelemen et al. 2002; the lazy evaluation is theirs, history instead of roll-back is not.
 class PrimarySample {
  public:
-    /// Proposal of moving every coordinate a little; reads the state it was made from, and is
+    /// Proposal of moving every coordinate a little. Reads the state it was made from, and is
     /// invalid once that accepts a step.
     class SmallProposal {
      public:
@@ -91,7 +91,7 @@ class PrimarySample {
         start(seed, chain, base, kernel);
     }
 
-    /// Becomes that state, whatever it was: in place, for kernels that have no room for two.
+    /// Becomes that state, whatever it was. In place, for kernels that have no room for two.
     /// @throws Error(invalid_argument) unless chain < max_chains.
     MIR_HD void start(std::uint64_t seed, std::uint32_t chain, LargeStep base,
                       const SmallStep& kernel = {}) {

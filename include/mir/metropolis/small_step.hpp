@@ -11,8 +11,8 @@ namespace mir {
 
 namespace detail {
 
-/// 2^x for |x| < 1000 to a relative error of 1e-8, from operations that IEEE 754 rounds alike
-/// everywhere. std::exp2 differs between machines, and one differing bit sends a chain elsewhere.
+/// 2^x for |x| < 1000 to a relative error of 1e-8. IEEE 754 rounds its operations alike everywhere.
+/// std::exp2 differs between machines, and one differing bit sends a chain elsewhere.
 MIR_HD inline double portable_exp2(double x) {
     constexpr double ln2 = 0.69314718055994531;
     constexpr double sqrt2 = 1.41421356237309505;
@@ -26,12 +26,12 @@ MIR_HD inline double portable_exp2(double x) {
 
 }  // namespace detail
 
-/// Small move of one coordinate of primary sample space: u' = u +- s2 exp(-xi ln(s2 / s1)), wrapped
-/// around [0, 1). Both signs are equally likely and xi is uniform, so the density of the length is
-/// proportional to 1 / length between s1 and s2.
+/// Small move of one coordinate of primary sample space, wrapped around [0, 1). u' = u +- s2
+/// exp(-xi ln(s2 / s1)). Both signs are equally likely and xi is uniform, so the density of the
+/// length is proportional to 1 / length between s1 and s2.
 ///
 /// Coordinates are multiples of 2^-24, as all numbers of `Random` are, and lengths are rounded to
-/// them. Hence wrapping is exact, 1 is never returned, and T(u -> v) == T(v -> u) in every bit.
+/// them. So wrapping is exact, 1 is never returned, and T(u -> v) == T(v -> u) in every bit.
 ///
 /// Immutable; const use from any thread.
 /// Source: Kelemen et al., "A simple and robust mutation strategy for the Metropolis light

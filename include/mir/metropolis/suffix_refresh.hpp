@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Draws x3 .. x_k of a path anew while x0, x1 and x2 stay, at least one reflection behind x2: an
+/// Redraws x3 .. x_k of a path while x0, x1 and x2 stay, at least one reflection behind x2: an
 /// independence chain on the light behind one VPL, with the target Y(F) + floor Y(R). Its states
 /// bring the same geometric VPL, so they cost nothing at reconstruction (docs/method.md, 11.6).
 /// Const use from any thread.
@@ -30,7 +30,7 @@ class SuffixProposal {
         return p > 0.0 && is_finite(target / p) ? target / p : 0.0;
     }
 
-    /// A path with the x0, x1, x2 of `from` and a new rest; its weight is that of weight(), 0 when
+    /// A path with the x0, x1, x2 of `from` and a new rest. Its weight is that of weight(), 0 when
     /// nothing came of it.
     template <class Numbers>
     MIR_HD void draw(const WeightedPath& from, Numbers&& u, WeightedPath& out) const {

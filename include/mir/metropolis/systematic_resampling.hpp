@@ -12,16 +12,17 @@
 
 namespace mir {
 
-/// Uniform number of [0, 1) with 48 bits from two of `Random` with 24 each: among 10^5 weights, one
+/// Uniform number of [0, 1) with 48 bits from two of `Random`. Each has 24: among 10^5 weights, one
 /// of 24 bits would favour some of equal ones by more than 0.1 %.
 constexpr double fine_uniform(float coarse, float fine) {
     return static_cast<double>(coarse) + 0x1p-24 * static_cast<double>(fine);
 }
 
-/// `count` indices; i is among them count * w_i / sum(w) times on average over `u`, and for no `u`
-/// more than one time above or below that. Draw c stands at u + c / count on the circle of all
-/// weights in their order: since the whole circle turns with `u`, uniform in [0, 1), each draw by
-/// itself has the probabilities w_i / sum(w) too, and may seed a chain of any length.
+/// `count` indices, drawn in proportion to the weights. i is among them count * w_i / sum(w) times
+/// on average over `u`, and for no `u` more than one time above or below that. Draw c stands at u +
+/// c / count on the circle of all weights in their order: since the whole circle turns with `u`,
+/// uniform in [0, 1), each draw by itself has the probabilities w_i / sum(w) too, and may seed a
+/// chain of any length.
 /// @throws Error(invalid_argument) when a weight is negative or not finite, or none is positive.
 /// Source: Carpenter, Clifford, Fearnhead 1999, "Improved particle filter for nonlinear problems".
 inline std::vector<std::uint32_t> systematic_resampling(std::span<const double> weights,

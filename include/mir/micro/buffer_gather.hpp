@@ -11,7 +11,7 @@
 
 namespace mir {
 
-/// Light that reaches luxels from discs, by micro-buffers of up to `Side` texels a side: the mean
+/// Light that reaches luxels from discs, by micro-buffers of up to `Side` texels a side. The mean
 /// of f L cos / p over the texels of a buffer of CosineTexels; where BufferWarp::importance is
 /// asked for and the surface has a lobe, over those of a buffer of LobeTexels too, by the balance
 /// heuristic. Made by 32 lanes together, for some luxels at once; allocates nothing; a kernel body
@@ -28,7 +28,7 @@ struct BufferGather {
     const SurfelRadiance* radiance = nullptr;  ///< of nodes
     BufferGatherOptions options;               ///< must have passed check(); at most `Side` texels
 
-    /// Calls write(k, light) for every k below Workspace::pictures, from all lanes: the radiance
+    /// Calls write(k, light) for every k below Workspace::pictures, from all lanes. The radiance
     /// towards the viewer of the luxel point_of(k), a Point, W m^-2 sr^-1. Black where its hit is
     /// empty. Luxels next to each other are faster.
     template <class PointOf, class Write>
@@ -93,7 +93,7 @@ struct BufferGather {
         return reflection_lobe<B>(p.surface.bsdf, p.surface.normal, p.surface.wo);
     }
 
-    /// Adds what the buffers of `seen` bring to the light of their luxels; by the balance heuristic
+    /// Adds what the buffers of `seen` bring to the light of their luxels. By the balance heuristic
     /// where a luxel is one of the `shiny` ones, which have both buffers.
     template <class Buffers, class PointOf>
     MIR_HD void add_light(const LaneGroup& group, const Buffers& buffers, std::uint32_t seen,
@@ -152,8 +152,8 @@ struct BufferGather {
     }
 };
 
-/// Calls f with the least `Side`, as a std::integral_constant, that has room for buffers of `side`
-/// texels: small ones leave a GPU room for more groups.
+/// Calls f with the least `Side` that has room for buffers of `side` texels. It is a
+/// std::integral_constant; small ones leave a GPU room for more groups.
 template <class F>
 decltype(auto) with_buffer_side(std::uint32_t side, const F& f) {
     if (side <= 8) return f(std::integral_constant<std::uint32_t, 8>{});

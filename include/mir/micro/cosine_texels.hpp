@@ -8,8 +8,8 @@
 
 namespace mir {
 
-/// Texels of a micro-buffer that see the same projected solid angle of the hemisphere around a
-/// normal: the unit square under square_to_cosine_hemisphere(). Host and device.
+/// Texels of a micro-buffer of equal projected solid angle around a normal. They are those of the
+/// unit square under square_to_cosine_hemisphere(). Host and device.
 class CosineTexels {
  public:
     /// Whether the left and the right border of the square are one.
@@ -64,8 +64,8 @@ class CosineTexels {
     }
 
  private:
-    /// For the approximations that reach() is made of, of which asin() and atan() have most, and
-    /// the rounding of directions.
+    /// For the approximations in reach(), asin() and atan() above all, and rounded
+    /// directions.
     static constexpr float margin = 2e-4f;
 
     [[nodiscard]] MIR_HD static float dot(Vec3 a, Vec3 b) {
@@ -74,7 +74,7 @@ class CosineTexels {
     [[nodiscard]] MIR_HD static float root(float a) {
         return a > 1e-12f ? a * loose::inverse_root(a) : 1e-6f;
     }
-    /// (4 / pi) atan(q) for q from -1 to 1, to 1.1e-4: least squares, weighted until errors were
+    /// (4 / pi) atan(q) for q from -1 to 1, to 1.1e-4. Least squares, weighted until errors were
     /// alike.
     [[nodiscard]] MIR_HD static float eighths(float q) {
         const float q2 = q * q;
@@ -92,9 +92,9 @@ class CosineTexels {
         return {middle - extent, middle + extent};
     }
 
-    /// Around the sector of radii ring.x to ring.y and of the azimuth of `p` -+ asin(`sine`). With
-    /// t = 4 / pi times the azimuth from the nearest axis, that axis has a radius's share 1 up to
-    /// |t| = 1 and 2 - |t| behind, up to 3, and the other t, up to 1.
+    /// Rectangle around the sector of radii ring.x to ring.y. Its azimuth is that of `p` -+
+    /// asin(`sine`). With t = 4 / pi times the azimuth from the nearest axis, that axis has a
+    /// radius's share 1 up to |t| = 1 and 2 - |t| behind, up to 3, and the other t, up to 1.
     [[nodiscard]] MIR_HD static TexelReach sector(Vec2 p, Vec2 ring, float sine) {
         const bool wide = fabsf(p.x) > fabsf(p.y);
         const float main = wide ? p.x : p.y;

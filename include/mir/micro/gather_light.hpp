@@ -8,10 +8,10 @@
 
 namespace mir {
 
-/// Ends nothing: what gather_light() calls after each luxel unless told.
+/// Default progress callback of gather_light(): does nothing.
 inline constexpr auto no_progress = [](std::uint64_t) {};
 
-/// Indirect light of an image: what `gather`, a RayGather or a BufferGather, finds at every luxel;
+/// Indirect light of an image. What `gather`, a RayGather or a BufferGather, finds at every luxel;
 /// towards the viewer, W m^-2 sr^-1. Calls done(n) after every n luxels, from any thread.
 template <TiledGBuffer G, class Gather, Executor E, class Done = decltype(no_progress)>
 Image<Rgb> gather_light(const G& gbuffer, const Gather& gather, LuxelBand band, E& executor,

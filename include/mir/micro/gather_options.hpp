@@ -21,8 +21,8 @@ enum class StopShape {
 struct GatherOptions {
     std::uint32_t rays = 128;                                ///< of each point, 1 to 65536
     GatherDirections directions = GatherDirections::cosine;  ///< where rays lie dense
-    /// Largest solid angle of a node at which a ray stops, in units of the ray's own, which is
-    /// 1 / (rays * density): 0 is exact, 1 the article's choice.
+    /// Largest solid angle of a node at which a ray stops, in the ray's own. That is 1 / (rays *
+    /// density): 0 is exact, 1 the article's choice.
     float threshold = 1.0f;
     StopShape shape = StopShape::disc;  ///< what a ray meets where it stops at a node
 };
@@ -38,8 +38,8 @@ struct BufferGatherOptions {
     static constexpr std::uint32_t largest_side = 24;  ///< texels that a group has room for
 
     std::uint32_t side = 16;  ///< texels in each direction, 1 to largest_side
-    /// Largest solid angle of a node that is drawn as a whole, in units of the smallest texel that
-    /// it may cover, of those that follow the cosine pi / side^2 everywhere: 0 is exact.
+    /// Largest solid angle of a node that is drawn whole, in smallest texels. Those are the ones
+    /// that it may cover, of those that follow the cosine pi / side^2 everywhere: 0 is exact.
     float threshold = 1.0f;
     BufferWarp warp = BufferWarp::hemisphere;  ///< what texels stand for
 };

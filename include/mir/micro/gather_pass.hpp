@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// Luxels of a tile, padding included, and where the light that each of them gathers goes.
+/// Luxels of a tile, padding included, and where their gathered light goes.
 template <class G>
 struct GatherTile {
     /// What a luxel gathers with.
@@ -34,7 +34,7 @@ struct GatherTile {
 template <class G>
 GatherTile(G, Tile, LuxelBand, SoaView<Rgb>) -> GatherTile<G>;
 
-/// One luxel, all light that it gathers by rays: kernel over a run of the luxels of a tile; the
+/// One luxel, all light that it gathers by rays. Kernel over a run of the luxels of a tile; the
 /// bits of gather_light().
 template <class G, class Gather>
 struct GatherPass {

@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// Texels of a micro-buffer that share a ReflectionLobe evenly: around its axis from left to right,
+/// Texels of a micro-buffer that share a ReflectionLobe evenly. Around its axis from left to right,
 /// away from it from bottom to top. Host and device.
 class LobeTexels {
  public:
@@ -46,7 +46,7 @@ class LobeTexels {
     /// And at most.
     [[nodiscard]] MIR_HD float most_density() const { return density_at(0.0f); }
 
-    /// Of directions that meet a sphere whose centre is `to_centre` away; a little more for the
+    /// Texels of directions that meet a sphere at `to_centre`. A little is added for the
     /// rounding of directions, which counts as k does in the one axis and near the poles in the
     /// other.
     [[nodiscard]] MIR_HD TexelReach reach(Vec3 to_centre, float radius) const {
@@ -71,7 +71,7 @@ class LobeTexels {
     }
 
  private:
-    /// x = 1 - cos of the angle to the axis, over the directions that meet a sphere at `w`.
+    /// x = 1 - cos of the angle to the axis, over a sphere's directions. The sphere lies at `w`.
     struct Away {
         float nearest = 0.0f;
         float farthest = 2.0f;

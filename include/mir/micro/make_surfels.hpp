@@ -11,10 +11,10 @@ namespace mir {
 
 namespace detail {
 
-/// Most discs of a scene, whatever its limits: nodes of a tree over them are counted by 32 bits.
+/// Most discs of a scene, whatever its limits. Nodes of a tree over them are counted by 32 bits.
 inline constexpr std::uint64_t most_surfels = std::uint64_t{1} << 31;
 
-/// Index of the first piece of each triangle, and the number of all pieces at the end.
+/// Index of the first piece of each triangle; the number of all comes last.
 /// @throws Error(limit_exceeded) when there are more than Limits::surfels.
 inline std::vector<std::uint64_t> piece_offsets(const WorldGeometry& geometry,
                                                 const SurfelOptions& options,
@@ -32,14 +32,14 @@ inline std::vector<std::uint64_t> piece_offsets(const WorldGeometry& geometry,
 
 }  // namespace detail
 
-/// Cuts every triangle of a scene in four along the middles of its edges, again and again until no
-/// piece is larger than options.max_area, and puts a disc in the middle of each piece. The pieces
-/// of a triangle are equal: their areas add up, exactly, to its area rounded once to single
-/// precision (unless they are below 2^-126 m^2). Triangles come in the order of the geometry, the
-/// pieces of one in the order in which cutting meets them: what touches its corners, then the
-/// middle. The same for any number of threads. Sources: the disc approximation of Ritschel et al.,
-/// "Micro-rendering for scalable, parallel final gathering", ACM Transactions on Graphics 28(5),
-/// 2009, with the cut of a course on it.
+/// Cuts every triangle of a scene in four, again and again, and makes discs. Cuts go along the
+/// middles of edges until no piece is larger than options.max_area; a disc lies in the middle of
+/// each piece. The pieces of a triangle are equal: their areas add up, exactly, to its area rounded
+/// once to single precision (unless they are below 2^-126 m^2). Triangles come in the order of the
+/// geometry, the pieces of one in the order in which cutting meets them: what touches its corners,
+/// then the middle. The same for any number of threads. Sources: the disc approximation of Ritschel
+/// et al., "Micro-rendering for scalable, parallel final gathering", ACM Transactions on Graphics
+/// 28(5), 2009, with the cut of a course on it.
 /// @throws Error(invalid_argument) on options out of range; Error(limit_exceeded) before memory is
 ///         taken; Error(invalid_input) on triangles too large for single precision.
 template <Executor E>

@@ -10,7 +10,7 @@
 
 namespace mir {
 
-/// Small pictures of what is around points next to each other: what each of their texels sees first
+/// Small pictures of what is around points next to each other. What each of their texels sees first
 /// of a tree of discs, along the directions of its point's `Texels`. Drawn by 32 lanes together, in
 /// the memory of their group; host and device, the same bits, which do not depend on what other
 /// pictures are drawn with one.
@@ -58,12 +58,12 @@ class MicroBuffers {
         return t;
     }
 
-    /// Draws a tree into all pictures that have a place, in one walk for all of them: down to
-    /// discs, or to nodes at most `threshold` times as large as the texels there and at which
-    /// closest_surfel() would stop. A texel holds the nearest of those that its direction meets.
-    /// Every step is one that all lanes have nodes for, as long as there is one.
-    /// Source: Ritschel et al. 2009, section 4; nodes are met by all texels that they cover, not
-    /// splatted into one, which leaves holes.
+    /// Draws a tree into all pictures that have a place, in one walk. It goes down to discs, or to
+    /// nodes at most `threshold` times as large as the texels there and at which closest_surfel()
+    /// would stop. A texel holds the nearest of those that its direction meets. Every step is one
+    /// that all lanes have nodes for, as long as there is one. Source: Ritschel et al. 2009,
+    /// section 4; nodes are met by all texels that they cover, not splatted into one, which leaves
+    /// holes.
     template <Space S>
     MIR_HD void draw(const SurfelTreeView<S>& tree, float threshold) {
         if (tree.empty() || placed_ == 0) return;
@@ -87,7 +87,7 @@ class MicroBuffers {
         meet(tree, drawn_);
     }
 
-    /// Whether the walk for picture k ends at a node that it does not pass by.
+    /// Whether the walk for picture k ends at a node and does not pass it.
     template <Space S>
     [[nodiscard]] MIR_HD bool ends_at(const SurfelTreeView<S>& tree, std::uint32_t index,
                                       std::uint32_t k, float share) const {
@@ -119,8 +119,8 @@ class MicroBuffers {
         detail::PointGroup group;
     };
 
-    /// Takes the children of up to 16 nodes that wait, one for each lane, and does what is sure
-    /// for all pictures together.
+    /// Takes the children of up to 16 waiting nodes, one for each lane. Does what is sure for all
+    /// pictures together.
     template <Space S>
     MIR_HD void take(const Walk<S>& walk) {
         const std::uint32_t parents = portion(waiting_, LaneGroup::width / 2);
@@ -159,7 +159,7 @@ class MicroBuffers {
             return pictures == placed_ ? walk.group.fate(node) : Fate::unsure;
     }
 
-    /// Looks at nodes that are unsure, one for each lane, for one picture after another: it is
+    /// Looks at nodes that are unsure, one for each lane, for one picture after another. It is
     /// passed by, to be drawn, or its children wait.
     template <Space S>
     MIR_HD void look(const Walk<S>& walk) {
@@ -187,7 +187,7 @@ class MicroBuffers {
         ended_ += detail::put_nodes(group_, space_.ended, ended_, nodes, ended);
     }
 
-    /// Finds the texels that ended nodes may cover, a node for each lane, in all pictures.
+    /// Finds the texels that ended nodes may cover. Each lane takes a node, for all pictures.
     template <Space S>
     MIR_HD void cover(const Walk<S>& walk) {
         const std::uint32_t count = ended_ < LaneGroup::width ? ended_ : LaneGroup::width;
@@ -256,8 +256,8 @@ class MicroBuffers {
         return points_[k].texels.reach(to_centre, detail::padded_radius(node, to_centre));
     }
 
-    /// The last `count` of the nodes to be drawn, up to 32, are met by a lane for each texel that
-    /// they may cover, for they cover one texel or many.
+    /// Meets the last `count` of the nodes to be drawn, up to 32. A lane takes each texel that they
+    /// may cover, for they cover one texel or many.
     template <Space S>
     MIR_HD void meet(const SurfelTreeView<S>& tree, std::uint32_t count) {
         drawn_ -= count;

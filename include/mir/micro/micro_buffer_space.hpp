@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// A point of which a picture is drawn.
+/// A point whose picture is drawn.
 template <class Texels>
 struct MicroPoint {
     Vec3 origin{0};  ///< metres
@@ -18,12 +18,12 @@ struct MicroPoint {
     Vec2 jitter{0};  ///< place of the directions inside their texels, [0, 1)^2
 };
 
-/// What a group works in that draws MicroBuffers of up to `Side` texels in each direction; `Lobes`:
-/// those of LobeTexels too. Nodes wait on a stack of `Waiting` places: fewer make lanes idle, never
-/// fail; more leave room for fewer groups.
+/// Workspace of a group that draws MicroBuffers. They have up to `Side` texels in each direction;
+/// `Lobes`: those of LobeTexels too. Nodes wait on a stack of `Waiting` places: fewer make lanes
+/// idle, never fail; more leave room for fewer groups.
 template <std::uint32_t Side, bool Lobes = true, std::uint32_t Waiting = 320>
 struct MicroBufferSpace {
-    /// What waits when nodes are taken one at a time: up to 63 that were unsure before, and one for
+    /// What waits when nodes are taken one at a time. Up to 63 that were unsure before, and one for
     /// each step of a walk down.
     static constexpr std::uint32_t reserve = 2 * LaneGroup::width + SurfelTreeOptions::depth_limit;
     static_assert(Waiting > reserve);
@@ -31,7 +31,7 @@ struct MicroBufferSpace {
     static constexpr std::uint32_t room = Waiting - reserve;
 
     static constexpr std::uint32_t side = Side;  ///< most texels in each direction
-    /// Pictures that are drawn at once: as many as leave a GPU room for enough groups.
+    /// Pictures that are drawn at once. As many as leave a GPU room for enough groups.
     static constexpr std::uint32_t pictures = Side <= 8 ? 4 : 1;
 
     /// Nodes and for which pictures, a bit each, something is to be done with them.

@@ -13,7 +13,7 @@ namespace mir {
 
 namespace detail {
 
-/// Points of a Kronecker sequence in the unit square, shifted at random: each is uniform, together
+/// Points of a Kronecker sequence in the unit square, shifted at random. Each is uniform, together
 /// they are spread evenly. In fixed point, so that none is worse than the first. Source: Roberts,
 /// "The unreasonable effectiveness of quasirandom sequences", 2018.
 class ShiftedPoints {
@@ -50,14 +50,14 @@ struct GatherRays {
     Rays rays;
     GatherOptions options;
 
-    /// What a ray that leaves `from` meets, whose direction the point `u` of the unit square picks
-    /// above the plane.
+    /// What a ray from `from` meets. The point `u` of the unit square picks its direction above the
+    /// plane.
     [[nodiscard]] SurfelHit along(const Hit& from, Vec2 u) const {
         const LocalDirection d = gather_direction(options.directions, u);
         return along(from, Frame::around(from.normal).to_world(d.w), d);
     }
 
-    /// Calls found(wi, d, hit) for each ray above the horizon that meets something: its direction
+    /// Calls found(wi, d, hit) for each ray above the horizon that meets something. Its direction
     /// in the world and in the frame of `normal`, and what it meets.
     template <class Found>
     MIR_HD void each(const Hit& from, Vec3 normal, Random random, const Found& found) const {
@@ -95,7 +95,7 @@ struct GatherRays {
 
 }  // namespace detail
 
-/// Light that reaches a luxel from discs, by rays: the mean of f L cos / p over directions with
+/// Light that reaches a luxel from discs, by rays. The mean of f L cos / p over directions with
 /// density p, where L is what closest_surfel() meets. The solid angle of a ray is 1 / (n p): small
 /// where directions lie dense. Allocates nothing; a kernel body for host and device.
 template <Space S, Bsdf B>

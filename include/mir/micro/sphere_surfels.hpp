@@ -14,7 +14,7 @@ namespace mir {
 
 namespace detail {
 
-/// How the surface of a sphere is cut: rows between parallels of equal distance, each into equal
+/// How the surface of a sphere is cut. Rows between parallels of equal distance, each into equal
 /// patches between meridians that are about as wide as high.
 struct SpherePatches {
     static constexpr double half_turn = 3.14159265358979323846;
@@ -36,7 +36,8 @@ struct SpherePatches {
                (std::cos(angle(row)) - std::cos(angle(row + 1)));
     }
 
-    /// Unit vector at a part of a turn from the first meridian, halfway between a row's borders.
+    /// Unit vector at a part of a turn from the first meridian. It lies halfway between a row's
+    /// borders.
     [[nodiscard]] Double3 middle(std::uint32_t row, double turn) const {
         return on_sphere(angle(row) + 0.5 * half_turn / rows, 2.0 * half_turn * turn);
     }
@@ -66,11 +67,11 @@ struct SpherePatches {
 
 }  // namespace detail
 
-/// Cuts a sphere into patches no larger than options.max_area, between parallels and meridians and
-/// about as wide as high, and puts a disc in the middle of each: it touches the sphere there, its
-/// front outside, and is as large as the patch (DiscExtent::equal_area) or reaches to its farthest
-/// corner (others; patches have no straight edges to end at). Areas add up to that of the sphere
-/// but for the rounding of each to single precision. `material` is an index as of
+/// Cuts a sphere into patches of at most options.max_area, with a disc in each. Patches lie between
+/// parallels and meridians and are about as wide as high. A disc touches the sphere in the middle
+/// of the patch, its front outside. It is as large as the patch (DiscExtent::equal_area) or reaches
+/// to its farthest corner (others; patches have no straight edges to end at). Areas add up to that
+/// of the sphere, except for the rounding of each to single precision. `material` is an index as of
 /// WorldGeometry::material_of(); the discs belong to Surfel::no_triangle.
 /// @throws Error(invalid_argument) on options or a radius out of range; Error(limit_exceeded)
 ///         before memory is taken.
@@ -81,7 +82,7 @@ inline std::vector<Surfel> sphere_surfels(Vec3 centre, float radius, std::uint32
             "the radius of a sphere must be positive and finite (metres), or it has no surface; "
             "give one");
     // Before rows are counted by 32 bits: patches are at least a quarter as large as asked for,
-    // but for the poles.
+    // except at the poles.
     check_limit(static_cast<std::uint64_t>(
                     std::min(1e18, 12.0 * static_cast<double>(radius) * radius / options.max_area)),
                 limits.surfels, "surfels");

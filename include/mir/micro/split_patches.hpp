@@ -13,8 +13,8 @@ namespace mir {
 
 namespace detail {
 
-/// Luminance that a patch reflects of the light on both its sides, and how much of it the halves
-/// differ by in which most of that shows: W sr^-1.
+/// Luminance that a patch reflects, and how much its halves differ, W sr^-1. It counts light on
+/// both sides; the halves are those in which most of the difference shows.
 struct PatchPower {
     double reflected = 0.0;
     double difference = 0.0;
@@ -58,11 +58,11 @@ inline double mean_reflected(std::span<const PatchPower> powers) {
 
 }  // namespace detail
 
-/// Splits patches on which the light of lamps varies, again and again, while two halves of one
-/// differ by more than a patch reflects in the mean: so patches are small where lamps are near and
-/// bright, and where shadows end. `direct` (SurfelDirectLight) tells the light of their quarters.
-/// Other random numbers than its must light the result, or what it found too bright is lost. The
-/// same for any number of threads.
+/// Splits patches on which the light of lamps varies, again and again. It stops when two halves of
+/// one differ by less than a patch reflects in the mean: so patches are small where lamps are near
+/// and bright, and where shadows end. `direct` (SurfelDirectLight) tells the light of their
+/// quarters. Other random numbers than its must light the result, or what it found too bright is
+/// lost. The same for any number of threads.
 template <class Direct, Executor E>
 SurfelPatches split_patches(const SurfelPatches& coarse, const Direct& direct, float ray_offset,
                             E& executor) {

@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// A disc that stands for a piece of a triangle: around the centroid of the piece, in the plane of
+/// A disc that stands for a piece of a triangle. Around the centroid of the piece, in the plane of
 /// the triangle, and no larger than the piece where that is known. A trivially copyable value of 64
 /// bytes.
 struct alignas(16) Surfel {
@@ -20,7 +20,7 @@ struct alignas(16) Surfel {
     float area = 0.0f;           ///< of the piece, m^2
     std::uint32_t triangle = 0;  ///< index into WorldGeometry, or no_triangle
     std::uint32_t material = 0;  ///< index into Scene::materials
-    /// From the centre to two corners of the piece, counter-clockwise around the normal; the third
+    /// From the centre to two corners of the piece, counter-clockwise around the normal. The third
     /// is minus their sum. Both zero: the disc is whole. Metres.
     Vec3 corner1{0};
     Vec3 corner2{0};  ///< like corner1
@@ -30,8 +30,8 @@ struct alignas(16) Surfel {
         return corner1 == Vec3(0.0f) && corner2 == Vec3(0.0f);
     }
 
-    /// True when a point of the plane, `off` away from the centre, is at most `margin` metres
-    /// outside of each edge of the piece.
+    /// True when a point of the plane is inside the piece, up to `margin`. The point is `off` away
+    /// from the centre, at most `margin` metres outside of each edge.
     [[nodiscard]] MIR_HD bool in_piece(Vec3 off, float margin) const {
         const Vec3 corner0 = -(corner1 + corner2);
         return left_of(corner0, corner1, off, margin) && left_of(corner1, corner2, off, margin) &&

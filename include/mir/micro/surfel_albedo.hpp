@@ -7,9 +7,10 @@
 
 namespace mir {
 
-/// Reflectance of the Lambertian surfaces that discs are taken for: mean_reflectance() of what lies
-/// below the disc, with its textures and vertex colours. Of a BSDF that mean_reflectance() does not
-/// know, the albedo at a typical angle. Scene data must outlive it; const use from any thread.
+/// Reflectance of the Lambertian surfaces that discs stand for. It is mean_reflectance() of what
+/// lies below the disc, with its textures and vertex colours. Of a BSDF that mean_reflectance()
+/// does not know, the albedo at a typical angle. Scene data must outlive it; const use from any
+/// thread.
 template <Bsdf B>
 class SurfelAlbedo {
     using Double3 = detail::Double3;
@@ -19,9 +20,9 @@ class SurfelAlbedo {
     SurfelAlbedo(const SurfaceTable<B>& surfaces, const WorldGeometry& geometry)
         : surfaces_(surfaces.view()), geometry_(geometry) {}
 
-    /// 0..1, of a disc that make_surfels() has made of the scene, or of one without a triangle by
-    /// its material alone. The mean over sixteen places where the material has textures, else that
-    /// of the centre.
+    /// 0..1, of a disc of make_surfels(). One without a triangle has that of its material
+    /// alone. The mean over sixteen places where the material has textures, else that of the
+    /// centre.
     [[nodiscard]] Rgb operator()(const Surfel& disc) const {
         if (disc.triangle == Surfel::no_triangle) return of(surfaces_.params(disc.material));
         if (disc.is_whole() || !surfaces_.entries[disc.material].textures.changes_reflection())

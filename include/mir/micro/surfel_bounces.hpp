@@ -26,7 +26,7 @@ inline double sent_power(const SurfelTree& tree, std::span<const SurfelRadiance>
 
 }  // namespace detail
 
-/// Light that discs send out, bounce by bounce: element b is that of b + 1 reflections, the first
+/// Light that discs send out, bounce by bounce. Element b is that of b + 1 reflections, the first
 /// what they reflect of the lamps, as `direct` (SurfelDirectLight) tells light_surfels(). Its
 /// length is options.last, or less where light runs out. Rays from disc to disc are traced once, by
 /// `rays` (SurfelLinks): every bounce goes along the same ones. 24 bytes for each node and bounce,

@@ -11,10 +11,10 @@
 
 namespace mir {
 
-/// Light of the lamps and the environment on discs, for light_surfels(), at up to sixteen places of
-/// each patch, by paths of one reflection: light samples and scattered directions weighed,
-/// so that a lamp that nearly touches a patch is not found by rare samples alone. Lights without
-/// extent count exactly at each place.
+/// Light of the lamps and the environment on discs, for light_surfels(). At up to sixteen places of
+/// each patch, by paths of one reflection: light samples and scattered directions weighed, so that
+/// a lamp that nearly touches a patch is not found by rare samples alone. Lights without extent
+/// count exactly at each place.
 template <Bsdf B, RayCaster R, Visibility V>
 class SurfelDirectLight {
  public:

@@ -16,7 +16,7 @@ struct SurfelFace {
     bool front = true;                 ///< the side of the normals, or that against them
     float ray_offset = 0.0f;           ///< WorldGeometry::ray_offset(), metres
 
-    /// The place that a point of the unit square picks, and the normal there: uniform by area,
+    /// The place that a point of the unit square picks, and the normal there. Uniform by area,
     /// lifted off the disc, and off the edges of its piece by a thousandth, where walls may meet at
     /// sharp angles. The centre of whole discs. Points with nearly the same first coordinate pick
     /// discs near each other.

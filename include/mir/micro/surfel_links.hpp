@@ -7,13 +7,13 @@
 
 namespace mir {
 
-/// What patches see of each other: for both sides of every patch the nodes that rays meet, with
+/// What patches see of each other. For both sides of every patch the nodes that rays meet, with
 /// density cos / pi, traced once for all bounces from random places of its discs. 8 bytes for each
 /// patch and ray.
 class SurfelLinks {
  public:
     /// Traces `options.rays` rays from each side that is not black, by `rays` (TreeRays,
-    /// TriangleRays); `seed` gives their directions. `ray_offset` is WorldGeometry::ray_offset(),
+    /// TriangleRays). `seed` gives their directions. `ray_offset` is WorldGeometry::ray_offset(),
     /// metres. The same for any number of threads.
     /// @throws Error(invalid_argument) on options out of range, or directions that are not
     ///     GatherDirections::cosine; Error(limit_exceeded) by Limits::surfel_link_bytes.
@@ -21,7 +21,7 @@ class SurfelLinks {
     SurfelLinks(const SurfelPatches& patches, const Rays& rays, const GatherOptions& options,
                 float ray_offset, std::uint64_t seed, const Limits& limits, E& executor);
 
-    /// What light_surfels() asks for, of the light that nodes send out: W m^-2 sr^-1, of the face
+    /// What light_surfels() asks for, of the light that nodes send out. W m^-2 sr^-1, of the face
     /// of this number.
     [[nodiscard]] Rgb operator()(std::uint64_t number,
                                  std::span<const SurfelRadiance> radiance) const {

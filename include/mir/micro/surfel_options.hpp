@@ -9,10 +9,10 @@ namespace mir {
 
 /// How far a disc reaches. Light is never counted by it: that is what Surfel::area is for.
 enum class DiscExtent {
-    /// To the farthest corner of its piece, but not over its edges: together the discs of a
+    /// To the farthest corner of its piece, but not over its edges. Together the discs of a
     /// triangle are the triangle.
     piece,
-    /// To the farthest corner of its piece: discs leave no gap, and stick out of the borders of
+    /// To the farthest corner of its piece. Discs leave no gap, and stick out of the borders of
     /// their surface by at most a diameter of a piece, which becomes smaller with the pieces.
     cover,
     /// As large in area as its piece. A share of all rays passes between such discs, however small

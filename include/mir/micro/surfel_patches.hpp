@@ -18,15 +18,15 @@ struct SurfelPatchOptions {
     float least_cosine = 0.8f;  ///< of the angle between their normals and the mean of those
 };
 
-/// The patches of a scene: nodes of a tree whose discs share the light that falls on them, while
+/// The patches of a scene. Nodes of a tree whose discs share the light that falls on them, while
 /// each reflects it with its own albedo. Together they hold every disc once. A scene of many small
 /// triangles has far fewer patches than discs. Immutable; const use from any thread. Source:
 /// patches and elements of radiosity (Cohen, Greenberg, Immel and Brock, "An efficient radiosity
 /// approach for realistic image synthesis", IEEE CG&A 6(3), 1986).
 class SurfelPatches {
  public:
-    /// The largest nodes that keep to `options`, and whose sphere is that of a patch of the largest
-    /// area; single discs may be larger. The tree must outlive it.
+    /// The largest nodes within `options` and the sphere of a largest patch. Single discs may be
+    /// larger. The tree must outlive it.
     explicit SurfelPatches(const SurfelTree& tree, const SurfelPatchOptions& options = {})
         : tree_(&tree) {
         for (std::uint32_t i = 0; i < tree.nodes().size();) {
@@ -52,7 +52,7 @@ class SurfelPatches {
     [[nodiscard]] std::size_t size() const { return nodes_.size(); }
 
  private:
-    /// One surface, not one behind the other: no thicker than a bent one whose normals turn so far,
+    /// One surface, not one behind the other. No thicker than a bent one whose normals turn so far,
     /// and of one material. Of a right triangle with two equal sides the longest lies across the
     /// sphere, whose radius is the root of the area.
     static bool is_patch(const SurfelTree& tree, std::uint32_t index, const SurfelPatchOptions& o) {
@@ -74,8 +74,8 @@ class SurfelPatches {
     std::vector<std::uint32_t> nodes_;
 };
 
-/// Calls visit(patch) for the number of every patch that reflects light, in any order, from any
-/// thread.
+/// Calls visit(patch) for every patch that reflects light. In any order, from any thread; `patch`
+/// is its number.
 template <class Visit, Executor E>
 void for_each_reflecting_patch(const SurfelPatches& patches, E& executor, const Visit& visit) {
     constexpr std::size_t part = 64;

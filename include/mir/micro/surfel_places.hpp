@@ -35,7 +35,8 @@ class SurfelPlaces {
                 if (leaves_[k] == SurfelHit::none) leaves_[k] = any[t];
     }
 
-    /// The leaf of a triangle's disc at `barycentrics`, the weights of the second and third corner.
+    /// The leaf of a triangle's disc at `barycentrics`. These are the weights of the second and
+    /// third corner.
     [[nodiscard]] std::uint32_t leaf(std::uint32_t triangle, Vec2 barycentrics) const {
         return leaves_[place(triangle, barycentrics)];
     }

@@ -8,8 +8,8 @@
 
 namespace mir {
 
-/// Light that leaves the two sides of a disc, or on average those of the discs below a node:
-/// radiance, W m^-2 sr^-1, the same in all directions.
+/// Radiance that leaves the two sides of a disc, W m^-2 sr^-1. Of a node it is the mean over the
+/// discs below; it is the same in all directions.
 struct SurfelRadiance {
     Rgb front;  ///< on the side of the normals
     Rgb back;   ///< against the normals

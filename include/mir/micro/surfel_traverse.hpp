@@ -10,7 +10,7 @@ namespace mir {
 
 namespace detail {
 
-/// Length with every rounding of the tests below inside, for a node at `to_centre`: 64 units of
+/// Length with every rounding of the tests below inside, for a node at `to_centre`. 64 units of
 /// rounding of the distances that they are made of.
 MIR_HD inline float padded_radius(const SurfelNode& node, Vec3 to_centre) {
     const float distance = fabsf(to_centre.x) + fabsf(to_centre.y) + fabsf(to_centre.z);
@@ -22,11 +22,11 @@ MIR_HD inline bool is_above(const SurfelRay& ray, Vec3 to_centre) {
     return glm::dot(ray.normal, to_centre) >= 0.0f;
 }
 
-/// True when nothing below a node is above the tangent plane of `normal` through the point that the
-/// node's centre is `to_centre` away from; never true of what a ray above the plane may meet. The
-/// sphere is asked first. Most nodes that it cuts belong to the wall that gathers, whose discs lie
-/// in the plane: they are in a slab across the axis, of which the plane's normal sees
-/// |cos| thickness + sin radius.
+/// True when nothing below a node is above a tangent plane. The plane is that of `normal` through
+/// the point that the node's centre is `to_centre` away from; never true of what a ray above the
+/// plane may meet. The sphere is asked first. Most nodes that it cuts belong to the wall that
+/// gathers, whose discs lie in the plane: they are in a slab across the axis, whose extent along
+/// the plane's normal is |cos| thickness + sin radius.
 MIR_HD inline bool lies_below(const SurfelNode& node, Vec3 normal, Vec3 to_centre, float padded) {
     const float height = glm::dot(normal, to_centre);
     if (height < -padded) return true;
@@ -42,9 +42,9 @@ MIR_HD inline void take_nearer(SurfelHit& hit, float t, std::uint32_t node, bool
     if (t < hit.t || (t == hit.t && node < hit.node)) hit = {t, node, front};
 }
 
-/// True when a leaf's disc is met `off` away from its centre, `cosine` being that of the ray and
-/// the normal. The edges of a piece are padded by the rounding of that place, which grows as the
-/// ray grazes, and by that of the centre: no ray passes between two pieces. A ray below the tangent
+/// True when a leaf's disc is met `off` away from its centre. `cosine` is that of the ray and the
+/// normal. The edges of a piece are padded by the rounding of that place, which grows as the ray
+/// grazes, and by that of the centre: no ray passes between two pieces. A ray below the tangent
 /// plane, where shading normals may lead one, meets nothing above it, and no light enters there.
 MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, float cosine,
                                const SurfelRay& ray) {
@@ -57,8 +57,8 @@ MIR_HD inline bool meets_piece(const Surfel& disc, Vec3 to_centre, Vec3 off, flo
     return disc.in_piece(off, rounding / fabsf(cosine));
 }
 
-/// A node as a disc of its radius across its axis, and what all rays from one point share that meet
-/// it: of a leaf, the disc itself, as far as it lies in its piece.
+/// A node as a disc of its radius across its axis. It holds what all rays from one point share that
+/// meet it: of a leaf, the disc itself, as far as it lies in its piece.
 struct SeenDisc {
     Vec3 to_centre{0};                       ///< from the point, metres
     float radius2 = 0.0f;                    ///< square of the radius, square metres
@@ -117,7 +117,7 @@ MIR_HD inline void meet_sphere(const SurfelNode& node, std::uint32_t index, cons
         take_nearer(hit, along - sqrtf(inside2), index, glm::dot(node.axis, to_centre) < 0.0f);
 }
 
-/// True when all discs below a node show the same side to a point: however a normal of its cone is
+/// True when all discs below a node show the same side to a point. However a normal of its cone is
 /// tilted, all of the sphere lies on one side of the plane through the point across that normal.
 /// Or, what flat walls seen at a slant need, all of the slab of the discs does. Or the point is so
 /// deep in a slab so flat that what is in doubt is less than a thousandth of the node: a wall seen
@@ -137,10 +137,10 @@ MIR_HD inline bool shows_one_side(const SurfelNode& node, Vec3 to_centre) {
     return is_beyond_tilt(height - doubt) || is_beyond_tilt(0x1p-10f * node.radius - doubt);
 }
 
-/// True when a ray ends at an inner node: it is not inside, the node's solid angle is not larger
+/// True when a ray ends at an inner node. It is not inside, the node's solid angle is not larger
 /// than the ray's (`sine2` is its cap_sine_squared()), and it shows one side. As a disc, it is
 /// passed by when its centre lies below the tangent plane of `normal`: that is an end for nodes up
-/// to an eighth of their distance alone, of which little is above the plane and that at a slant.
+/// to an eighth of their distance alone: little of them is above the plane, and that at a slant.
 MIR_HD inline bool stops_at(const SurfelNode& node, Vec3 normal, Vec3 to_centre, float sine2) {
     const float distance2 = length_squared(to_centre);
     const float radius2 = node.radius * node.radius;
@@ -152,7 +152,7 @@ MIR_HD inline bool stops_at(const SurfelNode& node, Vec3 normal, Vec3 to_centre,
 inline constexpr float never = std::numeric_limits<float>::infinity();
 
 /// Distance from which on a ray may meet discs below a node, or infinity. Never too large: what
-/// meet_disc() accepts of a leaf lies, but for rounding, inside the spheres of all nodes above it.
+/// meet_disc() accepts of a leaf lies, rounding aside, inside the spheres of all nodes above it.
 template <Space S>
 MIR_HD float entry(const SurfelTreeView<S>& tree, std::uint32_t index, const SurfelRay& ray) {
     const SurfelNode& node = tree.nodes[index];
@@ -165,7 +165,7 @@ MIR_HD float entry(const SurfelTreeView<S>& tree, std::uint32_t index, const Sur
     return along + half < 0.0f ? never : along - half;
 }
 
-/// Nodes that wait while a walk goes down elsewhere: at most one for each on the way.
+/// Nodes that wait while a walk goes down elsewhere. At most one for each on the way.
 struct WaitingSurfels {
     std::uint32_t node[SurfelTreeOptions::depth_limit];
     float near[SurfelTreeOptions::depth_limit];
@@ -202,12 +202,12 @@ MIR_HD std::uint32_t descend(const SurfelTreeView<S>& tree, std::uint32_t index,
 
 }  // namespace detail
 
-/// What a ray sees first of the discs of a tree: the nearest disc, or an inner node where the ray's
+/// What a ray sees first of the discs of a tree. The nearest disc, or an inner node where the ray's
 /// solid angle is not smaller than the node's, whose discs all show it the same side. With a solid
 /// angle of 0 it is the nearest disc of all, in every bit, and at equal distances the first in the
 /// order of the tree. Where it stops, a node counts as large as its sphere, but only as far as the
-/// ray also meets the spheres above it. Nothing is allocated; thread-safe.
-/// Source: Ritschel et al. 2009, section 4; cap_solid_angle() in place of its pi r^2 / d^2.
+/// ray also meets the spheres above it. Nothing is allocated; thread-safe. Source: Ritschel et al.
+/// 2009, section 4; cap_solid_angle() instead of its pi r^2 / d^2.
 template <Space S>
 [[nodiscard]] MIR_HD SurfelHit closest_surfel(const SurfelTreeView<S>& tree, const SurfelRay& ray,
                                               StopShape shape = StopShape::disc) {

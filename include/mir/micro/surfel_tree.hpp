@@ -32,7 +32,7 @@ class SurfelTree {
                 static_cast<std::uint32_t>(nodes_.size())};
     }
 
-    /// In the order of a walk (SurfelNode): the root first, 2 n - 1 for n discs.
+    /// In the order of a walk (SurfelNode). The root first, 2 n - 1 for n discs.
     [[nodiscard]] std::span<const SurfelNode> nodes() const { return nodes_; }
     /// Of nodes: mean over the area below, 0..1.
     [[nodiscard]] std::span<const Rgb> albedo() const { return albedo_; }

@@ -12,7 +12,7 @@ namespace mir {
 
 namespace detail {
 
-/// A node to be made: discs [first, first + count), with `room` nodes below it on any way.
+/// A node to be made. Discs [first, first + count), with `room` nodes below it on any way.
 struct SurfelJob {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -20,7 +20,7 @@ struct SurfelJob {
     std::uint32_t room = 0;
 };
 
-/// Makes nodes in their final places: n discs below one take 2 n - 1 of them, whatever the cuts.
+/// Makes nodes in their final places. n discs below one take 2 n - 1 of them, whatever the cuts.
 class SurfelGrower {
  public:
     SurfelGrower(std::span<Surfel> surfels, const SurfelTreeOptions& options,
@@ -70,7 +70,7 @@ class SurfelGrower {
     std::span<float> area_;
 };
 
-/// Grows level by level until what is left below a node is work for one thread.
+/// Grows level by level until the rest below a node suits one thread.
 template <Executor E>
 void grow_tree(const SurfelGrower& grower, const SurfelJob& root, E& executor) {
     constexpr std::uint32_t alone = 4096;

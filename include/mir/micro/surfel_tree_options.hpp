@@ -23,7 +23,7 @@ enum class SurfelSplit {
 /// How a hierarchy of discs is built. Choices change speed and where approximate rays stop, never
 /// what exact rays meet.
 struct SurfelTreeOptions {
-    /// Most nodes on the way from the root to a disc; traversal has a stack of that size.
+    /// Most nodes on the way from the root to a disc. Traversal has a stack of that size.
     static constexpr std::uint32_t depth_limit = 48;
 
     SphereFit sphere = SphereFit::ritter;          ///< what bounds the discs of a node
@@ -31,8 +31,8 @@ struct SurfelTreeOptions {
     std::uint32_t median_below = 16;  ///< discs of nodes that are always halved by number
     std::uint32_t bins = 16;  ///< in which `orientation` looks for planes, per axis; 2 to 64
 
-    /// Most nodes on the way from the root to a disc, raised to what a balanced tree needs. 1 to
-    /// depth_limit: nodes are halved by number where their children could not keep it else.
+    /// Most nodes on the way to a disc, at least those of a balanced tree. 1 to depth_limit: nodes
+    /// are halved by number where their children could not keep it else.
     std::uint32_t max_depth = depth_limit;
 };
 

@@ -5,7 +5,7 @@
 
 namespace mir {
 
-/// A sphere as it is seen from a point.
+/// A sphere seen from a point.
 struct SeenSphere {
     Vec3 direction{0, 0, 1};  ///< unit, of its centre
     float sine = 1.0f;        ///< of the angle from there to its rim; 1 or more: around the point

@@ -8,15 +8,16 @@
 
 namespace mir {
 
-/// Some texels of a picture of up to 31 in each direction, and the number of the picture, in a
-/// word: columns may go around from the last to the first. A value.
+/// Some texels of a picture, and the picture's number, in a word. The picture has up to 31 texels
+/// in each direction; columns may go around from the last to the first. A value.
 class TexelRectangle {
  public:
     /// None.
     TexelRectangle() = default;
 
-    /// Texels of a picture of side x side whose directions, `jitter` being their place inside of
-    /// texels, may lie in `reach`. `goes_around`: the picture's left and right border are one.
+    /// Texels whose directions may lie in `reach`. The picture has side x side texels; `jitter` is
+    /// the place of directions inside of texels. `goes_around`: the picture's left and right border
+    /// are one.
     MIR_HD TexelRectangle(const TexelReach& reach, Vec2 jitter, std::uint32_t side,
                           bool goes_around, std::uint32_t picture) {
         const Span y = inside(span(reach.low.y, reach.high.y, jitter.y, side), side);
@@ -39,7 +40,7 @@ class TexelRectangle {
     /// Number of the picture.
     [[nodiscard]] MIR_HD std::uint32_t picture() const { return word_ >> 4 * bits; }
 
-    /// Number in its picture of texel k, both counted row by row; `side` is the picture's.
+    /// Number in its picture of texel k, both counted row by row. `side` is the picture's.
     [[nodiscard]] MIR_HD std::uint32_t texel(std::uint32_t k, std::uint32_t side) const {
         const std::uint32_t width = field(2);
         // Half a texel from where rounding would matter.

@@ -7,9 +7,9 @@
 
 namespace mir {
 
-/// Rays to the triangles of a scene, which see the light of the disc where they end. What a ray
-/// engine traces is exact and much faster than a walk down the discs; masks count. Solid angles are
-/// not read. Thread-safe as the caster is.
+/// Rays to the triangles of a scene that see the light of discs there. What a ray engine traces is
+/// exact and much faster than a walk down the discs; masks count. Solid angles are not read.
+/// Thread-safe as the caster is.
 template <RayCaster R>
 struct TriangleRays {
     using Caster = R;  ///< what traces
@@ -26,7 +26,7 @@ struct TriangleRays {
     }
 };
 
-/// Light that reaches a luxel from discs, as RayGather finds it, by rays to the triangles.
+/// Light that reaches a luxel from discs, by rays to the triangles. Found as RayGather does.
 template <RayCaster R, Bsdf B>
 struct TriangleGather {
     TriangleRays<R> rays;                      ///< what is seen

@@ -12,7 +12,7 @@ struct NormalisationReport {
     std::uint32_t dropped_records = 0;  ///< path VPLs that light no luxel
 };
 
-/// Luminance of the image, W m^-2 sr^-1, of a VPL of response `t` and intensity `radiance`: S of
+/// Image luminance, W m^-2 sr^-1, of a VPL of response `t` and intensity `radiance`. S of
 /// docs/method.md, 10.1.
 inline double image_luminance(const ImageResponse& t, Rgb radiance) {
     constexpr double red = luminance(Rgb{1, 0, 0});
@@ -25,7 +25,7 @@ inline double image_luminance(const ImageResponse& t, Rgb radiance) {
 
 namespace detail {
 
-/// In double, since neither the factor nor a faint colour need be in single precision's range.
+/// In double: neither the factor nor a faint colour need fit single precision.
 inline Rgb scaled(Rgb c, double factor) {
     const auto scale = [factor](float x) {
         return static_cast<float>(static_cast<double>(x) * factor);
@@ -35,11 +35,11 @@ inline Rgb scaled(Rgb c, double factor) {
 
 }  // namespace detail
 
-/// Makes intensities of the radiance R that path VPLs hold: J = P_c / n * weight * R / S, so that
-/// each recorded state brings the same luminance P_c / n to the image. Path VPLs that light no
-/// luxel become black; their flux is lost and reported, not given to others. `path_luminance` is
-/// P_c, W m^-2 sr^-1, `states` is n. Never yields NaN or infinity. Source: equations 8 to 10 of the
-/// paper, with one response per geometric VPL (docs/method.md, 10.1).
+/// Makes intensities of the radiance R that path VPLs hold. J = P_c / n * weight * R / S, so each
+/// recorded state brings the same luminance P_c / n to the image. Path VPLs that light no luxel
+/// become black; their flux is lost and reported, not given to others. `path_luminance` is P_c, W
+/// m^-2 sr^-1, `states` is n. Never yields NaN or infinity. Source: equations 8 to 10 of the paper,
+/// with one response per geometric VPL (docs/method.md, 10.1).
 /// @throws Error(invalid_argument) unless there is one response for each geometric VPL.
 inline NormalisationReport normalise(VplList& vpls, std::span<const ImageResponse> responses,
                                      double path_luminance, double states) {

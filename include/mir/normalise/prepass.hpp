@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Luxels of a prepass that must be lit before their mean is trusted: with fewer the quotient R / S
+/// Luxels of a prepass that must be lit before their mean is trusted. With fewer the quotient R / S
 /// is badly biased, without any it has no meaning.
 inline constexpr std::uint64_t min_lit_luxels = 64;
 

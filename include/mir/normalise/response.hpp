@@ -15,7 +15,7 @@
 
 namespace mir {
 
-/// Sums responses over an image that comes in bands of rows: t_v = 1/M sum_l V f min(G, b) over all
+/// Sums responses over an image that comes in bands of rows. t_v = 1/M sum_l V f min(G, b) over all
 /// M luxels, empty ones included (docs/method.md, 10.2). Luxels are summed in the fixed order of
 /// blocks of 16 x 16, left to right and top to bottom, in double, so that the result has the same
 /// bits for any bands and tiles that are whole blocks, and for any executor.
@@ -53,7 +53,7 @@ class ResponseSum {
 
 namespace detail {
 
-/// VPLs that one task sums: enough to pay for reading a block, few enough to share out.
+/// VPLs that one task sums. Enough to pay for reading a block, few enough to share out.
 inline constexpr std::uint32_t vpls_per_task = 32;
 static_assert(vpls_per_task <= blocks::LitVpls::capacity);
 
@@ -86,7 +86,7 @@ void add_block(const blocks::LuxelBlock<F>& block, const P& vpls, const V& bits,
     }
 }
 
-/// Adds the blocks of one row of blocks of a band, left to right, for VPLs first .. last - 1.
+/// Adds one row of blocks of a band, left to right, for VPLs first .. last - 1. last - 1.
 template <InstructionSet Set, TiledGBuffer G, VplSet P, KnownVisibility V, Shading F>
 void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shading,
                    std::uint32_t row, VplIndex first, VplIndex last, ImageResponse* sums) {
@@ -108,7 +108,7 @@ void add_block_row(const G& gbuffer, const P& vpls, const V& bits, const F& shad
 
 }  // namespace detail
 
-/// Sums over the luxels of each row of blocks of a band, in the order of ResponseSum: those of all
+/// Sums over the luxels of each row of blocks of a band. In the order of ResponseSum: those of all
 /// VPLs, row after row from top to bottom. Otherwise as ResponseSum::add_band().
 /// @throws Error(invalid_argument) when VPLs or bits do not fit or tiles cut blocks.
 template <TiledGBuffer G, VplSet P, KnownVisibility V, Shading F, Executor E>

@@ -29,7 +29,7 @@ inline void check_whole_blocks(const std::vector<Tile>& tiles) {
     return (luxel_rows + BlockedLayout::side - 1) / BlockedLayout::side;
 }
 
-/// Which rows of an image a sum of responses has seen, and how sums become means.
+/// Which rows a sum of responses has seen, and how sums become means.
 class ResponseBands {
  public:
     ResponseBands(Extent luxels, std::uint32_t vpls) : luxels_(luxels), vpls_(vpls) {}

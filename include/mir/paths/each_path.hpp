@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// Independent paths: path i is a function of Random(seed, stream, i), first <= i < end.
+/// Independent paths first to end - 1. Path i is a function of Random(seed, stream, i).
 struct PathRange {
     std::uint64_t seed = 0;             ///< of all paths
     Stream stream = Stream::bootstrap;  ///< what the paths are for
@@ -17,8 +17,8 @@ struct PathRange {
     std::uint64_t end = 0;              ///< one past the last, at least `first`
 };
 
-/// Calls f(i, path) for each path of the range that `generator` builds, those of weight 0
-/// included, from many threads and in any order. `f` may write what belongs to i.
+/// Calls f(i, path) for each path of the range, from many threads. `generator` builds them, those
+/// of weight 0 included; the order is free. `f` may write what belongs to i.
 template <class Generator, Executor E, class F>
 void each_path(const Generator& generator, PathRange range, E& executor, const F& f) {
     constexpr std::uint64_t batch = 256;

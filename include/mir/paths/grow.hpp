@@ -18,7 +18,7 @@ inline constexpr std::uint32_t light = 8;             ///< which light
 inline constexpr std::uint32_t on_light = 9;          ///< place on it, two
 inline constexpr std::uint32_t light_direction = 11;  ///< direction from it, two
 inline constexpr std::uint32_t light_side = 13;       ///< which of its sides
-/// Three numbers for the direction drawn at the `i`-th vertex of the camera's part, i >= 1.
+/// Three numbers for the direction at the camera part's `i`-th vertex, i >= 1.
 MIR_HD constexpr std::uint32_t eye_vertex(std::uint32_t i) { return 14 + 6 * (i - 1); }
 /// And at the `i`-th surface of the light's part, i >= 1.
 MIR_HD constexpr std::uint32_t light_vertex(std::uint32_t i) { return 17 + 6 * (i - 1); }
@@ -50,7 +50,7 @@ MIR_HD bool start_at_camera(const World& world, Numbers& u, Path& path) {
     return true;
 }
 
-/// Writes the next vertex from `at` along `w`; false unless the direction lies above the surface
+/// Writes the next vertex from `at` along `w`. False unless the direction lies above the surface
 /// and hits another.
 template <class World>
 MIR_HD bool step_along(const World& world, const PathVertex& at, Vec3 w, PathVertex& next) {
@@ -159,7 +159,7 @@ MIR_HD bool end_on_lamp(const World& world, Path& path) {
     return light_end_at(world, path.vertices.back(), path.light);
 }
 
-/// Closes a camera's part with `from_light` vertices from a light: 0, it has run into a lamp (never
+/// Closes a camera's part with `from_light` vertices from a light. 0, it has run into a lamp (never
 /// into an environment, which has no surface); 1, a light sample; more, a light path. The edge that
 /// connects them may be blocked.
 template <class World, class Numbers>

@@ -54,7 +54,7 @@ MIR_HD PlacedLightEnd sample_light_start(const World& world, float pick, Vec2 uv
     });
 }
 
-/// Writes the light end of a path that ran into the surface `at`; false when its side that was hit
+/// Writes the light end of a path that ran into the surface `at`. False when its side that was hit
 /// does not emit.
 template <class World>
 MIR_HD bool light_end_at(const World& world, const PathVertex& at, LightEnd& end) {
@@ -76,8 +76,8 @@ MIR_HD Ray ray_from_light(const World& world, const PathVertex& v, const LightEn
     });
 }
 
-/// Light that leaves the end along the unit vector `w`, and what it becomes at a receiver with the
-/// squared distance d2: L_e cos / d2, I / d2, E, or L_e of an environment. The receiver's own
+/// Light that leaves the end along `w`, as a receiver gets it. At the squared distance d2 that is
+/// L_e cos / d2, I / d2, E, or L_e of an environment; `w` is a unit vector. The receiver's own
 /// cosine is not in it.
 template <class World>
 MIR_HD Rgb light_at_receiver(const World& world, const PathVertex& v, const LightEnd& end, Vec3 w,
@@ -87,8 +87,8 @@ MIR_HD Rgb light_at_receiver(const World& world, const PathVertex& v, const Ligh
     });
 }
 
-/// Density per m^2 of a surface with cosine `cos_receiver` with which a light path from this end
-/// hits it along the unit vector `w` after the squared distance d2.
+/// Density per m^2 with which a light path from this end hits a surface. The surface has cosine
+/// `cos_receiver` along the unit vector `w` after the squared distance d2.
 template <class World>
 MIR_HD double light_ray_density(const World& world, const PathVertex& v, const LightEnd& end,
                                 Vec3 w, float cos_receiver, float d2) {

@@ -16,7 +16,7 @@ struct WeightedPath {
     double weight = 0.0;   ///< Y(F) / density; 0: no light passes
 };
 
-/// Gives `out` its measure, density and weight, if light passes along its path; visibility is not
+/// Gives `out` its measure, density and weight, if light passes along its path. Visibility is not
 /// asked for. `density` is a function of the PathMeasure.
 template <class World, class Density>
 MIR_HD bool weigh(const World& world, WeightedPath& out, const Density& density) {

@@ -80,7 +80,7 @@ class PathMeasurer {
     [[nodiscard]] MIR_HD Vec3 to_light(std::uint32_t i) const { return edges_[i].w; }
     [[nodiscard]] MIR_HD Vec3 to_eye(std::uint32_t i) const { return -edges_[i - 1].w; }
 
-    /// What a density of x_i per m^2 is multiplied by; 1 where x_i is not measured by its area.
+    /// What a density of x_i per m^2 is multiplied by. 1 where x_i is not measured by its area.
     [[nodiscard]] MIR_HD double unit_of(std::uint32_t i) const {
         const bool by_area = i < k_ || ends_on_surface();
         return i > 2 && by_area ? world_.area_unit : 1.0;
@@ -99,8 +99,8 @@ class PathMeasurer {
     [[nodiscard]] MIR_HD static bool above(Vec3 w, const PathVertex& x) {
         return glm::dot(w, x.normal) > 0.0f && glm::dot(w, x.shading_normal) > 0.0f;
     }
-    /// Every reflecting vertex must see both neighbours on its own side, and light above its
-    /// shading normal. Whether it reflects below that is the BSDF's matter.
+    /// Reflecting vertices must see both neighbours on their side, and light above the normal. That
+    /// is the shading normal. Whether it reflects below that is the BSDF's matter.
     [[nodiscard]] MIR_HD bool suffix_sides_agree() const {
         for (std::uint32_t i = 2; i < k_; ++i) {
             if (!above(to_light(i), path_.x(i))) return false;
@@ -130,7 +130,7 @@ class PathMeasurer {
         const PathVertex& x = path_.x(i);
         return B::eval(world_.params(x), x.shading_normal, to_light(i), to_eye(i));
     }
-    /// Irradiance at x2, spread as a Lambertian surface would, or the emission of a lamp there.
+    /// Irradiance at x2, spread diffusely, or the emission of a lamp there.
     [[nodiscard]] MIR_HD WideRgb leaving_second() const {
         if (k_ == 2) return path_.light.emission;
         WideRgb light = WideRgb(light_at(k_ - 1)) * unit_of(k_);
@@ -160,7 +160,8 @@ class PathMeasurer {
         const float pdf = B::pdf(world_.params(from), from.shading_normal, -e.w, to_light(i + 1));
         return per_area(pdf, cosine, e) * unit_of(i);
     }
-    /// Density per m^2 at the end of an edge, of a direction's density and the cosine there.
+    /// Density per m^2 at the end of an edge. It follows from a direction's density and the cosine
+    /// there.
     [[nodiscard]] MIR_HD static double per_area(float pdf, float cosine, const PathEdge& e) {
         return static_cast<double>(pdf) * static_cast<double>(cosine) / static_cast<double>(e.d2);
     }

@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// Place of the VPL of a path, x2, along a space-filling curve through the scene, below 2^30. Paths
-/// in the order of their places are spread evenly by systematic resampling.
+/// Place of a path's VPL, x2, on a space-filling curve, below 2^30. Paths in the order of their
+/// places are spread evenly by systematic resampling.
 template <class World>
 MIR_HD std::uint64_t place_of_vpl(const World& world, const Path& path) {
     const Vec3 corner = world.lights.sphere.centre - world.lights.sphere.radius;

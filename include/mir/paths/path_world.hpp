@@ -15,7 +15,7 @@
 
 namespace mir {
 
-/// What full paths run through, in memory of space `S`: a value of views that may be passed to a
+/// What full paths run through, in memory of space `S`. A value of views that may be passed to a
 /// kernel. The scene data must outlive it. On the host `R` may be any RayCaster, elsewhere it is a
 /// PointFinder. Const use from any thread.
 template <Bsdf B, class R, Visibility V, Space S = Space::host>
@@ -34,11 +34,11 @@ struct PathWorld {
     CameraOptics camera;                              ///< what paths start from
     float aspect = 1.0f;                              ///< width / height of the film
     float bound = std::numeric_limits<float>::max();  ///< of the geometry term x1, x2; m^-2
-    /// In which areas behind x2 are measured, m^2: a power of four by the size of the scene. A
-    /// product over 64 vertices, each with its 1 / m^2, stays a number in scenes of any size.
+    /// Unit of areas behind x2, m^2. A power of four by the size of the scene. A product over 64
+    /// vertices, each with its 1 / m^2, stays a number in scenes of any size.
     double area_unit = 1.0;
 
-    /// Views that lie in space `S`; `geometry_bound`, m^-2, limits the geometry term between x1 and
+    /// Views that lie in space `S`. `geometry_bound`, m^-2, limits the geometry term between x1 and
     /// x2.
     /// @throws Error(invalid_argument) as check_bound(), and for an aspect ratio that is none.
     PathWorld(const GeometryView<S>& geometry_view, const LightTableView<S>& light_table,
@@ -66,7 +66,7 @@ struct PathWorld {
         : PathWorld(world_geometry.view(), light_table.view(), surface_table.view(), ray_caster,
                     sight, seen_from.optics(), film_aspect, geometry_bound) {}
 
-    /// Writes the first surface along a ray as a path vertex; false when there is none.
+    /// Writes the first surface along a ray as a path vertex. False when there is none.
     [[nodiscard]] MIR_HD_CALL bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find_point(luxels.caster, ray, p)) return false;
@@ -92,8 +92,8 @@ struct PathWorld {
         return {lift(p),        p.geometric_normal, shading_normal,
                 p.barycentrics, p.triangle,         p.material};
     }
-    /// The square of 2^-4 of the scene's size, of which `ray_offset` is about 2^-16. A double holds
-    /// products over 64 edges of 2^-8 to 2^8 times its root, and over 33 of 2^-16 to 2^16.
+    /// The square of 2^-4 of the scene's size; `ray_offset` is about 2^-16 of that size. A double
+    /// holds products over 64 edges of 2^-8 to 2^8 times its root, and over 33 of 2^-16 to 2^16.
     [[nodiscard]] static double unit_for(float ray_offset) {
         return ray_offset > 0.0f ? std::scalbn(1.0, 2 * (std::ilogb(ray_offset) + 12)) : 1.0;
     }

@@ -9,14 +9,14 @@
 
 namespace mir {
 
-/// One way to build a path of k edges: s vertices from the light (0: the camera's part runs into a
-/// lamp, 1: light sample, more: light path), k - s from the camera, x1 always among them.
+/// One way to build a path of k edges. s vertices come from the light (0: the camera's part runs
+/// into a lamp, 1: light sample, more: light path), k - s from the camera, x1 always among them.
 struct Technique {
     std::uint32_t edges = 2;       ///< k, at least 2
     std::uint32_t from_light = 1;  ///< s, 0 to k - 1
 };
 
-/// Which techniques are used how often: first the length, geometrically distributed and cut to
+/// Which techniques are used how often. First the length, geometrically distributed and cut to
 /// [min_edges, max_edges], then s among what `techniques` allows. Immutable value; made on the
 /// host, used anywhere.
 ///
@@ -38,7 +38,7 @@ class TechniqueTable {
         for (std::uint32_t k = min_; k <= max_; ++k) pmf_[k] /= total;
     }
 
-    /// The same for what lies behind a given x2: as many vertices from the camera at least.
+    /// The same for what lies behind a given x2. As many vertices from the camera at least.
     [[nodiscard]] TechniqueTable behind_second_vertex() const {
         TechniqueTable t = *this;
         t.from_eye_ = 2;
@@ -109,7 +109,7 @@ MIR_HD inline double technique_density(const PathMeasure& m, std::uint32_t k, st
     return density;
 }
 
-/// Density with which the table's techniques together build the path: what the balance heuristic
+/// Density with which the table's techniques together build the path. What the balance heuristic
 /// divides by (Veach 1997, section 9.2).
 MIR_HD_CALL inline double mixture_density(const PathMeasure& m, std::uint32_t k,
                                           const TechniqueTable& table) {

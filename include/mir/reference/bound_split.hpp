@@ -15,16 +15,17 @@ enum class BoundPart {
     removed  ///< max(G - bound, 0) / G of it: what RemovedByBound tells
 };
 
-/// How a bound of the geometry term splits the light that reaches the first vertex of a path. The
-/// two parts of one bound add up to all light. Thread-safe.
+/// How a bound splits the light that reaches a path's first vertex. It bounds the geometry term.
+/// The two parts of one bound add up to all light. Thread-safe.
 struct BoundSplit {
     float bound = std::numeric_limits<float>::max();  ///< m^-2
     BoundPart part = BoundPart::kept;                 ///< which of the two is wanted
     bool lamps = false;  ///< the bound holds for the emission of triangles too
 
-    /// Share of the light that `at`, a lifted point with unit shading normal `normal`, gets from
-    /// the reflecting point `from`, also lifted, when the two see each other; 0..1. Nearer to an
-    /// edge than points are lifted they may not face each other: no VPL there lights `at`.
+    /// Share of the light that `at` gets from `from` when they see each other, 0..1. `at` is a
+    /// lifted point with unit shading normal `normal`, `from` a reflecting point, also lifted.
+    /// Nearer to an edge than points are lifted they may not face each other: no VPL there lights
+    /// `at`.
     [[nodiscard]] float reflected(const Hit& at, Vec3 normal, const Hit& from) const {
         const Vec3 d = from.position - at.position;
         const float d2 = length_squared(d);
@@ -43,7 +44,7 @@ struct BoundSplit {
     /// Share of light that no bound holds for: emission seen directly, lights without extent.
     [[nodiscard]] float unbounded() const { return part == BoundPart::kept ? 1.0f : 0.0f; }
 
-    /// Nothing counts that is farther from a point than this, m, when seen at `cosine` to its
+    /// Largest distance from a point at which anything counts, m. It is seen at `cosine` to the
     /// shading normal: G <= cos / d^2.
     [[nodiscard]] float reach(float cosine) const {
         return part == BoundPart::kept ? std::numeric_limits<float>::infinity()

@@ -22,23 +22,23 @@ concept PathRules = requires(float x, Rgb throughput) {
 
 /// The balance heuristic and roulette by throughput. Model of PathRules.
 struct BalanceRules {
-    /// Weight of a point found with density `own` > 0 that another technique finds with density
-    /// `other`; densities are of one measure and count samples (n p). Source: Veach and Guibas,
-    /// "Optimally combining sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
+    /// Weight of a point found with density `own` > 0, `other` being another technique's. Densities
+    /// are of one measure and count samples (n p). Source: Veach and Guibas, "Optimally combining
+    /// sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
     static float mis(float own, float other) { return 1.0f / (1.0f + other / own); }
 
-    /// Density per steradian, seen from a point at squared distance `d2` (m^2), of a surface point
-    /// with density `per_area` (m^-2) whose normal makes `cosine` with the line of sight.
+    /// Density per steradian of a surface point with density `per_area` (m^-2). It is seen from
+    /// squared distance `d2` (m^2); its normal makes `cosine` with the line of sight.
     static float per_steradian(float per_area, float d2, float cosine) {
         return per_area * d2 / cosine;
     }
 
-    /// Largest odds of survival: where nothing is absorbed a path ends after a thousand vertices on
+    /// Largest odds of survival. Where nothing is absorbed a path ends after a thousand vertices on
     /// average. Not lower, because a path that goes on weighs 1 / odds more each time: the variance
     /// stays finite up to a reflectance of sqrt(odds).
     static constexpr float most_odds = 0.999f;
 
-    /// Throughput of a path after Russian roulette with the number `u`, black when it ends: the
+    /// Throughput of a path after Russian roulette with the number `u`, black when it ends. The
     /// odds of survival are the largest channel of `throughput`, at most `most_odds`. Source: Arvo
     /// and Kirk, "Particle transport and image synthesis", SIGGRAPH 1990.
     static Rgb roulette(Rgb throughput, float u) {

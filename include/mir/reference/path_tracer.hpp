@@ -28,18 +28,18 @@ struct PathTracerOptions {
     /// Largest number of scattering events, 1..254; none: roulette alone ends paths.
     std::optional<std::uint8_t> max_bounce = std::nullopt;
     std::uint8_t roulette_from = 3;  ///< first vertex where a path may end by chance; 255: never
-    /// Largest geometry term of the first two vertices, m^-2, in paths that are scattered at both:
-    /// what VplShading gives to the light of VPLs. Emission and other direct light are not bounded.
+    /// Largest geometry term of the first two vertices, m^-2, if paths scatter at both. It is what
+    /// VplShading gives to the light of VPLs. Emission and other direct light are not bounded.
     float bound = std::numeric_limits<float>::max();
     BoundPart part = BoundPart::kept;  ///< `removed`: the light that the bound takes, alone
     bool bound_lamps = false;          ///< direct light of emissive triangles is bounded too
 };
 
-/// Unidirectional path tracer with next-event estimation, the reference that other estimators are
-/// compared with: radiance split by the number b of scattering events, D_0 emission seen directly,
-/// D_1 direct light, D_b what VPLs of bounce b bring. Unbiased, up to `max_bounce` if there is one.
-/// Lights that the scene lists are summed at every vertex, since no direction finds them. Rays that
-/// leave the scene see its environment.
+/// Unidirectional path tracer with next-event estimation, the reference of other estimators.
+/// Radiance is split by the number b of scattering events: D_0 emission seen directly, D_1 direct
+/// light, D_b what VPLs of bounce b bring. Unbiased, up to `max_bounce` if there is one. Lights
+/// that the scene lists are summed at every vertex, since no direction finds them. Rays that leave
+/// the scene see its environment.
 ///
 /// Conventions are those of docs/method.md, 4: shading normal at the receiver, geometric normal at
 /// the emitter, black where shading and geometric side disagree, points lifted by
@@ -75,13 +75,13 @@ class PathTracer {
         return {luxels_.hit(seen), luxels_.surface(seen, environment_)};
     }
 
-    /// Adds one estimate of the radiance that leaves `first` towards the viewer, W m^-2 sr^-1:
-    /// D_b is added to element b of `bounces`, which has two elements or more. The last one takes
-    /// all later bounces too. An empty luxel has D_0 alone: its emission.
+    /// Adds one estimate of the radiance from `first` towards the viewer, W m^-2 sr^-1. D_b is
+    /// added to element b of `bounces`, which has two elements or more. The last one takes all
+    /// later bounces too. An empty luxel has D_0 alone: its emission.
     void trace(const Vertex& first, Random& random, std::span<RgbSum> bounces) const;
 
  private:
-    /// A path on its way: the light samples of `at`, its vertex number `bounce`, are done.
+    /// A path under way. The light samples of `at`, its vertex number `bounce`, are done.
     struct Walk {
         Vertex at;
         float share = 1.0f;  ///< of the directions of the first vertex
@@ -235,7 +235,7 @@ Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint32_t bo
     return sum + listed_(at.hit, at.surface, [&](std::uint32_t) { return random.next_2d(); });
 }
 
-/// Whether light that no bound holds for counts at a vertex: lights without extent, the
+/// Whether a vertex counts light without a bound: lights without extent, the
 /// environment.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 bool PathTracer<B, R, V, Rules>::is_all_wanted(std::uint32_t bounce) const {

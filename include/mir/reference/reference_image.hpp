@@ -10,9 +10,10 @@
 
 namespace mir {
 
-/// Radiance of an image split by bounce, with its moments over independent replicates in double
-/// precision, W m^-2 sr^-1. D_0 to D_last have layers of their own; all bounces, later ones
-/// included, are in the beauty. Filling different pixels from different threads is safe.
+/// Radiance of an image split by bounce, with its moments, W m^-2 sr^-1. Moments are over
+/// independent replicates, in double precision. D_0 to D_last have layers of their own; all
+/// bounces, later ones included, are in the beauty. Filling different pixels from different threads
+/// is safe.
 class ReferenceImage {
  public:
     /// Black, for `replicates` replicates; `last_bounce` is the last that gets a layer.
@@ -29,7 +30,7 @@ class ReferenceImage {
     /// Replicates that each pixel is to get; variances divide by them.
     [[nodiscard]] std::uint32_t replicates() const { return replicates_; }
 
-    /// Adds one replicate of pixel (x, y) after `earlier` others: the mean radiance of every
+    /// Adds one replicate of pixel (x, y) after `earlier` others. The mean radiance of every
     /// bounce; those not given are black, those behind `last_bounce` may be one sum.
     void add(std::uint32_t x, std::uint32_t y, std::uint32_t earlier,
              std::span<const RgbSum> bounces) {

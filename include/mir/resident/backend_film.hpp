@@ -17,7 +17,7 @@
 
 namespace mir {
 
-/// Film on a backend: luxels that lie there become pixels there, with the bits of Film, and come
+/// Film on a backend. Luxels that lie there become pixels there, with the bits of Film, and come
 /// home when they are finished. Memory grows with the height of a band, not of the image: sums of
 /// pixels take turns in a ring of rows. One queue and one thread at a time.
 template <Backend B>
@@ -26,7 +26,7 @@ class BackendFilm {
     /// Of the backend.
     using Queue = typename B::Queue;
 
-    /// `grid` and `seed` must be those that placed the luxels; bands have up to `most_rows` luxel
+    /// `grid` and `seed` must be those that placed the luxels. Bands have up to `most_rows` luxel
     /// rows. Starts to copy on `queue`.
     /// @throws What Film throws of filter and layers; what the backend throws.
     BackendFilm(const B& backend, Queue& queue, const LuxelGrid& grid, const Filter& filter,
@@ -47,9 +47,9 @@ class BackendFilm {
             images_.push_back(Image<Rgb>::unwritten(grid.pixels));
     }
 
-    /// Adds a band of complete luxel rows, radiance in W m^-2 sr^-1, a layer for each of the
-    /// film's, and develops the pixels that no later band reaches. Bands come from top to bottom
-    /// without gaps. All work is done when it returns.
+    /// Adds a band of complete luxel rows and develops finished pixels. Radiance is in W m^-2
+    /// sr^-1, a layer for each of the film's; no later band reaches a finished pixel. Bands come
+    /// from top to bottom without gaps. All work is done when it returns.
     /// @throws Error(invalid_argument) when band or layers do not fit; what the backend throws,
     ///         after which no band fits any more.
     void add_rows(Queue& queue, std::uint32_t first_row, std::vector<BackendLayer<B>>& layers);
@@ -58,20 +58,20 @@ class BackendFilm {
     /// @throws Error(invalid_argument) when an error ended add_rows(); what the backend throws.
     [[nodiscard]] FilmSeam seam(Queue& queue);
 
-    /// Goes on below another film, which may be one of the host or of another machine
-    /// (Film::go_on()). Only pixels from there on mean anything.
+    /// Goes on below another film, of the host or of another machine (Film::go_on()). Only pixels
+    /// from there on mean anything.
     /// @throws Error(invalid_argument) when the seam does not fit, or pixels are not at home; what
     ///         the backend throws.
     void go_on(Queue& queue, const FilmSeam& seam);
 
-    /// Rows of luxels added so far, those above the seam that it went on from included.
+    /// Rows of luxels added so far. Those above the seam that it went on from count.
     [[nodiscard]] std::uint32_t rows() const { return luxel_rows_; }
 
     /// Copies what was developed last to the images.
     template <Executor E>
     void bring_home(Queue& queue, E& executor);
 
-    /// The images of the layers, once all bands were added and brought home; leaves the film
+    /// The images of the layers, once all bands were added and brought home. Leaves the film
     /// without.
     [[nodiscard]] std::vector<Image<Rgb>> take_images() { return std::move(images_); }
 

@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// gather_light() on a backend: the tree stays there, luxels and light go up, radiance comes home.
+/// gather_light() on a backend. The tree stays there, luxels and light go up, radiance comes home.
 /// Bits are those of gather_light() where host and device round alike. One thread at a time.
 template <Backend B, Bsdf F>
 class BackendGather {

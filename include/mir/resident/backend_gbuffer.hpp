@@ -9,8 +9,8 @@
 
 namespace mir {
 
-/// Owner of the luxels of an image (or of a band of it) in a backend's memory, so that schedulers
-/// over that backend copy nothing. Same words as a BlockedGBuffer of the same extents. Model of
+/// Owner of the luxels of an image, or of a band, in a backend's memory. Schedulers over that
+/// backend then copy nothing. Same words as a BlockedGBuffer of the same extents. Model of
 /// TiledGBuffer. What it holds is undefined until trace_primary_hits() or upload() has filled it.
 template <Backend B, class Params>
 class BackendGBuffer {
@@ -57,7 +57,7 @@ class BackendGBuffer {
     /// For kernels that read luxels by their places.
     [[nodiscard]] LuxelImageView<Params> image() const { return {words_.data(), grid_}; }
 
-    /// Starts copying from a G-buffer of the same tiles, which must live until that is done.
+    /// Starts copying from a G-buffer of the same tiles. It must live until that is done.
     /// @throws Error(invalid_argument) when the tiles are others.
     template <class Alloc>
     void upload(typename B::Queue& queue, const BlockedGBuffer<Params, Alloc>& from) {
@@ -65,7 +65,7 @@ class BackendGBuffer {
         queue.upload(std::span<const std::uint32_t>(from.words()), words_);
     }
 
-    /// Starts copying to a G-buffer of the same tiles, which must live until that is done.
+    /// Starts copying to a G-buffer of the same tiles. It must live until that is done.
     /// @throws Error(invalid_argument) when the tiles are others.
     template <class Alloc>
     void download(typename B::Queue& queue, BlockedGBuffer<Params, Alloc>& to) const {

@@ -20,8 +20,8 @@ class BackendGuides {
     BackendGuides(const B& backend, const LuxelGrid& grid, const Camera& camera)
         : backend_(backend), grid_(grid), lens_{camera.position, camera.back} {}
 
-    /// Makes the guides of a band, which starts at luxel row `first_row` and holds whole rows of
-    /// pixels. All work is done when it returns. Each band must be brought home before the next.
+    /// Makes the guides of a band of whole pixel rows. It starts at luxel row `first_row`. All work
+    /// is done when it returns. Each band must be brought home before the next.
     template <Bsdf F>
     void add(Queue& queue, const BackendGBuffer<B, typename F::Params>& luxels,
              std::uint32_t first_row) {

@@ -8,8 +8,8 @@
 
 namespace mir {
 
-/// A colour per luxel of an image (or of a band of it) as kernels read it: tiles and luxels in the
-/// order of a G-buffer, planes of red, green and blue in each tile. A view; thread-safe.
+/// A colour per luxel of an image, or of a band, for kernels. Tiles and luxels come in the order of
+/// a G-buffer, with planes of red, green and blue in each tile. A view; thread-safe.
 struct LayerView {
     const std::uint32_t* words = nullptr;  ///< of all tiles, one after the other
     TileGrid grid;                         ///< of the image or band
@@ -92,7 +92,7 @@ struct AddLayer {
     MIR_HD void operator()(std::uint32_t i) const { sum.store(i, sum.load(i) + layer.load(i)); }
 };
 
-/// Kernel over the rows of a layer: adds up the luminance of each, from left to right.
+/// Kernel over the rows of a layer. Adds up the luminance of each, from left to right.
 struct RowLuminance {
     LayerView layer;        ///< what is added up
     double* out = nullptr;  ///< a sum per row of the image or band, in the unit of the layer

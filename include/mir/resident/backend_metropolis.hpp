@@ -24,7 +24,7 @@ struct ChainPortions {
     std::uint32_t mutations = 1024;
 };
 
-/// MetropolisSampler on a backend: bootstrap and chains run as kernels, only the chains' starts are
+/// MetropolisSampler on a backend. Bootstrap and chains run as kernels, only the chains' starts are
 /// chosen on the host. Same records and health, in every bit, as MetropolisSampler over the same
 /// scene, ray caster and visibility, where neither compiler fuses products (docs/embedding.md).
 /// Memory: for each of the chains that run at a time a ChainMemory, and the records and the samples

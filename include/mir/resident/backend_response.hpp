@@ -12,8 +12,8 @@
 
 namespace mir {
 
-/// block_row_responses() on a backend: what VPLs do to the luxels of bands that lie there with
-/// their visibility. The order of sums is that of ResponseSum, which takes the rows on the host:
+/// block_row_responses() on a backend: what VPLs do to luxels of bands there. Their visibility
+/// lies there too. The order of sums is that of ResponseSum, which takes the rows on the host:
 /// neither tiles nor memory change a bit, and bits are those of the host where shading has the
 /// same. Memory: a sum for each VPL and row of blocks of a band, and `partial_sums` more. Not
 /// thread-safe.
@@ -33,7 +33,7 @@ class BackendResponse {
           chunk_(choose_chunk(luxels, vpls, partial_sums)),
           partial_(backend.template buffer<ImageResponse>(chunk_.sums())) {}
 
-    /// Sums for each row of blocks of a band, from top to bottom, those of all VPLs. `seen` holds
+    /// Sums for each row of blocks of a band, from top to bottom. Those of all VPLs. `seen` holds
     /// the visibility of this band and these VPLs, whose intensities are not read. All work is done
     /// when it returns.
     /// @throws Error(invalid_argument) when VPLs or visibility do not fit or tiles cut blocks; what
@@ -65,7 +65,7 @@ class BackendResponse {
                 static_cast<std::uint32_t>(count)};
     }
 
-    /// What is added at a time: some rows of blocks of a row of tiles, and some VPLs.
+    /// What is added at a time. Some rows of blocks of a row of tiles, and some VPLs.
     struct Part {
         TileIndex first_tile = 0;
         std::uint32_t first_row = 0;  ///< of blocks, in the tiles
@@ -74,7 +74,7 @@ class BackendResponse {
         std::uint32_t vpls = 0;
     };
 
-    /// Writes the sums of a part to `rows`, which is the place of its first row and VPL.
+    /// Writes the sums of a part to `rows`, its first row and VPL.
     template <TiledGBuffer G, VplSet P, Shading F>
     void sum_part(Queue& queue, const G& gbuffer, P vpls, const BackendVisibility<B>& seen,
                   const F& shading, const Part& part, ImageResponse* rows);

@@ -8,8 +8,9 @@
 
 namespace mir {
 
-/// Which luxels of an image (or of a band of it) face and see which VPL, in a backend's memory: a
-/// bit per pair, a run of words per tile. What it holds is undefined until find() has filled it.
+/// Which luxels face and see which VPL, in a backend's memory. The luxels are those of an image or
+/// a band: a bit per pair, a run of words per tile. What it holds is undefined until find() has
+/// filled it.
 template <Backend B>
 class BackendVisibility {
  public:

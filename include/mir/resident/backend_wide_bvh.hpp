@@ -8,9 +8,10 @@
 
 namespace mir {
 
-/// A wide bounding volume hierarchy over all triangles of a scene that a backend builds in its own
-/// memory: the tree that build_wide_bvh() makes on the host, equal in bytes on every backend and
-/// for any number of threads. Move only if the backend's buffers are; const use from any thread.
+/// A wide bounding volume hierarchy that a backend builds in its memory. It holds all triangles of
+/// a scene and is the tree that build_wide_bvh() makes on the host, equal in bytes on every backend
+/// and for any number of threads. Move only if the backend's buffers are; const use from any
+/// thread.
 template <Backend B>
 class BackendWideBvh {
  public:

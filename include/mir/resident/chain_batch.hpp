@@ -11,8 +11,8 @@
 
 namespace mir {
 
-/// Memory of Markov chains that run on a backend at a time, and of what they bring home from one
-/// slice of their runs. It must outlive the work given to queues. One thread at a time.
+/// Memory of Markov chains that run on a backend at a time. It also holds what they bring home from
+/// one slice of their runs. It must outlive the work given to queues. One thread at a time.
 template <Backend B>
 class ChainBatch {
  public:
@@ -38,7 +38,7 @@ class ChainBatch {
         return static_cast<std::uint32_t>(reports_here_.size());
     }
 
-    /// Sets to zero what chains may leave empty in a slice and what lies between members, which
+    /// Zeroes what chains may leave empty in a slice. Also what lies between members, which
     /// bring_home() copies too. Before the first kernel.
     void clear(typename B::Queue& queue) {
         queue.clear(reports_);
@@ -55,8 +55,8 @@ class ChainBatch {
         slices.samples = samples_.data();
     }
 
-    /// Waits for a slice of as many chains as there are runs, and adds to each what its chain
-    /// brings. Only that is copied, and what chains leave empty that bring less than others. True
+    /// Waits for a slice and adds to each run what its chain brings. There are as many chains as
+    /// runs. Only that is copied, and what chains leave empty that bring less than others. True
     /// when all chains have ended.
     bool bring_home(typename B::Queue& queue, std::span<ChainRun> runs) {
         const auto reports = std::span(reports_here_).first(runs.size());

@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// The nodes of a wide hierarchy in short (QuantisedNode, NodeLinks), in a backend's memory beside
-/// it.
+/// The nodes of a wide hierarchy in short, in a backend's memory. They are QuantisedNode and
+/// NodeLinks and lie beside it.
 template <Backend B>
 class QuantisedBvh {
  public:

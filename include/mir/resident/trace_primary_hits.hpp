@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// First phase on a backend: traces the camera ray of every luxel of `gbuffer`, which holds the
+/// First phase on a backend. Traces the camera ray of every luxel of `gbuffer`, which holds the
 /// rows from `first_row` on of the luxel image. What fill_gbuffer() does on the host, bit for bit
 /// where rays and tracer give the same bits. Starts the work on `queue`; others wait for an event
 /// of it.

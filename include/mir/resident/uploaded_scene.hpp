@@ -49,7 +49,7 @@ class UploadedGeometry {
 template <Backend B>
 class UploadedTextures {
  public:
-    /// Starts the copies on `queue`; the table and its scene must live until they are done.
+    /// Starts the copies on `queue`. The table and its scene must live until they are done.
     UploadedTextures(const B& backend, typename B::Queue& queue, const TextureTable& textures)
         : values_(backend, queue, std::span<const float>(texel_values())),
           texels_(upload_texels(backend, queue, textures)),
@@ -109,7 +109,7 @@ class UploadedEnvironment {
     UploadedArray<B, Rgb> texels_;
     UploadedArray<B, double> cells_;
     UploadedArray<B, double> rows_;
-    EnvironmentView<Space::host> values_;  ///< of which only the values are used
+    EnvironmentView<Space::host> values_;  ///< only the values are used
 };
 
 /// The lights of a scene in a backend's memory.
@@ -153,7 +153,7 @@ class UploadedLights {
     UploadedArray<B, double> cumulative_;
     UploadedTextures<B> textures_;
     UploadedEnvironment<B> environment_;
-    LightTableView<Space::host> values_;  ///< of which only the values are used
+    LightTableView<Space::host> values_;  ///< only the values are used
 };
 
 /// The materials and images of a scene in a backend's memory.

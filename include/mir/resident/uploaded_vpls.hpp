@@ -11,7 +11,7 @@ namespace mir {
 template <Backend B>
 class UploadedVpls {
  public:
-    /// Takes memory for the VPLs on the backend and on the host, and copies them there.
+    /// Allocates the VPLs on the backend and on the host, and copies them there.
     template <VplSet P>
     UploadedVpls(const B& backend, const P& vpls)
         : host_(backend.template host_buffer<Vpl>(vpls.size())),

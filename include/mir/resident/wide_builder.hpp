@@ -7,7 +7,7 @@
 
 namespace mir::detail {
 
-/// A wide tree that only has to be written: memory of the construction and the kernels that read
+/// A wide tree that only has to be written. Memory of the construction and the kernels that read
 /// it.
 template <Backend B>
 class WideBuild {

@@ -8,19 +8,19 @@
 
 namespace mir {
 
-/// Fills words of visibility (VisibilityWords) on a backend in the fastest way that the visibility
-/// allows: by shafts if it brings what they need, else by a segment for each luxel and VPL that
-/// face each other. The bits are the same. Keeps what shafts work in. One queue at a time, and it
-/// must outlive the work.
+/// Fills words of visibility (VisibilityWords) on a backend in the fastest way. By shafts if the
+/// visibility brings what they need, else by a segment for each luxel and VPL that face each other.
+/// The bits are the same. Keeps what shafts work in. One queue at a time, and it must outlive the
+/// work.
 template <Backend B>
 class WordFinder {
  public:
-    /// For runs of up to `luxels` luxels, padding included, and sets of up to `vpls` VPLs.
+    /// For runs of up to `luxels` luxels and sets of `vpls` VPLs. Padding counts.
     WordFinder(const B& backend, std::uint32_t luxels, std::uint32_t vpls)
         : backend_(backend), luxels_(luxels), vpls_(vpls) {}
 
-    /// Starts to fill the words of `luxels`, which lie in planes if shafts are to be used, in the
-    /// order of `layout`, that of their tile.
+    /// Starts to fill the words of `luxels`, in the order of `layout`. They lie in planes if shafts
+    /// are to be used; `layout` is that of their tile.
     /// @throws What the backend throws when it has no memory left.
     template <GBuffer G, VplSet P, Visibility V>
         requires AccessibleFrom<V, B::space>

@@ -13,9 +13,9 @@ namespace mir {
 /// be there.
 void add_all_to(Registry& registry);
 
-/// Adds those of the processor: "cpu-blocks", the tuned path (default), "cpu", the plain loop that
-/// is the oracle, and "os", "rc" and "rcvp", the paper's. They trace with what
-/// RenderSettings::acceleration says.
+/// Adds the processor's renderers. "cpu-blocks" is the tuned path (default), "cpu" the plain loop
+/// that is the oracle; "os", "rc" and "rcvp" are the paper's. RenderSettings::acceleration chooses
+/// what they trace through.
 void add_cpu_to(Registry& registry);
 
 /// "Embree 3.13.5" or the like, and the vector instructions that loops will use.
@@ -29,7 +29,7 @@ struct DeviceReport {
     std::uint32_t threads = 0;  ///< of the processor; multiprocessors of a GPU
 };
 
-/// What is there, and a sentence for each backend that was built in but cannot be used.
+/// Present renderers, and a sentence for each built-in backend that cannot be used.
 struct DeviceList {
     std::vector<DeviceReport> devices;     ///< the processor first
     std::vector<std::string> unavailable;  ///< "cuda: there is no driver ..."

@@ -99,11 +99,11 @@ struct AnyVisibility {
 static_assert(ShortRayCaster<AnyRayCaster>);
 static_assert(PacketVisibility<AnyVisibility>);
 
-/// An engine of the host behind virtual calls, for what asks ray by ray and takes a compiler long:
-/// through this it is compiled once, not once for each engine. What does so for luxels and VPLs by
-/// the million is compiled for vector registers with the traversal inside and keeps the engine's
-/// own type. Const use from any thread; what the engine's handles read must outlive it. Copies
-/// share them.
+/// An engine of the host behind virtual calls. Code that traces ray by ray and takes a compiler
+/// long uses it: it is compiled once, not once for each engine. Loops over luxels and VPLs by the
+/// million keep the engine's own type, because they are compiled for vector registers with the
+/// traversal inside. Const use from any thread; what the engine's handles read must outlive it.
+/// Copies share them.
 class AnyEngine {
  public:
     /// `engine` offers ray_caster() and visibility().

@@ -10,8 +10,8 @@
 
 namespace mir {
 
-/// An Executor behind a call for each loop and each body, so that what loops is compiled once for
-/// all of them. Model of Executor. A handle: copies run on the same executor, which must outlive
+/// An Executor behind a virtual call for each loop and each body. What loops is compiled once for
+/// all executors. Model of Executor. A handle: copies run on the same executor, which must outlive
 /// them.
 class AnyExecutor {
  public:
@@ -39,7 +39,7 @@ class AnyExecutor {
     [[nodiscard]] std::size_t concurrency() const { return concurrency_(executor_); }
 
  private:
-    /// A body of which no type is known.
+    /// A body of unknown type.
     struct Call {
         const void* context;
         void (*body)(const void*, std::size_t);

@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Runs loops on another Executor that can be watched and stopped: it asks before every body
+/// Runs loops on another Executor that can be watched and stopped. It asks before every body
 /// whether to go on, and counts it after, so that no stage of a render has to know about that.
 /// Model of Executor; both references must outlive it.
 template <Executor E>

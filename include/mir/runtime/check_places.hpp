@@ -31,8 +31,8 @@ inline void check_place(const std::string& what, Vec3 place, float around = 0.0f
 
 }  // namespace detail
 
-/// Checks that rays can start at everything in a scene, whose triangles have these bounds, and at
-/// the camera of this index, on all of its lens.
+/// Checks that rays can start at everything in a scene. Its triangles have these bounds; the camera
+/// of this index counts with all of its lens.
 /// @throws Error(invalid_input) that names what lies more than largest_place away.
 inline void check_places(const Scene& scene, std::uint32_t camera, const Bounds& bounds) {
     if (!bounds.empty()) {

@@ -33,7 +33,7 @@ bool shows_mesh(const Scene& scene, const Predicate& holds) {
 
 }  // namespace detail
 
-/// True when something in the scene could shine: a light, or a triangle that is placed.
+/// True when something in the scene could shine: a light or a placed triangle.
 inline bool has_light(const Scene& scene) {
     bool listed = false;
     for_each_listed_light(scene, [&listed](const auto&) { listed = true; });
@@ -152,7 +152,7 @@ inline double share_of_picture(const Image<Rgb>& layer, const Image<Rgb>& beauty
     return all > 0.0 ? sum(layer) / all : 0.0;
 }
 
-/// A picture bears 10 % in a pixel: less is seen by those who look for it.
+/// A picture bears 10 % in a pixel. Less is seen by those who look for it.
 inline void add_direct_noise_warning(const RenderResult& result,
                                      std::vector<std::string>& warnings) {
     constexpr double bearable = 0.1;

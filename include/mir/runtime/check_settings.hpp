@@ -55,7 +55,8 @@ inline void check_vsl(const RenderSettings& s) {
             "leave --vsl out, or --compensate and the layer of what was removed");
 }
 
-/// Light paths alone tell from where a VPL is lit, and weigh it without a look at the image.
+/// True of light paths: they know where a VPL is lit from. They weigh it without a look at the
+/// image.
 inline void check_glossy(const RenderSettings& s) {
     if (!s.glossy.enabled) return;
     expects(s.glossy.least_roughness >= 0.0f && s.glossy.least_roughness <= 1.0f,
@@ -73,7 +74,8 @@ inline void check_glossy(const RenderSettings& s) {
             "VPLs are spheres or have lobes (not both are made); leave --vsl or --glossy out");
 }
 
-/// Cuts stand for points under a bound, of VPLs whose light is known before luxels are met.
+/// True of points under a bound whose light is known before luxels are met. Cuts stand for these
+/// alone.
 inline void check_cuts(const RenderSettings& s) {
     expects(s.picks >= 1 && s.picks <= 65536,
             "VPLs that a luxel picks must be 1 to 65536; 128 are usual");

@@ -11,7 +11,7 @@
 
 namespace mir {
 
-/// Checks what check_scene() cannot see before the triangles of a scene are placed: that some are
+/// Checks what check_scene() cannot see before the triangles of a scene are placed. That some are
 /// left, and check_places().
 /// @throws Error(invalid_input)
 inline void check_world(const Scene& scene, std::uint32_t camera, const WorldGeometry& world) {

@@ -25,8 +25,8 @@ class RoomView {
     RoomView(const R& caster, const Bounds& bounds, float aspect)
         : caster_(caster), bounds_(bounds), aspect_(aspect) {}
 
-    /// True when fronts of surfaces surround most places: at the places of a grid they are seen in
-    /// six of ten directions, in the mean. Walls of a room show them, a solid thing shows backs.
+    /// True when fronts of surfaces surround most places. From the places of a grid they are seen
+    /// in six of ten directions, in the mean. Walls of a room show them, a solid thing shows backs.
     [[nodiscard]] bool is_room() const {
         double seen = 0.0;
         const std::vector<Vec3> places = eyes();
@@ -103,9 +103,9 @@ class RoomView {
 
 }  // namespace detail
 
-/// A view of a scene that has no camera: from inside where it is a room, else of the whole from
-/// outside (frame_bounds()). `aspect` = width / height of the image to be made. Builds a kd-tree on
-/// the calling thread. Depends on its arguments alone.
+/// A view of a scene without a camera. It looks from inside where the scene is a room, else at the
+/// whole from outside (frame_bounds()). `aspect` = width / height of the image to be made. Builds a
+/// kd-tree on the calling thread. Depends on its arguments alone.
 /// @throws Error(invalid_argument) when `aspect` is not a positive number; what WorldGeometry
 ///         throws.
 inline FramedScene frame_scene(const Scene& scene, float aspect = 1.0f, const Limits& limits = {}) {

@@ -12,8 +12,8 @@
 
 namespace mir {
 
-/// Sum of images of T, one or three floats a pixel (float, Rgb, Vec3), in double precision, pixel
-/// by pixel in the order of the calls. One thread at a time.
+/// Sum of images of T in double precision, in the order of the calls. T is one or three floats a
+/// pixel (float, Rgb, Vec3). One thread at a time.
 template <class T>
 class LayerSum {
  public:

@@ -8,18 +8,18 @@
 
 namespace mir {
 
-/// How far an estimate of light lies from the truth, in units of the mean light.
+/// How far an estimate of light lies from the truth, over mean light.
 struct LightDifference {
     double mean = 0.0;            ///< 0.05: 5 % too bright in the mean
     double standard_error = 0.0;  ///< of `mean`
     double spread = 0.0;          ///< root mean square over places, noise of the estimate included
 };
 
-/// The difference between `estimate` and the light of which `first` and `second` are unbiased
-/// estimates, independent of each other; all three have one element for each place, and places are
-/// chosen alike. Without light it is zero. The standard error is that of a ratio of means to first
-/// order (Cochran, "Sampling techniques", 1977, chapter 6). The spread is the root of the mean of
-/// (estimate - first) (estimate - second), in which the noise of those two has no part.
+/// The difference between `estimate` and a light known by two unbiased estimates. These are `first`
+/// and `second`, independent of Without light it is zero. The standard error is that of a ratio of
+/// means to first order (Cochran, "Sampling techniques", 1977, chapter 6). The spread is the root
+/// of the mean of (estimate - first) (estimate - second), in which the noise of those two has no
+/// part.
 inline LightDifference light_difference(std::span<const double> estimate,
                                         std::span<const double> first,
                                         std::span<const double> second) {

@@ -12,7 +12,7 @@
 
 namespace mir {
 
-/// How far the luminance of independent pictures of one thing is spread, pixel by pixel, in double
+/// Spread of the luminance of independent pictures of one thing. Pixel by pixel, in double
 /// precision (Welford 1962). One thread at a time.
 class LuminanceSpread {
  public:
@@ -28,11 +28,11 @@ class LuminanceSpread {
         }
     }
 
-    /// Error of the mean of `count` pictures, relative to its brightness:
-    /// sqrt(mean over pixels of s^2 / count) / mean over pixels of luminance, where s^2 is a
-    /// pixel's unbiased variance over the pictures. Its square is, but for the divisor, an unbiased
-    /// estimate of the mean square error against the expected picture. None for fewer than two
-    /// pictures; infinite for pictures that differ and are black on average.
+    /// Error of the mean of `count` pictures, relative to its brightness. It is sqrt(mean over
+    /// pixels of s^2 / count) / mean over pixels of luminance, where s^2 is a pixel's unbiased
+    /// variance over the pictures. Its square is, apart from the divisor, an unbiased estimate of
+    /// the mean square error against the expected picture. None for fewer than two pictures;
+    /// infinite for pictures that differ and are black on average.
     [[nodiscard]] std::optional<double> relative_error(std::uint32_t count) const {
         if (count < 2) return std::nullopt;
         double squares = 0.0;

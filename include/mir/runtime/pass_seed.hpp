@@ -5,7 +5,7 @@
 
 namespace mir {
 
-/// Seed of pass `pass` of a progressive render: that of the render for the first, else 64 bits of a
+/// Seed of pass `pass` of a progressive render. That of the render for the first, else 64 bits of a
 /// Philox block of its own, so that no random number of one pass is used in another. A pure
 /// function of both; two passes share a seed with probability 2^-64.
 MIR_HD constexpr std::uint64_t pass_seed(std::uint64_t seed, std::uint64_t pass) {

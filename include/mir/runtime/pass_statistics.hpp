@@ -58,7 +58,7 @@ inline void add_pass(ChainHealth& all, const ChainHealth& pass, std::uint32_t ea
 
 }  // namespace detail
 
-/// Adds the numbers of one more pass to those of `earlier` >= 1 passes: what counts or lasts adds
+/// Adds the numbers of one more pass to those of `earlier` >= 1 passes. What counts or lasts adds
 /// up, shares and luminances become means, what is the same in every pass stays.
 inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::uint32_t earlier) {
     constexpr std::uint32_t most_vpls = 0x7fffffff;  // what an attribute of a picture holds

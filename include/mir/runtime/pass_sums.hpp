@@ -46,12 +46,12 @@ class PassSums {
         return spread_.relative_error(passes());
     }
 
-    /// The mean picture of at least one pass; of one pass that pass in every bit. Position and
+    /// The mean picture of at least one pass. Of one pass that pass in every bit. Position and
     /// depth are those of the first pass, because a mean of two surfaces lies on neither; the VPLs
     /// are those of the last. `complete` says whether further passes were wanted.
     [[nodiscard]] RenderResult result(bool complete = true) const;
 
-    /// Hands all that `self` consists of, but the VPLs, to `archive`, which reads or, unless const,
+    /// Hands all of `self` except the VPLs to `archive`. The archive reads or, unless const,
     /// replaces it.
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
@@ -91,7 +91,7 @@ class PassSums {
         add_layers(first, 0);
     }
 
-    /// Takes the memory that it needs first, so that nothing is added where there is none.
+    /// Takes the memory that it needs first, so that it adds all or nothing.
     void add_next(RenderResult& pass) {
         // A pass without light of a bounce adds black.
         std::vector<LayerSum<Rgb>> more;

@@ -11,9 +11,9 @@
 
 namespace mir {
 
-/// Estimates the bytes that a picture takes while it is rendered: the sums of its film, the images
-/// and guides of the result. `layers` are those of the film. The scene, the VPLs and the luxels of
-/// one band come on top; the settings must be validated.
+/// Estimates the bytes that a picture takes while it is rendered. They are the sums of its film,
+/// the images and guides of the result. `layers` are those of the film. The scene, the VPLs and the
+/// luxels of one band come on top; the settings must be validated.
 [[nodiscard]] inline std::uint64_t picture_bytes(const RenderSettings& settings,
                                                  std::size_t layers) {
     constexpr std::uint64_t film_sum = 8, color = 12, guides = 40, coverage = 4;

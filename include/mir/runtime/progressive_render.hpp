@@ -14,12 +14,12 @@
 
 namespace mir {
 
-/// A picture that gets better pass by pass. Each pass is a whole render with random numbers of its
-/// own (pass_seed()): other luxels where a pixel has several, other VPLs, other light samples; the
-/// picture is the mean. Its variance falls as one over the number of passes;
-/// the spheres of virtual spherical lights shrink from pass to pass (vsl_radius_share()).
-/// Everything is made anew in each pass, the acceleration structure and the G-buffer too. One
-/// thread at a time.
+/// A picture that gets better pass by pass. Each pass is a whole render with random numbers of
+/// its own (pass_seed()): other luxels where a pixel has several, other VPLs, other light
+/// samples; the picture is the mean. Its variance falls as one over the number of passes; the
+/// spheres of virtual spherical lights shrink from pass to pass (vsl_radius_share()). Each pass
+/// builds everything again, the acceleration structure and the G-buffer too. One thread at a
+/// time.
 class ProgressiveRender {
  public:
     /// Starts the clock of the goal. `renderer`, `scene` and `monitor`, which may be null, must

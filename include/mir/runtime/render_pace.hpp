@@ -84,7 +84,7 @@ class RenderPace {
         return unit_seconds_ > 0.0 ? static_cast<double>(work_.units) / unit_seconds_ : 0.0;
     }
 
-    /// None before the first unit: no time left can be told from what was not measured.
+    /// None before the first unit. No time left can be told from what was not measured.
     [[nodiscard]] std::optional<double> seconds_left() const {
         const std::optional<double> share = work_.unit_share();
         if (!share || *share == 0.0 || unit_seconds_ == 0.0) return std::nullopt;

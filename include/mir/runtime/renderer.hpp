@@ -48,7 +48,7 @@ class Registry {
         std::function<bool()> is_present = nullptr;
     };
 
-    /// A renderer, and a sentence for each machine that is there and was passed over for it.
+    /// A renderer, and a sentence for each present machine that was passed over.
     struct Choice {
         std::unique_ptr<Renderer> renderer;  ///< never null
         std::vector<std::string> remarks;    ///< of BackendKind::automatic alone
@@ -57,9 +57,9 @@ class Registry {
     /// Backends that are added first are preferred by BackendKind::automatic.
     void add(Backend backend) { backends_.push_back(std::move(backend)); }
 
-    /// The renderer of a backend with a scheduler, or with its default when `scheduler` is empty.
-    /// @throws Error(unsupported) that lists the names when there is none;
-    ///         Error(no_device) when the backend's machine is missing.
+    /// The renderer of a backend with a scheduler, or with its default one.
+    /// @throws Error(unsupported) with the list of names when there is none; Error(no_device) when
+    /// the backend's machine is missing.
     [[nodiscard]] std::unique_ptr<Renderer> make(BackendKind kind,
                                                  std::string_view scheduler) const {
         const Backend& backend = choose(kind, scheduler);
@@ -67,8 +67,8 @@ class Registry {
         return backend.schedulers.find(name)->second();
     }
 
-    /// The renderer for these settings: of the first backend that is there and can render them,
-    /// where they leave it open.
+    /// The renderer of the first backend that can render these settings. Backends that are not
+    /// there, or that the settings exclude, are passed over.
     /// @throws what make() throws.
     [[nodiscard]] Choice make_for(const RenderSettings& settings) const {
         Choice choice;
@@ -85,7 +85,7 @@ class Registry {
         return choice;
     }
 
-    /// The names of the schedulers of a backend, or of all, each once, separated by commas.
+    /// Names of a backend's schedulers, or of all, separated by commas. Each occurs once.
     [[nodiscard]] std::string names(BackendKind kind = BackendKind::automatic) const {
         std::set<std::string> names;
         for (const Backend& b : backends_)

@@ -61,8 +61,8 @@ struct RenderStatistics {
     std::optional<double> relative_error;  ///< of the picture, from their spread; needs two
     bool complete = true;                  ///< false: passes that were asked for are missing
 
-    /// Share of the VPLs' light that the bound removed, 0..1: as measured, else as the VPLs tell
-    /// it, which is too little where few of them lie next to what they would light.
+    /// Share of the VPLs' light that the bound removed, 0..1. Measured, or else estimated from the
+    /// VPLs: too little where few of them lie next to what they would light.
     [[nodiscard]] double removed_share() const {
         if (removed) return removed->share;
         const double all = indirect_luminance + removed_luminance;
@@ -74,18 +74,18 @@ struct RenderStatistics {
 struct RenderResult {
     Image<Rgb> beauty;                ///< the sum of the next three
     Image<Rgb> emission;              ///< of what the camera sees, environment included
-    Image<Rgb> direct;                ///< of one scattering event, but for what VPLs on lamps bring
+    Image<Rgb> direct;                ///< of one scattering event, without what VPLs on lamps bring
     Image<Rgb> indirect;              ///< the rest: of VPLs, of discs or of longer paths
     std::vector<Image<Rgb>> bounces;  ///< element i: light of i + 1 scattering events; on request
     Guides guides;                    ///< what a denoiser wants to know
     VplList vpls;                     ///< that lit the picture; none of other integrators
     RenderStatistics statistics;      ///< how it came about
     std::vector<std::string> warnings;  ///< sentences
-    /// What the bound removed from the VPLs' light, as the VPLs tell it: in no other layer; empty
+    /// Light that the bound removed, as estimated from the VPLs. No other layer holds it; empty
     /// unless asked for.
     Image<Rgb> removed{};
-    /// Share of a pixel where the camera sees a surface and not the environment, 0..1, through the
-    /// filter of the beauty: its alpha, with which the beauty counts as multiplied.
+    /// Share of a pixel where the camera sees a surface, 0..1: its alpha. Through the filter of the
+    /// beauty, which counts as multiplied by it; the environment counts as 0.
     Image<float> coverage{};
 };
 

@@ -105,7 +105,7 @@ enum class LightSum {
     automatic  ///< `cuts` of more than most_vpls_summed where nothing speaks against it, else `all`
 };
 
-/// VPLs up to which LightSum::automatic sums all: a kernel for all pairs is the faster one.
+/// VPLs up to which LightSum::automatic sums all. A kernel for all pairs is the faster one.
 inline constexpr std::uint32_t most_vpls_summed = 8192;
 
 /// How direct light reaches the image.
@@ -117,7 +117,7 @@ enum class DirectLight {
 
 /// How 1/d^2 next to a VPL is tamed.
 struct BoundPolicy {
-    /// How the largest geometry term is found: from the area that the camera sees and the number of
+    /// How the largest geometry term is found. From the area that the camera sees and the number of
     /// VPLs (default_bound()), not at all, or by `value`.
     enum class Kind { automatic, none, fixed };
     Kind kind = Kind::automatic;  ///< how the bound is found
@@ -141,8 +141,8 @@ struct GlossySettings {
     [[nodiscard]] float least_alpha() const { return least_roughness * least_roughness; }
 };
 
-/// What to render and how. Plain values with working defaults, of which designated initialisers may
-/// change some; validate() tells what is wrong.
+/// What to render and how. Plain values with working defaults; designated initialisers may change
+/// some. validate() tells what is wrong.
 struct RenderSettings {
     Extent image{640, 480};                         ///< pixels
     std::uint32_t luxels_per_pixel = 4;             ///< 1..64
@@ -164,12 +164,12 @@ struct RenderSettings {
     Sequence sequence = Sequence::random;             ///< of SamplerKind::instant_radiosity
     DirectLight direct = DirectLight::separate;       ///< how it reaches the image
     std::uint32_t direct_samples = 32;                ///< next-event samples per pixel
-    /// Largest number of scattering events, 1..254; none: bounce_limit() of VPLs and discs, no
-    /// limit of Integrator::path.
+    /// Most scattering events, 1..254. Without a value: bounce_limit() of VPLs and discs, no limit
+    /// of Integrator::path.
     std::optional<std::uint8_t> max_bounce = std::nullopt;
     BoundPolicy bound{};  ///< of the VPLs' geometry term
-    /// Paths per pixel that trace back what the bound removed, shared out among its luxels, at
-    /// least one each; 0: none, so that this light is missing.
+    /// Paths per pixel that trace back what the bound removed. They are shared out among its
+    /// luxels, at least one each; 0: none, so that this light is missing.
     std::uint32_t compensate = 0;
     VslSettings vsl{};                                     ///< a choice instead of `bound`
     GlossySettings glossy{};                               ///< else all VPLs are Lambertian
@@ -180,14 +180,14 @@ struct RenderSettings {
     DeviceChoice devices{};                                ///< of a backend with several
     Acceleration acceleration = Acceleration::automatic;   ///< what finds out where rays end
     std::string scheduler{};  ///< name in the Registry; empty: the backend's default
-    /// Luxels scheduled together, rounded up to whole blocks of 16 x 16, not larger than the image
-    /// of luxels rounded likewise; none: the backend's choice.
+    /// Luxels scheduled together, rounded up to whole blocks of 16 x 16. Not larger than the image
+    /// of luxels, rounded up the same way; none: the backend's choice.
     std::optional<Extent> tile{};
     bool bounce_layers = false;  ///< one image per bounce besides the sum
     bool removed_layer = false;  ///< an image of the light that the bound removed
-    /// Paths measure what the bound removes and the largest bounce cuts, and two
-    /// estimates how noisy direct light is, for 2048 places however small the
-    /// image; else the VPLs tell what the bound removes.
+    /// Paths measure what the bound removes and the largest bounce cuts. Two more per place
+    /// estimate the noise of direct light, at 2048 places whatever the image. Without it the VPLs
+    /// estimate what the bound removes.
     bool measure_missing = true;
     bool allow_no_light = false;  ///< a scene without light gives black, not an error
     Limits limits{};              ///< checked before memory is taken
@@ -234,14 +234,14 @@ struct RenderSettings {
         return (direct_samples + luxels_per_pixel - 1) / luxels_per_pixel;
     }
 
-    /// Paths of one luxel that trace back what the bound removed, likewise; 0 for none.
+    /// Paths of one luxel that trace back what the bound removed; 0 for none.
     [[nodiscard]] std::uint32_t compensate_per_luxel() const {
         return (compensate + luxels_per_pixel - 1) / luxels_per_pixel;
     }
 };
 
-/// Luxels of the image times VPLs that each gathers: the contributions of a pass, in a number that
-/// does not overflow.
+/// Contributions of a pass: luxels of the image times VPLs that each gathers. The type does not
+/// overflow.
 [[nodiscard]] inline double pairs(const RenderSettings& settings) {
     return static_cast<double>(settings.image.area()) * settings.luxels_per_pixel *
            settings.gathered_vpls();

@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// Fingerprint of the settings that a picture depends on: all but threads, devices, scheduler,
+/// Fingerprint of the settings that a picture depends on. All but threads, devices, scheduler,
 /// tile and limits. Not cryptographic. Source: FNV-1a, 64 bits, over the values as 64-bit words.
 /// Structured bindings name every member, so that a new one cannot be forgotten.
 class SettingsHash {

@@ -13,10 +13,10 @@ struct ShareEstimate {
     double standard_error = 0.0;  ///< of `share`
 };
 
-/// The share of `part` in part + rest, each summed over places chosen independently of each other
-/// and alike; both have as many elements as there are places. The error is that of a ratio of
-/// means to first order (Cochran, "Sampling techniques", 1977, chapter 6): it counts how far the
-/// parts of single places lie from the same share of their light.
+/// The share of `part` in part + rest, each summed over places. Places are chosen independently of
+/// each other and alike; both have as many elements as there are places. The error is that of a
+/// ratio of means to first order (Cochran, "Sampling techniques", 1977, chapter 6): it counts how
+/// far the parts of single places lie from the same share of their light.
 inline ShareEstimate share_estimate(std::span<const double> part, std::span<const double> rest) {
     double parts = 0.0;
     double whole = 0.0;

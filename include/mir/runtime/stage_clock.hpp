@@ -35,7 +35,7 @@ class StageClock {
         Stage outer_;
     };
 
-    /// Tells `monitor` which stage it is, unless that is null; else it must outlive the clock.
+    /// Tells `monitor` which stage it is, unless that is null. Else it must outlive the clock.
     explicit StageClock(Monitor* monitor = nullptr) : monitor_(monitor) { tell(); }
     StageClock(const StageClock&) = delete;
     StageClock& operator=(const StageClock&) = delete;

@@ -23,7 +23,7 @@ struct StageSeconds {
     double direct = 0.0;          ///< next-event light, emission
     double reconstruction = 0.0;  ///< contributions of the VPLs
     double gather = 0.0;          ///< light from discs
-    double ledger = 0.0;          ///< measuring noise, what VPLs leave out, discs differ by
+    double light_budget = 0.0;    ///< measuring noise, what VPLs leave out, discs differ by
     double residual = 0.0;        ///< tracing that back
     double film = 0.0;            ///< filtering
     double guides = 0.0;          ///< albedo, normal, position and depth
@@ -43,7 +43,7 @@ struct RenderStage {
     const char* title;      ///< what a person reads
 };
 
-/// Every stage in the order in which a frame goes through them; what they take adds up to
+/// Every stage in the order in which a frame goes through them. What they take adds up to
 /// StageSeconds::total.
 inline constexpr std::array<RenderStage, 21> render_stages{
     {{"geometry", &StageSeconds::geometry, "geometry"},
@@ -60,7 +60,7 @@ inline constexpr std::array<RenderStage, 21> render_stages{
      {"direct", &StageSeconds::direct, "direct light"},
      {"reconstruction", &StageSeconds::reconstruction, "light of VPLs"},
      {"gather", &StageSeconds::gather, "light of discs"},
-     {"ledger", &StageSeconds::ledger, "light that is missing"},
+     {"light_budget", &StageSeconds::light_budget, "light that is missing"},
      {"residual", &StageSeconds::residual, "light that was removed"},
      {"film", &StageSeconds::film, "film"},
      {"guides", &StageSeconds::guides, "albedo and normals"},

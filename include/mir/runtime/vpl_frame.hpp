@@ -15,13 +15,13 @@
 
 namespace mir {
 
-/// A picture of the processor that lacks nothing but its VPLs: for samplers of your own, which are
-/// given what they trace through. Of mir::runtime. One thread at a time.
+/// A picture on the processor that lacks only its VPLs. For samplers of your own, which trace
+/// through its members. Of mir::runtime. One thread at a time.
 class VplFrame {
  public:
     /// Checks settings and scene, builds what rays go through and chooses the bound. The scene must
-    /// outlive it; `monitor` may be null, else it must too. Settings of samplers, backend and
-    /// integrator mean nothing.
+    /// outlive it; `monitor` may be null, else it must too. Settings of backend and
+    /// integrator mean nothing, those of samplers only to place_vpls().
     /// @throws Error as Renderer::render(); Error(unsupported) for a scheduler that the processor
     ///         has not.
     VplFrame(const Scene& scene, const RenderSettings& settings, Monitor* monitor = nullptr);
@@ -37,10 +37,14 @@ class VplFrame {
     [[nodiscard]] AnyRayCaster ray_caster() const;
     /// Whether points see each other; valid as long as this.
     [[nodiscard]] AnyVisibility visibility() const;
-    /// Largest geometry term of a VPL, m^-2: samplers that look at the image must use it.
+    /// Largest geometry term of a VPL, m^-2, for samplers that look at the image.
     [[nodiscard]] float bound() const;
     /// The threads of the settings, stopped by the monitor.
     [[nodiscard]] AnyExecutor& executor();
+    /// The VPLs of the sampler that the settings name, with the intensities that they have in a
+    /// picture. To be called once, and not before render_vpls().
+    /// @throws Error as Renderer::render().
+    [[nodiscard]] VplList place_vpls();
 
  private:
     struct Parts;

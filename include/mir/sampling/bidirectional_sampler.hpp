@@ -33,10 +33,10 @@ struct ResamplingRules : VplDensity {
     }
 };
 
-/// Bidirectional instant radiosity by resampled importance sampling: of many candidates, drawn from
-/// the lamps and from what the camera sees (VplGenerator), those are kept that give most to the
-/// image, as judged by a probe. With weights w = P~ / q of the candidates, a VPL that is drawn by
-/// weight brings J = (mean(w) / N') R / P~: about the same flux each. Unbiased for any number of
+/// Bidirectional instant radiosity by resampled importance sampling. Many candidates are drawn from
+/// the lamps and from what the camera sees (VplGenerator); those that give most to the image, as a
+/// probe judges, are kept. With weights w = P~ / q of the candidates, a VPL that is drawn by weight
+/// brings J = (mean(w) / N') R / P~: about the same flux each. Unbiased for any number of
 /// candidates, because P~ is positive wherever there is light and fixed beforehand. Model of
 /// Sampler. Sources: Segovia, Iehl, Mitanchey, Peroche, "Bidirectional instant radiosity", EGSR
 /// 2006; Talbot, Cline, Egbert, "Importance resampling for global illumination", EGSR 2005. Scene
@@ -51,8 +51,8 @@ class BidirectionalSampler {
     /// What judges candidates.
     using Probe = typename Generator::Probe;
 
-    /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when
-    ///         more VPLs are wanted than `limits` allows.
+    /// @throws Error(invalid_argument) when options are out of range. Error(limit_exceeded) when
+    /// more VPLs are wanted than `limits` allows.
     BidirectionalSampler(World world, const Probe& probe, const BidirectionalOptions& options,
                          const Limits& limits = {})
         : world_(std::move(world)), probe_(probe), options_(options) {
@@ -96,7 +96,7 @@ class BidirectionalSampler {
         double weight = 0.0;
     };
 
-    /// The candidates, those close to one another in path space side by side: systematic resampling
+    /// The candidates, ordered so that neighbours in path space are adjacent. Systematic resampling
     /// then spreads the VPLs evenly over bounces and places. Source: Gerber, Chopin, Whiteley,
     /// "Negative association, ordering and convergence of resampling methods", 2019.
     template <Executor E>

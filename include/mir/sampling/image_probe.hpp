@@ -14,10 +14,10 @@
 
 namespace mir {
 
-/// Estimates what a VPL gives to the image before there is an image, from a few luxels: the
-/// quantity that Georgiev and Slusallek, "Simple and robust iterative importance sampling of
-/// virtual point lights", Eurographics 2010, decide by. Unbiased over seeds. Owns what it needs of
-/// the scene but for what `V` refers to; const use from any thread.
+/// Estimates what a VPL gives to the image, from a few luxels. That is the quantity that Georgiev
+/// and Slusallek, "Simple and robust iterative importance sampling of virtual point lights",
+/// Eurographics 2010, decide by. Unbiased over seeds. Owns what it needs of the scene except for
+/// what `V` refers to; const use from any thread.
 template <Bsdf B, Visibility V>
 class ImageProbe {
  public:
@@ -27,16 +27,16 @@ class ImageProbe {
     ImageProbe(const ProbeRays& rays, const R& caster, const SurfaceTable<B>& surfaces,
                V visibility, VplShading<B> shading = {});
 
-    /// Radiance that a VPL of 1 W sr^-1 at `place` (its intensity is not read) sends to the viewer,
-    /// averaged over all luxels, those that see nothing included: (1/M') sum_l f_1 G V, sr^-1 m^-2.
+    /// Mean radiance over all luxels from a VPL of 1 W sr^-1 at `place`. Its intensity is not read;
+    /// luxels that see nothing count: (1/M') sum_l f_1 G V, sr^-1 m^-2.
     [[nodiscard]] Rgb response(const Vpl& place) const;
 
-    /// Mean image luminance due to a VPL of intensity `j` (W sr^-1) at `place`, W m^-2 sr^-1.
+    /// Mean image luminance of a VPL at `place`, W m^-2 sr^-1. Its intensity is `j` (W sr^-1).
     [[nodiscard]] float flux(const Vpl& place, Rgb j) const {
         return luminance(response(place) * j);
     }
 
-    /// Calls f(hit, surface, radiance) for each luxel that `place` lights, in a fixed order; the
+    /// Calls f(hit, surface, radiance) for each luxel that `place` lights, in a fixed order. The
     /// radiance is that of 1 W sr^-1, sr^-1 m^-2.
     template <class F>
     void for_each_lit(const Vpl& place, F&& f) const;

@@ -42,8 +42,8 @@ class InstantRadiositySampler {
         R caster;                         ///< finds what paths meet, from many threads at once
     };
 
-    /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when
-    ///         more VPLs are wanted than `limits` allows.
+    /// @throws Error(invalid_argument) when options are out of range. Error(limit_exceeded) when
+    /// more VPLs are wanted than `limits` allows.
     InstantRadiositySampler(const World& world, InstantRadiosityOptions options,
                             const Limits& limits = {})
         : world_(world), options_(options) {

@@ -32,13 +32,13 @@ Vpl reflective_vpl(const Arrival<B>& at, Rgb weight) {
     return {lift(at.point), n, at.power * weight * (at.shading_normal_factor() * inv_pi)};
 }
 
-/// The point on the lamp where a path starts, as a VPL: J = L_e / pdf.
+/// A path's start on the lamp as a VPL: J = L_e / pdf.
 inline Vpl emitter_vpl(const Emission& e) {
     return {e.ray.origin, e.emitter->normal, e.emitter->emission * (1.0f / e.pdf_point)};
 }
 
-/// Light that leaves an arrival along `sample`, which was drawn around the normal `n`: its ray and
-/// power, which is black when the sampled direction and the geometric side disagree.
+/// Light that leaves an arrival along `sample`, drawn around the normal `n`. Its power is black
+/// when the sampled direction and the geometric side disagree.
 template <Bsdf B>
 Emission scatter(const Arrival<B>& at, const BsdfSample& sample, Vec3 n) {
     Emission out;

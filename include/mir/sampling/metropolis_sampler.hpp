@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Intensity of a record that is to be normalised: the colour of R, at a luminance of 1.
+/// Intensity of a record before normalisation: the colour of R, at luminance 1.
 struct UnitRadiance {
     /// R of a path that carries light, scaled to a luminance of 1.
     MIR_HD Rgb operator()(const WeightedPath& p) const {
@@ -15,8 +15,8 @@ struct UnitRadiance {
     }
 };
 
-/// Metropolis instant radiosity: VPLs where they matter to the camera, each bringing the same flux
-/// to the image once normalised. Model of Sampler, and of what the 2009 paper's algorithm 2 does.
+/// Metropolis instant radiosity: VPLs where they matter to the camera. Once normalised, each brings
+/// the same flux to the image. Model of Sampler, and of what the 2009 paper's algorithm 2 does.
 /// Source: Segovia, Iehl, Peroche 2007; Pajot, Barthe, Paulin 2009, section 4. The scene data that
 /// `world` refers to must outlive it; const use from any thread.
 template <class World>
@@ -25,8 +25,8 @@ class MetropolisSampler {
     /// Records hold R; the image's response makes intensities of them.
     static constexpr Normalisation normalisation = Normalisation::image_response;
 
-    /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when
-    ///         more states are wanted than `limits` allows VPLs.
+    /// @throws Error(invalid_argument) when options are out of range. Error(limit_exceeded) when
+    /// more states are wanted than `limits` allows VPLs.
     MetropolisSampler(const World& world, const MetropolisOptions& options,
                       const Limits& limits = {})
         : options_(options),

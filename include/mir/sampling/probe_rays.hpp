@@ -10,7 +10,7 @@
 
 namespace mir {
 
-/// Camera rays of a few luxels that are spread over a whole image: one at a random place of each
+/// Camera rays of a few luxels that are spread over a whole image. One at a random place of each
 /// cell of a grid on the film, so that the mean over them is an unbiased estimate of the mean over
 /// the film. A pure function of cell and members.
 struct ProbeRays {

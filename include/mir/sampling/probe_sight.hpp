@@ -39,7 +39,7 @@ ProbeSight sight_of(const ImageProbe<B, V>& probe, const Vpl& place) {
     return sight;
 }
 
-/// Ray from one of the probe's luxels, equally likely, drawn by what it reflects: reversed, a way
+/// Ray from one of the probe's luxels, equally likely, drawn by what it reflects. Reversed, a way
 /// for light to reach the image. Nothing when the direction runs into the surface, or no luxel
 /// reflects. `pick` and `lobe` are in [0, 1), `uv` in the unit square.
 template <Bsdf B, Visibility V>

@@ -10,12 +10,12 @@
 
 namespace mir {
 
-/// Metropolis instant radiosity whose chains run over light paths z = (x2, ..., x_k) alone, with
-/// what a probe of the image responds to them as target P~ (VplGenerator). The target of each state
-/// is known, so the records are final: J = (P~_c / n) R / P~, unbiased at every pixel for any
-/// number of luxels. What is given up is that VPLs bring exactly the same flux to the image; they
-/// do so to the luxels of the probe. Model of Sampler; docs/method.md, section 10. Scene data and
-/// probe must outlive it; const use from any thread.
+/// Metropolis instant radiosity whose chains run over light paths alone. A path is z = (x2, ...,
+/// x_k), and its target P~ is the response of a probe of the image (VplGenerator). The target of
+/// each state is known, so the records are final: J = (P~_c / n) R / P~, unbiased at every pixel
+/// for any number of luxels. VPLs bring the same flux to the luxels of the probe, not exactly to
+/// the image. Model of Sampler; docs/method.md, section 10. Scene data and probe must outlive it;
+/// const use from any thread.
 template <class World>
 class ProposalSampler {
  public:

@@ -27,7 +27,8 @@ class SurvivorCounts {
         }
     }
 
-    /// The largest set whose levels together hold at most `vpls` VPLs, but at least one particle.
+    /// The largest set whose levels hold at most `vpls` VPLs together. There is one particle at
+    /// least.
     static SurvivorCounts for_total(std::uint64_t vpls, double rho, std::uint8_t max_level,
                                     bool from_lamp) {
         std::uint64_t low = 1;
@@ -48,7 +49,7 @@ class SurvivorCounts {
         return n < counts_.size() ? counts_[n] : 0;
     }
 
-    /// Share of level n - 1 that takes part in level `n`, for n >= 1.
+    /// Share of level n - 1 that takes part in level `n` >= 1.
     [[nodiscard]] float survival(std::size_t n) const {
         return static_cast<float>(static_cast<double>(at(n)) / static_cast<double>(at(n - 1)));
     }

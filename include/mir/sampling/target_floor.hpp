@@ -10,7 +10,7 @@ namespace mir {
 
 /// The floor under the target of VplGenerator.
 struct TargetFloor {
-    /// Floor over the mean response, above 0 to 1; share / (1 + share) of the VPLs are there for
+    /// Floor over the mean response, above 0 to 1. Share / (1 + share) of the VPLs are there for
     /// its sake. Small: light that the probe misses comes seldom and bright; large: more VPLs light
     /// nothing.
     float share = 0.05f;
@@ -25,10 +25,10 @@ struct TargetFloor {
     }
 };
 
-/// The generator whose floor is `share` times the mean of what the probe responds to the scene's
-/// light, sr^-1 m^-2. The mean is that of numbers which serve nothing else, so that the target is
-/// the same whatever is drawn from it; 1 when none of the pilot's light reaches the probe. Without
-/// lights there is nothing to draw and the floor is 0.
+/// The generator with a floor of `share` times the mean response. It is that of the probe to the
+/// scene's light, sr^-1 m^-2. The mean is that of numbers which serve nothing else, so that the
+/// target is the same whatever is drawn from it; 1 when none of the pilot's light reaches the
+/// probe. Without lights there is nothing to draw and the floor is 0.
 template <class Generator, class World, Executor E>
 Generator generator_with_floor(const World& world, const typename Generator::Probe& probe,
                                std::uint32_t min_edges, std::uint32_t max_edges, TargetFloor floor,

@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// The fixed grid of 64 x 64 rays that visible_area() looks along, for host and device.
+/// The fixed grid of 64 x 64 rays of visible_area(). For host and device.
 struct AreaRays {
     static constexpr std::uint32_t side = 64;            ///< rays along each side of the grid
     static constexpr std::uint32_t count = side * side;  ///< rays in all
@@ -26,7 +26,7 @@ struct AreaRays {
         cell = 4.0 * half * half * static_cast<double>(aspect) / (side * side);
     }
 
-    /// Ray i < count, row by row from the top left: through the middle of its cell and of the lens.
+    /// Ray i < count, row by row from the top left. Through the middle of its cell and of the lens.
     [[nodiscard]] MIR_HD Ray operator()(std::uint32_t i) const {
         const std::uint32_t x = i % side;
         const std::uint32_t y = i / side;
@@ -35,7 +35,7 @@ struct AreaRays {
         return optics.ray(film, aspect, {0.5f, 0.5f});
     }
 
-    /// Footprint of a ray on the point that it sees, m^2; 0 where it leaves the scene. It is the
+    /// Footprint of a ray on the point that it sees, m^2. 0 where it leaves the scene. It is the
     /// solid angle times d^2 / cos, the cosine kept above 0.1 so that a few grazing rays do not
     /// decide.
     [[nodiscard]] MIR_HD double area(const SeenLuxel& seen) const {
@@ -62,7 +62,7 @@ struct AreaPass {
 template <class Tracer>
 AreaPass(AreaRays, Tracer, double*) -> AreaPass<Tracer>;
 
-/// Area of the surfaces that a camera sees, m^2, from a fixed grid of rays (AreaRays). 0 when
+/// Area of the surfaces that a camera sees, m^2. From a fixed grid of rays (AreaRays). 0 when
 /// nothing is seen. Deterministic.
 template <class R, Bsdf B>
 double visible_area(const Camera& camera, float aspect,
@@ -73,7 +73,7 @@ double visible_area(const Camera& camera, float aspect,
     return area;
 }
 
-/// The scale-free default bound of the geometry term, m^-2: that of a VPL at the radius r0 at which
+/// The scale-free default bound of the geometry term, m^-2. That of a VPL at the radius r0 at which
 /// `vpls` discs cover the visible area, 1 / (pi r0^2) = vpls / area (docs/method.md, 4.3).
 inline float default_bound(double visible_area, std::uint32_t vpls) {
     if (!(visible_area > 0.0)) return std::numeric_limits<float>::max();

@@ -21,14 +21,14 @@ struct VplDensity {
     }
 };
 
-/// Builds light paths z = (x2, ..., x_k) from numbers, without a camera: x2 is the place of a VPL.
-/// It is the end of a light path, or what a ray from a luxel of a probe meets; the rest of the path
-/// follows from both ends as in PathGenerator. The target of the paths is
-///     P~(z) = Y(t R) + floor Y(R),
-/// where R is the radiance that leaves x2 and t what the probe responds to it: what z gives to the
-/// probe's luxels, and to luxels that the probe does not know of at least something. The weight of
-/// a path is P~ over the density of all techniques together. The `contribution` of its measure is
-/// t R; x1 and what lies before it are not set.
+/// Builds light paths z = (x2, ..., x_k) from numbers, without a camera. x2 is the place of a
+/// VPL. It is the end of a light path, or what a ray from a luxel of a probe meets; the rest
+/// of the path follows from both ends as in PathGenerator. The target of the paths is P~(z) =
+/// Y(t R) + floor Y(R), where R is the radiance that leaves x2 and t what the probe responds
+/// to it: what z gives to the probe's luxels, and to luxels that the probe does not know of
+/// at least something. The weight of a path is P~ over the density of all techniques
+/// together. The `contribution` of its measure is t R; x1 and what lies before it are not
+/// set.
 ///
 /// Sources: Segovia, Iehl, Mitanchey, Peroche, "Bidirectional instant radiosity", EGSR 2006, for
 /// VPLs from either side; Veach 1997, section 9.2, for the density. World and probe must outlive

@@ -31,11 +31,11 @@ struct VplRouletteOptions {
     }
 };
 
-/// Russian roulette on VPLs by what they give to the image: a VPL survives with odds
-/// min(1, flux / mean flux), no less than the floor, and is divided by them. Unbiased: the odds are
-/// positive, and probe, mean flux and chance are independent of the draws behind the VPLs. Source:
-/// Georgiev and Slusallek, "Simple and robust iterative importance sampling of virtual point
-/// lights", Eurographics 2010, section 3. The probe must outlive it; const use from any thread.
+/// Russian roulette on VPLs by what they give to the image. A VPL survives with odds min(1, flux /
+/// mean flux), no less than the floor, and is divided by them. Unbiased: the odds are positive, and
+/// probe, mean flux and chance are independent of the draws behind the VPLs. Source: Georgiev and
+/// Slusallek, "Simple and robust iterative importance sampling of virtual point lights",
+/// Eurographics 2010, section 3. The probe must outlive it; const use from any thread.
 template <Bsdf B, Visibility V>
 class VplRoulette {
  public:
@@ -55,7 +55,7 @@ class VplRoulette {
     template <Executor E>
     [[nodiscard]] VplRecords filter(const VplRecords& from, std::uint64_t seed, E& executor) const;
 
-    /// Mean image luminance of one VPL per light path, W m^-2 sr^-1; 0 when the pilot lit nothing.
+    /// Mean image luminance of one VPL per light path, W m^-2 sr^-1. 0 when the pilot lit nothing.
     [[nodiscard]] double mean_flux() const { return mean_flux_; }
     /// Mean odds of the pilot's records: the share that survives; 1 without records.
     [[nodiscard]] double acceptance() const { return acceptance_; }
@@ -117,8 +117,8 @@ VplRecords VplRoulette<B, V>::filter(const VplRecords& from, std::uint64_t seed,
     return out;
 }
 
-/// Instant radiosity that keeps VPLs by VplRoulette: more light paths, as many VPLs, most of which
-/// the image gets light from. Model of Sampler. Scene data and probe must outlive it; const use
+/// Instant radiosity that keeps VPLs by VplRoulette. It traces more light paths for as many VPLs,
+/// most of which light the image. Model of Sampler. Scene data and probe must outlive it; const use
 /// from any thread.
 template <Bsdf B, RayCaster R, Visibility V>
 class RouletteRadiositySampler {
@@ -130,8 +130,8 @@ class RouletteRadiositySampler {
     /// What their paths run through.
     using World = typename Candidates::World;
 
-    /// @throws Error(invalid_argument) when options are out of range, Error(limit_exceeded) when
-    ///         more VPLs are wanted than `limits` allows.
+    /// @throws Error(invalid_argument) when options are out of range. Error(limit_exceeded) when
+    /// more VPLs are wanted than `limits` allows.
     RouletteRadiositySampler(const World& world, const InstantRadiosityOptions& options,
                              const ImageProbe<B, V>& probe, VplRouletteOptions roulette = {},
                              const Limits& limits = {})
@@ -140,8 +140,8 @@ class RouletteRadiositySampler {
         roulette.validate();
     }
 
-    /// Draws a pilot, then as many candidates as its acceptance says are needed for options.vpls
-    /// survivors, at most options.vpls / floor, and filters them.
+    /// Draws a pilot, then the candidates, and filters them. The pilot's acceptance says how many
+    /// are needed for options.vpls survivors, at most options.vpls / floor.
     /// @throws Error(limit_exceeded) when that would be more candidates than Limits::vpls.
     template <Executor E>
     [[nodiscard]] VplRecords sample(E& executor) const {

@@ -16,7 +16,7 @@ namespace mir {
 /// VPLs whose distance tells how dense they are around another.
 inline constexpr std::uint32_t vsl_neighbours = 10;
 
-/// Radius of the sphere around each VPL, metres: that of the disc which is its share of the surface
+/// Radius of the sphere around each VPL, metres. That of the disc which is its share of the surface
 /// among its nearest neighbours, d_k / sqrt(k) with d_k the distance to the k-th (vsl_neighbours),
 /// times `scale`. Where there are no k others, the radius r0 at which as many discs cover
 /// `visible_area` (docs/method.md, 4.3), and never below a tenth of that, because samplers may put
@@ -42,11 +42,11 @@ std::vector<float> vsl_radii(std::span<const Vpl> vpls, double visible_area, flo
     return radii;
 }
 
-/// Share of the first pass's radius that the spheres of pass `pass` (from 0) have:
-/// r_{i+1}^2 = r_i^2 (i + 2/3) / (i + 1), i from 1. The mean of all passes then loses the blur of
-/// the spheres while its noise falls too.
-/// Source: Knaus and Zwicker, "Progressive photon mapping: a probabilistic approach", ACM TOG
-/// 30(3), 2011, equation 15.
+/// Share of the first radius that the spheres of pass `pass` have. Passes count from 0:
+/// r_{i+1}^2 = r_i^2 (i + 2/3) / (i + 1), i from 1. The mean of all passes then loses
+/// the blur of the spheres while its noise falls too. Source: Knaus and Zwicker,
+/// "Progressive photon mapping: a probabilistic approach", ACM TOG 30(3), 2011, equation
+/// 15.
 inline double vsl_radius_share(std::uint32_t pass) {
     double squared = 1.0;
     for (std::uint32_t i = 1; i <= pass; ++i) squared *= (i + 2.0 / 3.0) / (i + 1.0);

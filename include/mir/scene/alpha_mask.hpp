@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// Where the surfaces of a material are: at points whose alpha is at least the cutoff. Plain values
-/// that kernels read. Source: glTF 2.0, 3.9.4, alpha mode MASK.
+/// Where surfaces of a material are: at points with alpha at the cutoff or above. Plain values that
+/// kernels read. Source: glTF 2.0, 3.9.4, alpha mode MASK.
 struct AlphaMask {
     float alpha = 1.0f;   ///< 0..1
     float cutoff = 0.0f;  ///< at least 0; 0: everywhere
@@ -25,7 +25,7 @@ struct AlphaMask {
     }
 };
 
-/// What kernels read of the masks of a scene: says which points of triangles are there, with the
+/// What kernels read of the masks of a scene. Says which points of triangles are there, with the
 /// same bits on host and device. A point that is not hides nothing and is no hit. A view;
 /// thread-safe.
 template <Space S>

@@ -38,8 +38,8 @@ struct Camera {
                 lens_radius, focus_distance};
     }
 
-    /// Ray through `film` in [0,1]^2 (origin top left) of an image with `aspect` = width / height,
-    /// from the point of the lens that `lens` in [0,1)^2 picks.
+    /// Ray through `film` in [0,1]^2 (origin top left), from a point of the lens. `aspect` = width
+    /// / height of the image; `lens` in [0,1)^2 picks the point.
     [[nodiscard]] Ray ray(Vec2 film, float aspect, Vec2 lens) const {
         return optics().ray(film, aspect, lens);
     }

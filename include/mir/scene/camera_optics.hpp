@@ -18,8 +18,8 @@ struct CameraOptics {
     float lens_radius = 0.0f;     ///< metres; 0: pinhole
     float focus_distance = 1.0f;  ///< metres along the viewing direction; used with a lens
 
-    /// Ray through `film` in [0,1]^2 (origin top left) of an image with `aspect` = width / height,
-    /// from the point of the lens that `lens` in [0,1)^2 picks.
+    /// Ray through `film` in [0,1]^2 (origin top left) from a point of the lens. `aspect` = width /
+    /// height of the image; `lens` in [0,1)^2 picks the point.
     [[nodiscard]] MIR_HD Ray ray(Vec2 film, float aspect, Vec2 lens) const {
         const Vec3 through = (2.0f * film.x - 1.0f) * half_height * aspect * right +
                              (1.0f - 2.0f * film.y) * half_height * up - back;

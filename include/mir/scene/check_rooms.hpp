@@ -8,8 +8,8 @@ namespace mir::builtin {
 
 // Scenes whose light is known in closed form (docs/method.md, 9).
 
-/// Closed box of 2 m seen from its centre, every wall with the same reflectance and emission: the
-/// radiance is emission / (1 - reflectance) everywhere (the furnace).
+/// The furnace: a closed box of 2 m seen from its centre. Every wall has the same reflectance and
+/// emission, so the radiance is emission / (1 - reflectance) everywhere.
 inline Scene furnace_box(float reflectance = 0.5f, float emission = 0.5f) {
     Scene s;
     s.name = "furnace";
@@ -22,9 +22,9 @@ inline Scene furnace_box(float reflectance = 0.5f, float emission = 0.5f) {
     return s;
 }
 
-/// Unit square emitter of radiance 1 that faces a black-body-free white receiver square 1 m below
-/// it. Mean irradiance of the receiver: pi F with F = 0.199824896. The camera looks down from
-/// beside the emitter.
+/// Unit square emitter of radiance 1, 1 m above a white square receiver. Mean irradiance
+/// of the receiver: pi F with F = 0.199824896. The camera looks down from beside the
+/// emitter.
 inline Scene parallel_squares() {
     Scene s;
     s.name = "parallel-squares";
@@ -38,7 +38,7 @@ inline Scene parallel_squares() {
     return s;
 }
 
-/// Two unit squares that share an edge at a right angle, one an emitter of radiance 1. Mean
+/// Two unit squares that share an edge at a right angle. One is an emitter of radiance 1. Mean
 /// irradiance of the other: pi F with F = 0.200043776.
 inline Scene perpendicular_squares() {
     Scene s;
@@ -53,8 +53,8 @@ inline Scene perpendicular_squares() {
     return s;
 }
 
-/// Disc of radius `radius` and radiance 1 at height `height` above the centre of a small receiver:
-/// the irradiance below its centre is pi radius^2 / (radius^2 + height^2).
+/// Disc of radius `radius` and radiance 1 above the centre of a receiver. At height `height` above
+/// the small receiver the irradiance below its centre is pi radius^2 / (radius^2 + height^2).
 inline Scene disc_above_plane(float radius = 1.0f, float height = 1.0f) {
     Scene s;
     s.name = "disc-above-plane";

@@ -9,8 +9,8 @@
 
 namespace mir {
 
-/// Light from infinitely far away, from all around: the radiance that an equirectangular image
-/// gives for each direction, W m^-2 sr^-1.
+/// Light from all around, infinitely far away, as an equirectangular image. The image gives the
+/// radiance of each direction, W m^-2 sr^-1.
 ///
 /// The top row looks up (+y), the bottom row down. Unrotated, the centre of the image lies in the
 /// direction +x and columns to its right go towards +z, so that somebody inside who looks along +x

@@ -20,8 +20,8 @@ class EnvironmentTable {
     EnvironmentTable() = default;
 
     /// @throws Error(invalid_input) when the image has no texels, or radiance, scale or rotation is
-    ///         negative (but for the rotation) or not finite, or the light of all directions
-    ///         together is no float.
+    /// negative (except for the rotation) or not finite, or the light of all directions together is
+    /// no float.
     explicit EnvironmentTable(const Environment& environment);
 
     /// True when no light comes from it: there is none, or it is black.

@@ -19,7 +19,8 @@ struct EnvironmentSample {
 /// Directions are drawn in proportion to the luminance of their texel and uniformly inside it, so
 /// their density is luminance / total per steradian, exactly, where total = int luminance dw: an
 /// importance table whose weights are luminance times solid angle. Source: Pharr, Jakob, Humphreys,
-/// "Physically Based Rendering", 3rd edition, section 14.2.4, but for the place inside the texel.
+/// "Physically Based Rendering", 3rd edition, section 14.2.4, except for the place inside the
+/// texel.
 template <Space S>
 struct EnvironmentView {
     static constexpr Space space = S;  ///< where the arrays lie
@@ -55,8 +56,8 @@ struct EnvironmentView {
     }
 
  private:
-    /// Cosine and sine of half the angle between +y and the upper edge of row `y`. Of the half
-    /// angle, because texels at the poles would drown in the rounding of a cosine next to 1.
+    /// Cosine and sine of half the angle between +y and row `y`'s upper edge. Of the half angle,
+    /// because texels at the poles would drown in the rounding of a cosine next to 1.
     [[nodiscard]] MIR_HD Vec2 edge(std::uint32_t y) const {
         return unit_circle(static_cast<float>(y) / (4.0f * static_cast<float>(height)));
     }

@@ -9,8 +9,8 @@
 
 namespace mir {
 
-/// Camera that sees the whole box from outside, a little from the right and from above, when a
-/// file brings none. `aspect` = width / height of the image to be made. An empty box is framed like
+/// Camera that sees the whole box from outside, when a file brings none. It stands a little to the
+/// right and above. `aspect` = width / height of the image to be made. An empty box is framed like
 /// a unit cube at the origin. Depends on its arguments alone.
 /// @throws Error(invalid_argument) when `aspect` is not a positive number.
 inline Camera frame_bounds(const Bounds& bounds, float aspect = 1.0f) {

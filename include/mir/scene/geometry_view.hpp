@@ -11,7 +11,7 @@
 
 namespace mir {
 
-/// What kernels read of a WorldGeometry: turns the answers of ray engines (triangle, barycentrics)
+/// What kernels read of a WorldGeometry. Turns the answers of ray engines (triangle, barycentrics)
 /// into surface points, with the same bits on host and device. A view; thread-safe.
 template <Space S>
 struct GeometryView {
@@ -46,9 +46,9 @@ struct GeometryView {
         return n / long_length(n);
     }
 
-    /// Place of the point of a triangle at barycentrics of its second and third corner, metres. In
-    /// double precision, rounded once: it lies in the triangle's plane to a unit of rounding at the
-    /// place, however large the triangle is.
+    /// Point of a triangle at barycentrics of its second and third corner, metres. In double
+    /// precision, rounded once: it lies in the triangle's plane to a unit of rounding at the place,
+    /// however large the triangle is.
     [[nodiscard]] MIR_HD Vec3 position(std::uint32_t triangle, Vec2 barycentrics) const {
         const TriangleIndices& t = triangles[triangle];
         const Vec3 a = positions[t[0]];
@@ -68,26 +68,26 @@ struct GeometryView {
 
     /// Distance by which segments that leave `position`, metres, are lifted off its surface,
     /// metres. At least least_offset(). Beyond that `ray_offset`, which lets shafts see that a
-    /// surface does not hide its own points, as long as it is less than 2^-13 of `seen_from`: of
-    /// the distance from which the point is seen, or of the size of what it lies on.
+    /// surface does not hide its own points, while it is less than 2^-13 of `seen_from`: of the
+    /// distance from which the point is seen, or of the size of what it lies on.
     [[nodiscard]] MIR_HD float offset_at(Vec3 position, float seen_from = INFINITY) const {
         return larger(least_offset(position), smaller(ray_offset, 0x1p-13f * seen_from));
     }
 
-    /// Place on a triangle where segments may leave: position(), moved in the triangle's plane so
-    /// that it keeps off the edges by four times `offset`, metres, and by what barycentrics round.
-    /// A point by an edge would, once lifted, lie in the neighbour's plane or behind it. Triangles
-    /// that are too narrow keep a quarter of each height.
+    /// Place on a triangle where segments may leave. It is position(), moved in the triangle's
+    /// plane so that it keeps off the edges by four times `offset`, metres, and by what
+    /// barycentrics round. A point by an edge would, once lifted, lie in the neighbour's plane or
+    /// behind it. Triangles that are too narrow keep a quarter of each height.
     [[nodiscard]] MIR_HD Vec3 place(std::uint32_t triangle, Vec2 barycentrics, float offset) const {
-        return position(triangle, barycentrics) + way_off_edges(triangle, barycentrics, offset);
+        return position(triangle, barycentrics) + shift_off_edges(triangle, barycentrics, offset);
     }
 
     /// At barycentrics of the second and third corner.
     [[nodiscard]] MIR_HD VertexAttributes attributes(std::uint32_t triangle,
                                                      Vec2 barycentrics) const;
 
-    /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
-    /// travels along `direction`, from so far that only the scene's size decides how much it is
+    /// Point of a triangle at barycentrics of its second and third corner. A ray that travels
+    /// along `direction` sees it, from so far that only the scene's size decides how much it is
     /// lifted.
     [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
                                                     Vec3 direction) const {
@@ -108,8 +108,8 @@ struct GeometryView {
     }
     [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
                                                     Vec3 direction, float distance) const;
-    [[nodiscard]] MIR_HD Vec3 way_off_edges(std::uint32_t triangle, Vec2 barycentrics,
-                                            float offset) const;
+    [[nodiscard]] MIR_HD Vec3 shift_off_edges(std::uint32_t triangle, Vec2 barycentrics,
+                                              float offset) const;
     MIR_HD void set_texture_frame(SurfacePoint& p) const;
 };
 
@@ -142,8 +142,8 @@ MIR_HD void GeometryView<S>::set_texture_frame(SurfacePoint& p) const {
 }
 
 template <Space S>
-MIR_HD Vec3 GeometryView<S>::way_off_edges(std::uint32_t triangle, Vec2 barycentrics,
-                                           float offset) const {
+MIR_HD Vec3 GeometryView<S>::shift_off_edges(std::uint32_t triangle, Vec2 barycentrics,
+                                             float margin) const {
     const TriangleIndices& t = triangles[triangle];
     const Vec3 normal = front_normal(triangle);
     const float twice_area = long_length(area_vector(triangle));
@@ -151,16 +151,16 @@ MIR_HD Vec3 GeometryView<S>::way_off_edges(std::uint32_t triangle, Vec2 barycent
                               barycentrics.y};
     const float size = larger(max_abs(positions[t[1]] - positions[t[0]]),
                               max_abs(positions[t[2]] - positions[t[0]]));
-    const float wanted = 4.0f * offset + 0x1p-22f * size;
-    Vec3 way(0.0f);
+    const float wanted = 4.0f * margin + 0x1p-22f * size;
+    Vec3 shift(0.0f);
     for (int k = 0; k < 3; ++k) {
         const Vec3 edge = positions[t[(k + 2) % 3]] - positions[t[(k + 1) % 3]];
         const float length = long_length(edge);
         const float height = twice_area / length;
         const float missing = smaller(wanted, 0.25f * height) - weights[k] * height;
-        if (missing > 0.0f) way += missing * glm::cross(normal, edge / length);
+        if (missing > 0.0f) shift += missing * glm::cross(normal, edge / length);
     }
-    return way;
+    return shift;
 }
 
 template <Space S>
@@ -173,7 +173,7 @@ MIR_HD SurfacePoint GeometryView<S>::surface_point(std::uint32_t triangle, Vec2 
     SurfacePoint p;
     p.position = position(triangle, barycentrics);
     p.offset = offset_at(p.position, distance);
-    p.position += way_off_edges(triangle, barycentrics, p.offset);
+    p.position += shift_off_edges(triangle, barycentrics, p.offset);
     p.barycentrics = barycentrics;
     p.triangle = triangle;
     p.material = materials[triangle];

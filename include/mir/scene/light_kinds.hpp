@@ -11,11 +11,11 @@
 
 namespace mir {
 
-/// A kind of light that a Scene lists: what it is there, what samples it, and where it is held.
+/// A kind of light that a Scene lists. What it is there, what samples it, and where it is held.
 template <class L, LightSource S, std::vector<L> Scene::*List>
 struct LightKind {
     using Light = L;                    ///< as a Scene has it
-    using Source = S;                   ///< as it is sampled
+    using Source = S;                   ///< in the form that is sampled
     static constexpr auto list = List;  ///< member of Scene
 };
 

@@ -16,8 +16,8 @@ namespace mir {
 /// the WorldGeometry must outlive it.
 class LightTable {
  public:
-    /// @throws Error(invalid_input) when an emission is negative or not finite, when the power of a
-    ///         light or of all together is no float, and what EnvironmentTable throws.
+    /// @throws Error(invalid_input) for an emission that is negative or not finite. Also when the
+    /// power of a light or of all together is no float; and what EnvironmentTable throws.
     LightTable(const Scene& scene, const WorldGeometry& geometry);
 
     /// True when nothing emits power: sample_light() has no answer.
@@ -27,8 +27,8 @@ class LightTable {
     /// wherever it is seen, masked ones what they would emit if they were whole.
     [[nodiscard]] double power() const { return by_power_.total(); }
 
-    /// Any light by power, as an index: first emissive triangles, then what the scene lists in the
-    /// order of ListedLights, then the environment. Must not be empty().
+    /// Any light, chosen by power, as an index. Emissive triangles come first, then the scene's
+    /// lists in the order of ListedLights, then the environment. Must not be empty().
     [[nodiscard]] std::uint32_t sample_light(float u) const { return view().sample_light(u); }
     /// Probability with which sample_light() picks `light`, an index as it counts; sums to 1.
     [[nodiscard]] float light_probability(std::uint32_t light) const {

@@ -33,7 +33,7 @@ struct LightTableView {
         return by_power.probability(light);
     }
 
-    /// f(source) of a light as the LightSource that it is; the same type for all kinds. `geometry`
+    /// f(source) of a light as the LightSource that it is. The same type for all kinds. `geometry`
     /// is that of the scene. All that is done with any light goes through here.
     template <class F>
     [[nodiscard]] MIR_HD auto visit(const GeometryView<S>& geometry, std::uint32_t light,

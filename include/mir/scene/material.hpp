@@ -8,8 +8,8 @@
 
 namespace mir {
 
-/// The one material of a Scene: a diffuse base under a Cook-Torrance interface, in glTF's
-/// metallic-roughness parameters. Both faces reflect. `specular` = 0 and `metallic` = 0 make it
+/// The one material of a Scene: a diffuse base under a Cook-Torrance interface. Parameters are
+/// glTF's metallic-roughness ones. Both faces reflect. `specular` = 0 and `metallic` = 0 make it
 /// purely Lambertian.
 struct Material {
     std::string name;                    ///< for messages and files

@@ -5,8 +5,8 @@
 
 namespace mir {
 
-/// How a material reflects at one point: a diffuse base under a Cook-Torrance interface, in glTF's
-/// metallic-roughness parameters. Plain values that kernels read.
+/// A material at one point: a diffuse base under a Cook-Torrance interface. Parameters are glTF's
+/// metallic-roughness ones. Plain values that kernels read.
 struct MaterialFactors {
     Rgb base_color{0.8f, 0.8f, 0.8f};  ///< linear reflectance, 0..1
     float metallic = 0.0f;             ///< 0..1

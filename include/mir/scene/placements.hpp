@@ -23,7 +23,7 @@ void for_each_placed_list(S& scene, const F& f) {
     });
 }
 
-/// Where the things of a Scene stand, in double precision: what recentre() reads before it rounds
+/// Where the things of a Scene stand, in double precision. recentre() reads them before it rounds
 /// to floats. Element i is of element i of the list of the Scene that has the same name, which
 /// holds everything else about it. Metres, counted from Scene::origin.
 struct Placements {

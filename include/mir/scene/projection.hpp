@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Where an image with `aspect` = width / height shows a point (metres): the film position whose
+/// Where an image with `aspect` = width / height shows a point (metres). The film position whose
 /// ray from the middle of the lens meets it, the inverse of Camera::ray(). It lies in [0,1]^2,
 /// origin top left, for points inside the image; none for points that are not in front of the lens
 /// plane. A pure function.

@@ -11,11 +11,11 @@
 
 namespace mir {
 
-/// Puts the things of `scene` at `places`, brings them to the origin of its coordinates if they do
-/// not lie near it, and adds to Scene::origin what it subtracted. A scene is near while each
-/// coordinate of its middle is at most eight times its longest side; what is near moves by nothing,
-/// so that calling it twice changes nothing. Vertices that lie so far from the origin of their own
-/// mesh move too, and their placements against them. Depends on the scene alone.
+/// Places the things of `scene` at `places`, near the origin of its coordinates. It moves a scene
+/// that does not lie near its origin, and adds to Scene::origin what it subtracted. A scene is near
+/// while each coordinate of its middle is at most eight times its longest side; what is near moves
+/// by nothing, so that calling it twice changes nothing. Vertices that lie so far from the origin
+/// of their own mesh move too, and their placements against them. Depends on the scene alone.
 ///
 /// Returns sentences on meshes too fine for 32-bit numbers where they lie: those whose median edge
 /// is shorter than 1000 steps of the floats there. Call it when the scene is finished, before
@@ -40,8 +40,8 @@ inline std::vector<std::string> recentre(Scene& scene) {
     return recentre(scene, placements_of(scene));
 }
 
-/// A scene that is near the origin of its coordinates: one that is given, or else a copy of it
-/// after recentre(). What is given must outlive it. Const use from any thread.
+/// A scene near the origin of its coordinates. It is the given one, or else a copy of it after
+/// recentre(). The given one must outlive it. Const use from any thread.
 class NearScene {
  public:
     /// Reads all vertices once; copies only what lies far away.

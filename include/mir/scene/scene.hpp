@@ -16,7 +16,7 @@
 
 namespace mir {
 
-/// Everything to render, as plain values: a host renderer fills it from its own data, a file reader
+/// Everything to render, as plain values. A host renderer fills it from its own data, a file reader
 /// from a file. Right-handed, +y up, metres, linear Rec. 709. WorldGeometry and LightTable are made
 /// from it; both check it.
 ///
@@ -34,8 +34,8 @@ struct Scene {
     std::vector<DirectionalLight> directional_lights;  ///< from outside; no ray meets them
     std::optional<Environment> environment;            ///< light from all around; none: black
     std::vector<Camera> cameras;  ///< by RenderSettings::camera; none: there is no view to render
-    /// Place, in the coordinates of the file or of the host, of the point (0, 0, 0) of all of the
-    /// above; metres. No picture depends on it.
+    /// Place of the scene's (0, 0, 0) in the coordinates of the file; metres. Or in those of the
+    /// host. No picture depends on it.
     DVec3 origin{0.0};
 
     /// Adds a mesh together with one instance of it; returns the index of the mesh.

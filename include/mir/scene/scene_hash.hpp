@@ -10,7 +10,7 @@
 
 namespace mir {
 
-/// Fingerprint of what a scene looks like: 16 hexadecimal digits that change with any geometry,
+/// Fingerprint of what a scene looks like. 16 hexadecimal digits that change with any geometry,
 /// material, light or camera, and not with names or Scene::origin. Not cryptographic. Source:
 /// FNV-1a, 64 bits.
 class SceneHash {

@@ -5,7 +5,7 @@
 
 namespace mir::builtin {
 
-/// Parallelogram with corners p, p + a, p + a + b, p + b; its front is where a x b points.
+/// Parallelogram with corners p, p + a, p + a + b, p + b. Its front is where a x b points.
 inline Mesh quad(std::string name, std::uint32_t material, Vec3 p, Vec3 a, Vec3 b) {
     Mesh m;
     m.name = std::move(name);
@@ -15,7 +15,7 @@ inline Mesh quad(std::string name, std::uint32_t material, Vec3 p, Vec3 a, Vec3 
     return m;
 }
 
-/// Parallelepiped spanned by a right-handed frame (a, b, c) at corner p; the front is outside.
+/// Parallelepiped spanned by a right-handed frame (a, b, c) at corner p. The front is outside.
 inline Mesh box(std::string name, std::uint32_t material, Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     Mesh m;
     m.name = std::move(name);
@@ -33,7 +33,7 @@ inline Mesh inside_out(Mesh m) {
     return m;
 }
 
-/// Sphere of `segments` meridians and `rings` parallels with smooth normals, front outside:
+/// Sphere of `segments` meridians and `rings` parallels with smooth normals, front outside. It has
 /// 2 segments (rings - 1) triangles.
 inline Mesh sphere(std::string name, std::uint32_t material, Vec3 centre, float radius,
                    std::uint32_t segments, std::uint32_t rings) {
@@ -60,8 +60,8 @@ inline Mesh sphere(std::string name, std::uint32_t material, Vec3 centre, float 
     return m;
 }
 
-/// Regular polygon of `corners` corners inscribed so that its area is that of the disc of `radius`.
-/// The front is where `normal` points; `tangent` is a unit vector in its plane.
+/// Regular polygon of `corners` corners with the area of the disc of `radius`. The front is where
+/// `normal` points; `tangent` is a unit vector in its plane.
 inline Mesh disc(std::string name, std::uint32_t material, Vec3 centre, Vec3 normal, Vec3 tangent,
                  float radius, std::uint32_t corners) {
     Mesh m;

@@ -25,7 +25,7 @@ struct Texture {
 
     /// False when it changes nothing.
     [[nodiscard]] MIR_HD bool is_set() const { return image != none; }
-    /// Where coordinates of a mesh lie in the image: (0, 0) top left, (1, 1) bottom right.
+    /// Where texture coordinates lie in the image. (0, 0) is the top left, (1, 1) the bottom right.
     [[nodiscard]] MIR_HD Vec2 place(Vec2 uv) const {
         return u_axis * uv.x + v_axis * uv.y + offset;
     }

@@ -12,8 +12,8 @@
 
 namespace mir {
 
-/// A picture for textures: `texels` in rows from the top, each red + green 2^8 + blue 2^16 +
-/// alpha 2^24 in 8 bits. What the codes mean is up to who looks them up.
+/// A picture for textures: `texels` in rows from the top, 8 bits a channel. Each is red + green 2^8
+/// + blue 2^16 + alpha 2^24. What the codes mean is up to who looks them up.
 struct TextureImage {
     std::string name;                   ///< for messages and files
     std::uint32_t width = 0;            ///< columns, 1 to 65536
@@ -30,7 +30,7 @@ inline float srgb_to_linear(double code) {
                                               : std::pow((code + 0.055) / 1.055, 2.4));
 }
 
-/// Code `k` of one channel in [0, 1]: linear at element k, sRGB at 256 + k. Kernels read it as an
+/// Code `k` of one channel in [0, 1]. Linear at element k, sRGB at 256 + k. Kernels read it as an
 /// array, so that powers have the same bits everywhere.
 inline const std::array<float, 512>& texel_values() {
     static const std::array<float, 512> values = [] {

@@ -15,7 +15,7 @@ struct TexelView {
     std::uint32_t height = 0;               ///< rows
 };
 
-/// What kernels read of a scene's images: lookups with the same bits on host and device. A view;
+/// What kernels read of a scene's images. Lookups with the same bits on host and device. A view;
 /// thread-safe. Without mip maps: one lookup is a mean of the four texels around a point.
 template <Space S>
 struct TextureView {
@@ -54,7 +54,7 @@ struct TextureView {
     }
 
  private:
-    /// A coordinate in [0, 1]; 0 when it is no number or too large to have a fraction.
+    /// A coordinate in [0, 1]. 0 when it is no number or too large to have a fraction.
     [[nodiscard]] MIR_HD static float wrapped(float u, Wrap wrap) {
         float t = u;
         if (wrap == Wrap::repeat) t = u - floorf(u);

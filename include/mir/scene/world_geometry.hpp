@@ -22,7 +22,7 @@
 
 namespace mir {
 
-/// All instances of a scene as triangles in world space: what ray engines are built from and what
+/// All instances of a scene as triangles in world space. Ray engines are built from it, and it
 /// turns their answers (triangle, barycentrics) into surface points. Immutable once made; const use
 /// from any thread.
 class WorldGeometry {
@@ -50,7 +50,7 @@ class WorldGeometry {
                 colors_.empty() ? nullptr : colors_.data()};
     }
 
-    /// Says which points of the triangles are there: what ray engines ask before they accept a hit.
+    /// Says which points of the triangles are there. Ray engines ask it before they accept a hit.
     /// Valid until the geometry is moved or ends.
     [[nodiscard]] AlphaMaskView<Space::host> alpha_masks() const {
         if (alpha_masks_->empty()) return {};
@@ -69,8 +69,8 @@ class WorldGeometry {
     [[nodiscard]] std::span<const Vec2> texture_coordinates() const { return texture_coordinates_; }
     /// Of the vertices, white where their mesh has none; empty when no mesh has any.
     [[nodiscard]] std::span<const Rgb> colors() const { return colors_; }
-    /// Indices into positions(), in the order of instances and of their meshes; then the backs of
-    /// lamps that are split (is_split()).
+    /// Indices into positions(), in the order of instances and their meshes. The backs of lamps
+    /// that are split (is_split()) follow.
     [[nodiscard]] std::span<const TriangleIndices> triangles() const { return triangles_; }
     /// Material of each triangle.
     [[nodiscard]] std::span<const std::uint32_t> materials() const { return materials_; }
@@ -82,10 +82,10 @@ class WorldGeometry {
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     /// Number of triangles that were left out, because they have no area.
     [[nodiscard]] std::uint64_t dropped_triangles() const { return dropped_; }
-    /// Number of triangles that lie in one place with a lamp's, and of those lamps' own.
+    /// Number of triangles that coincide with a lamp's, and of those lamps' own.
     [[nodiscard]] std::uint64_t coinciding_triangles() const { return coinciding_; }
-    /// True for one half of a lamp that shines from both sides and coincides with another surface:
-    /// each of its sides is a triangle that shines from its front only.
+    /// True for one half of a two-sided lamp that coincides with another surface. Each of its sides
+    /// is a triangle that shines from its front only.
     [[nodiscard]] bool is_split(std::uint32_t triangle) const {
         return std::binary_search(split_.begin(), split_.end(), triangle);
     }
@@ -103,8 +103,8 @@ class WorldGeometry {
     /// m^2.
     [[nodiscard]] float area(std::uint32_t triangle) const { return view().area(triangle); }
 
-    /// Point of a triangle at barycentrics of its second and third corner, seen by a ray that
-    /// travels along `direction` from far away.
+    /// Point of a triangle at barycentrics of its second and third corner. A ray that travels along
+    /// `direction` sees it from far away.
     [[nodiscard]] SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
                                              Vec3 direction) const {
         return view().surface_point(triangle, barycentrics, direction);
@@ -115,10 +115,11 @@ class WorldGeometry {
         return view().surface_point(triangle, barycentrics, ray);
     }
 
-    /// Largest distance by which points are lifted off surfaces beyond what rounding asks for at
-    /// their place (GeometryView::offset_at()), metres: 2^-16 of the largest coordinate, eight
-    /// times the sigma of accept_box.hpp, so that shafts see that a surface does not hide its own
-    /// points (docs/shafts.md). Less in scenes that lie far from the origin, where that would show.
+    /// Largest distance by which points are lifted off surfaces, metres. It counts beyond what
+    /// rounding asks for at their place (GeometryView::offset_at()): 2^-16 of the largest
+    /// coordinate, eight times the sigma of accept_box.hpp. Shafts then see that a surface does not
+    /// hide its own points (docs/shafts.md). Less in scenes that lie far from the origin, where
+    /// that would show.
     [[nodiscard]] float ray_offset() const { return ray_offset_; }
 
  private:
@@ -257,7 +258,7 @@ inline void WorldGeometry::place_attributes(const Scene& scene) {
     place(&Mesh::colors, colors_, Rgb{1.0f, 1.0f, 1.0f});
 }
 
-/// Number of triangles that have an area; they lie at the front of the part's place.
+/// Number of triangles with an area. They lie at the front of the part's place.
 inline std::uint32_t WorldGeometry::place_triangles(const Part& part) {
     const bool mirrored =
         glm::determinant(detail::of_size_one(Mat3(part.instance->to_world))) < 0.0f;
@@ -292,8 +293,8 @@ inline void WorldGeometry::close_gaps(const std::vector<Part>& parts,
     materials_.resize(end);
 }
 
-/// Four times the distance at which surfaces coincide, so that what leaves a wall, or the lamp
-/// below, stays below the lamp before it.
+/// Four times the distance at which surfaces coincide. What leaves a wall, or the lamp below, then
+/// stays below the lamp before it.
 inline void WorldGeometry::lift_lamps(const Scene& scene, const detail::CoincidingLamps& lamps) {
     coinciding_ = lamps.triangles;
     const std::vector<std::array<Vec3, 3>> corners =

@@ -10,9 +10,10 @@
 
 namespace mir::sched {
 
-/// The oracle: algorithm 3 as the paper prints it, a plain loop over luxels and VPLs. Shares
-/// nothing with faster schedulers but contribution(), so that it does not repeat their mistakes.
-/// Given a KnownVisibility it traces no ray.
+/// The oracle: algorithm 3 of the paper, a plain loop over luxels and
+/// VPLs. It shares only contribution() with faster schedulers, so that it
+/// does not repeat their mistakes. Given a KnownVisibility it traces no
+/// ray.
 template <Executor E>
 struct Cpu {
     E& executor;                 ///< runs blocks of luxels

@@ -176,7 +176,7 @@ void CpuBlocks<E>::Pipeline<In>::run(const blocks::PlacedPage& page) const {
     run_with(scheduler_.instructions, [&](auto set) { run_page<set()>(page); });
 }
 
-/// Some VPLs at a time find out who of the page sees them, then block by block is shaded.
+/// Finds which luxels of the page see some VPLs, then shades block by block.
 template <Executor E>
 template <class In>
 template <InstructionSet Set>
@@ -211,7 +211,8 @@ void CpuBlocks<E>::Pipeline<In>::run_page(const blocks::PlacedPage& page) const 
     }
 }
 
-/// Adds all VPLs; `find_lit(j, lit)` finds to which luxels of the block, false if to none.
+/// Adds all VPLs. `find_lit(j, lit)` finds the luxels of the block that VPL j lights, false if
+/// none.
 template <Executor E>
 template <class In>
 template <InstructionSet Set, class FindLit>

@@ -7,9 +7,10 @@
 
 namespace mir::sched {
 
-/// RC, figure 5 of the paper: per tile, one kernel for rays, shading and sum, while the next tile
-/// goes up and the last one comes home. Given a KnownVisibility it traces no ray. On the host the
-/// image is that of sched::Cpu in every bit. Not thread-safe; several may share a backend.
+/// RC, figure 5 of the paper: one kernel per tile for everything. It traces, shades and sums, while
+/// the next tile goes up and the last one comes home. Given a KnownVisibility it traces no ray. On
+/// the host the image is that of sched::Cpu in every bit. Not thread-safe; several may share a
+/// backend.
 template <Backend B>
 struct Reconstruct {
     B backend;                   ///< where luxels are lit

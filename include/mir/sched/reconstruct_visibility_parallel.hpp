@@ -8,10 +8,10 @@
 
 namespace mir::sched {
 
-/// RCVP, figure 6 of the paper: per tile, kernels of rays or shafts (WordFinder) that need the hits
-/// alone, and behind them one of shading; the surfaces go up while rays are traced. Given a
-/// KnownVisibility the first kernel is left out. On the host the image is that of sched::Cpu in
-/// every bit. Not thread-safe; several may share a backend.
+/// RCVP, figure 6 of the paper: per tile, kernels of rays, then one of shading. Rays or shafts
+/// (WordFinder) need the hits alone; the surfaces go up meanwhile. Given a KnownVisibility the
+/// first kernel is left out. On the host the image is that of sched::Cpu in every bit. Not
+/// thread-safe; several may share a backend.
 template <Backend B>
 struct ReconstructVisibilityParallel {
     B backend;                   ///< where luxels are lit

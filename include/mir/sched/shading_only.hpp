@@ -12,10 +12,10 @@
 
 namespace mir::sched {
 
-/// OS, figure 3 of the paper: per tile and VPL, the backend shades every luxel while the host
-/// traces the rays and adds up. One plane of radiance comes home per VPL, which the paper found too
-/// dear. The image is that of sched::Cpu in every bit if the backend's arithmetic is the host's.
-/// Not thread-safe; several may share a backend.
+/// OS, figure 3 of the paper: the backend shades while the host traces. Per tile and VPL the
+/// backend shades every luxel, and the host adds up. One plane of radiance comes home per VPL,
+/// which the paper found too slow. The image is that of sched::Cpu in every bit if the backend's
+/// arithmetic is the host's. Not thread-safe; several may share a backend.
 template <Backend B, Executor E>
 struct ShadingOnly {
     B backend;                   ///< where luxels are shaded
@@ -26,7 +26,7 @@ struct ShadingOnly {
     template <class In>
     class Pipeline {
      public:
-        /// Takes memory of the backend for tiles and two planes of radiance and starts to copy the
+        /// Allocates tiles and two planes of radiance on the backend, and starts to copy
         /// VPLs.
         /// @throws What the backend throws when it has no memory left.
         Pipeline(const In& in, Image<Rgb>& image, const ShadingOnly& scheduler);

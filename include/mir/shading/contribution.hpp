@@ -12,8 +12,8 @@ MIR_HD inline bool faces(const Hit& hit, const Vpl& vpl) {
     return glm::dot(d, hit.normal) > 0.0f && glm::dot(d, vpl.normal) < 0.0f;
 }
 
-/// Radiance that one VPL sends to the viewer by way of one luxel, W m^-2 sr^-1: the inner body of
-/// algorithm 3 of the paper.
+/// Radiance that one VPL sends to the viewer through one luxel, W m^-2 sr^-1. It is the inner body
+/// of algorithm 3 of the paper.
 template <Visibility V, Shading F>
 MIR_HD Rgb contribution(const Hit& hit, const typename F::Surface& surface, const Vpl& vpl,
                         const V& visibility, const F& shade) {

@@ -33,8 +33,8 @@ struct CookTorrance {
         return outgoing<SeparateRounding>(p, n, wo)(wi, glm::dot(n, wi));
     }
 
-    /// What eval() makes of a point and the direction towards the viewer, once for all directions
-    /// that light comes from.
+    /// A point and the direction towards the viewer, prepared for all directions of
+    /// light.
     template <class Rounding>
     struct Outgoing {
         using Model = CookTorrance;  ///< whose reflection it is
@@ -82,9 +82,9 @@ struct CookTorrance {
     [[gnu::always_inline]] MIR_HD static BsdfSample sample(const Params& p, Vec3 n, Vec3 wo, Vec2 u,
                                                            float lobe);
 
-    /// What the interface reflects of light from `wo`: GGX in the angle of reflected directions,
-    /// which turn by twice the angle of half vectors in the plane of incidence and by less across.
-    /// None where the lobe is so wide that the cosine serves as well.
+    /// The lobe of light from `wo` that the interface reflects. It is GGX in the angle of reflected
+    /// directions, which turn by twice the angle of half vectors in the plane of incidence and by
+    /// less across. None where the lobe is so wide that the cosine serves as well.
     MIR_HD static ReflectionLobe lobe(const Params& p, Vec3 n, Vec3 wo) {
         const float cos_o = glm::dot(n, wo);
         const bool is_plain = p.f90 <= 0.0f && mir::is_black(p.f0);
@@ -99,8 +99,8 @@ struct CookTorrance {
                 static_cast<int>(mir::is_black(p.diffuse))) != 0;
     }
 
-    /// Reflectance towards `wo` for guide images and samplers: the diffuse base exactly, the
-    /// interface without its roughness, 0..1.
+    /// Reflectance towards `wo` for guide images and samplers, 0..1. The diffuse base is exact, the
+    /// interface counts without its roughness.
     MIR_HD static Rgb albedo(const Params& p, Vec3 n, Vec3 wo) {
         const Rgb white{1.0f, 1.0f, 1.0f};
         const Rgb f = schlick(p, larger(glm::dot(n, wo), 0.0f));
@@ -124,13 +124,13 @@ struct CookTorrance {
         return x2 * x2 * x;
     }
 
-    /// True where f is not zero in all directions of light: without an interface also below `n`.
+    /// True where f is nonzero in all directions, without an interface also below `n`.
     MIR_HD static bool reflects_towards(const Params& p, float cos_o) {
         return cos_o > 0.0f || (p.f90 <= 0.0f && mir::is_black(p.f0));
     }
 
-    /// Probability with which sample() picks the specular lobe: its share of the reflected light,
-    /// kept away from 0 and 1 while both lobes exist.
+    /// Probability with which sample() picks the specular lobe. It is the lobe's share of the
+    /// reflected light, kept away from 0 and 1 while both lobes exist.
     MIR_HD static float specular_share(const Params& p, float cos_o) {
         if (p.f90 <= 0.0f && mir::is_black(p.f0)) return 0.0f;
         const float s = luminance(schlick(p, cos_o));

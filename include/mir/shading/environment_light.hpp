@@ -6,10 +6,10 @@
 
 namespace mir {
 
-/// Light of the environment at a luxel, estimated from `samples` directions drawn by luminance:
-/// f L_e cos / p averaged over the samples, with shadow rays from outside the scene. The samples of
-/// luxels that share are one Kronecker sequence with a random shift, as those of EmitterLight.
-/// Directions that all luxels share are VPLs at infinity. Unbiased. Host and device.
+/// Light of the environment at a luxel, estimated from `samples` directions. They are drawn by
+/// luminance: f L_e cos / p averaged over the samples, with shadow rays from outside the scene. The
+/// samples of luxels that share are one Kronecker sequence with a random shift, as those of
+/// EmitterLight. Directions that all luxels share are VPLs at infinity. Unbiased. Host and device.
 template <Bsdf B, Visibility V>
 class EnvironmentLight {
  public:

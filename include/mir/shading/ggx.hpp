@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Smallest GGX width: below it a cosine in single precision loses the shape of the lobe (here D is
+/// Smallest GGX width. Below it a cosine in single precision loses the shape of the lobe (here D is
 /// off by 0.7 % at worst, at 1e-3 by 12 %).
 inline constexpr float min_ggx_alpha = 4e-3f;
 
@@ -20,7 +20,7 @@ MIR_HD inline float ggx_d(float cos_h, float alpha) {
     return a2 / (pi * t * t);
 }
 
-/// wi + wo, of which only lengths are needed: nothing is divided before GgxOutgoing::dv() divides
+/// wi + wo; only lengths of it are needed. Nothing is divided before GgxOutgoing::dv() divides
 /// once.
 template <class Rounding>
 struct HalfVector {
@@ -44,11 +44,11 @@ struct HalfVector {
     }
 };
 
-/// GGX reflection towards one direction: what does not depend on where light comes from is found
+/// GGX reflection towards one direction. What does not depend on where light comes from is found
 /// once. `Rounding` is that of its sums of products (core/rounding.hpp).
 template <class Rounding>
 struct GgxOutgoing {
-    /// Smaller cosines of wo count as this one: all that is divided by then stays in range, from
+    /// Smaller cosines of wo count as this one. All that is divided by then stays in range, from
     /// 2^-105 to 2^40, without a comparison for each direction of light.
     static constexpr float least_cosine = 1e-5f;
 
@@ -67,9 +67,9 @@ struct GgxOutgoing {
         return {cos_o, a2, rest, part * smith_root(cos_o, a2, rest), part * cos_o};
     }
 
-    /// pi / alpha^2 over this is height-correlated Smith masking and shadowing over
-    /// 4 (n.wi)(n.wo); `cos_i` is n.wi, not negative.
-    /// Source: Heitz, "Understanding the masking-shadowing function", JCGT 3(2), 2014, eq. 99.
+    /// pi / alpha^2 over this is height-correlated Smith masking and shadowing over 4 (n.wi)(n.wo).
+    /// `cos_i` is n.wi, not negative. Source: Heitz, "Understanding the masking-shadowing
+    /// function", JCGT 3(2), 2014, eq. 99.
     [[nodiscard, gnu::always_inline]] MIR_HD float smith_sum(float cos_i) const {
         return Rounding::mul_add(cos_i, root_part, cos_part * smith_root(cos_i, alpha2, rest));
     }

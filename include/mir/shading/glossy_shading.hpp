@@ -21,7 +21,7 @@ struct VplLobe {
     }
 };
 
-/// P f_v f min(G, bound), or P f_v f max(G - bound, 0): what an unoccluded VPL that keeps the lobe
+/// P f_v f min(G, bound), or P f_v f max(G - bound, 0). What an unoccluded VPL that keeps the lobe
 /// of its surface adds to a luxel's radiance, W m^-2 sr^-1, and what the bound removes of that.
 /// VplShading and RemovedByBound where the VPL's surface is Lambertian.
 template <Bsdf B>

@@ -32,7 +32,7 @@ struct Lambert {
     /// Hemispherical reflectance.
     MIR_HD static Rgb albedo(const Params& p, Vec3 /*n*/, Vec3 /*wo*/) { return p.reflectance; }
 
-    /// Cosine-distributed around `n`, from `u` in [0, 1)^2; the weight f cos / pdf is the
+    /// Cosine-distributed around `n`, from `u` in [0, 1)^2. The weight f cos / pdf is the
     /// reflectance.
     MIR_HD static BsdfSample sample(const Params& p, Vec3 n, Vec3 /*wo*/, Vec2 u, float /*lobe*/) {
         const Vec3 wi = Frame::around(n).to_world(square_to_cosine_hemisphere(u));

@@ -14,8 +14,9 @@ MIR_HD inline Lambert::Params material_params(const MaterialFactors& m, Lambert)
     return {m.base_color};
 }
 
-/// Metallic-roughness parameters: f0 runs from ((ior-1)/(ior+1))^2 specular to the base colour,
-/// f90 from specular to 1, with `metallic`; alpha is roughness squared (glTF 2.0, appendix B).
+/// Metallic-roughness parameters (glTF 2.0, appendix B). With `metallic`, f0 runs from
+/// ((ior-1)/(ior+1))^2 specular to the base colour, and f90 from specular to 1; alpha is roughness
+/// squared.
 MIR_HD inline CookTorrance::Params material_params(const MaterialFactors& m, CookTorrance) {
     const float r = (m.ior - 1.0f) / (m.ior + 1.0f);
     const float dielectric = r * r * m.specular;

@@ -6,9 +6,9 @@
 
 namespace mir {
 
-/// A material as it is on average: its factors, the base colour times the mean of its texture.
-/// Other textures and vertex colours are left out. Every texel counts alike, however large the part
-/// of a surface that shows it.
+/// The mean of a material. Its factors, the base colour times the mean of its texture. Other
+/// textures and vertex colours are left out. Every texel counts alike, however large the part of a
+/// surface that shows it.
 inline MaterialFactors mean_factors(const Scene& scene, const Material& material) {
     MaterialFactors factors = material.factors();
     const Texture& texture = material.textures.base_color;

@@ -14,14 +14,14 @@ namespace mir {
 
 namespace detail {
 
-/// What GGX lobes reflect of light that comes alike from everywhere, f0 GgxShares::f0 + f90
-/// GgxShares::f90, by alpha: light that microfacets would scatter twice is lost.
+/// What GGX lobes reflect of light from everywhere, by alpha. It is f0 GgxShares::f0 + f90
+/// GgxShares::f90: light that microfacets would scatter twice is lost.
 struct GgxShares {
     double f0 = 0.0;
     double f90 = 0.0;
 };
 
-/// By 4096 points of a Kronecker sequence: the viewer's angle, spread by the cosine, and the
+/// By 4096 points of a Kronecker sequence. The viewer's angle, spread by the cosine, and the
 /// direction. Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
 inline GgxShares ggx_shares(float alpha) {
     constexpr std::uint32_t points = 4096;
@@ -63,7 +63,7 @@ inline GgxShares tabulated_ggx_shares(float alpha) {
 
 }  // namespace detail
 
-/// Share of light from all directions alike that a surface sends back, 0..1: the reflectance of the
+/// Share of light from all directions alike that a surface sends back, 0..1. The reflectance of the
 /// Lambertian surface that has its power. The integral of f cos cos over both hemispheres, over pi.
 /// Thread-safe.
 inline Rgb mean_reflectance(const Lambert::Params& p) { return p.reflectance; }

@@ -18,8 +18,8 @@ struct UnpreparedBsdf {
     }
 };
 
-/// `B` at a surface point towards the viewer, its sums of products rounded by `Rounding` if `B` is
-/// a PreparedBsdf and left to it if not.
+/// `B` at a surface point towards the viewer, with rounding by `Rounding`. Its sums of products are
+/// rounded so if `B` is a PreparedBsdf and left to it if not.
 template <Bsdf B, class Rounding>
 [[nodiscard, gnu::always_inline]] MIR_HD inline auto outgoing_bsdf(const typename B::Params& p,
                                                                    Vec3 n, Vec3 wo) {

@@ -19,7 +19,7 @@ struct LitPoint {
     Rgb light;      ///< if nothing is in its way, W m^-2 sr^-1
 };
 
-/// Up to sixteen samples of light, structure of arrays, and what they bring to a luxel. On the
+/// Up to sixteen samples of light and what they bring to a luxel. A structure of arrays. On the
 /// host; not shared by threads.
 template <WordCopyable Sample>
 class PacketOfLight {
@@ -31,8 +31,8 @@ class PacketOfLight {
         SoaView<Sample>{words_, width}.store(k, sample);
     }
 
-    /// Sum of what the first `count` <= width samples bring that `origin` sees, in their order, W
-    /// m^-2 sr^-1. `shade(sample)` is a LitPoint, by arithmetic without branches, which
+    /// Sum of the samples among the first `count` that `origin` sees, W m^-2 sr^-1. In their order;
+    /// `count` <= width. `shade(sample)` is a LitPoint, by arithmetic without branches, which
     /// `instructions` do for all samples at once; the sum does not depend on them.
     template <PacketVisibility V, class Shade>
     [[nodiscard]] Rgb seen_from(Vec3 origin, const V& visibility, std::uint32_t count,

@@ -5,7 +5,7 @@
 
 namespace mir {
 
-/// A luxel that many VPLs are to light, as `F` wants it: what every Shading reads.
+/// A luxel that many VPLs are to light, as `F` wants it. What every Shading reads.
 template <Shading F>
 struct PreparedLuxel {
     Hit hit;                      ///< where it is

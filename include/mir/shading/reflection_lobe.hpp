@@ -5,7 +5,7 @@
 
 namespace mir {
 
-/// Directions into which a surface reflects most, roughly: density (1 + 2 k) / (4 pi (1 + k x)^2)
+/// Directions into which a surface reflects most, roughly. Density (1 + 2 k) / (4 pi (1 + k x)^2)
 /// per steradian, x = 1 - cos of the angle to the axis. A value.
 struct ReflectionLobe {
     static constexpr float largest_sharpness = 16384.0f;  ///< narrower lobes count as this one

@@ -13,7 +13,7 @@
 
 namespace mir {
 
-/// f cos for light from the unit direction `wi`; black when either side of the surface disagrees.
+/// f cos for light from the unit direction `wi`. Black when either side of the surface disagrees.
 /// No branches: loops over lanes ask it.
 template <Bsdf B>
 [[gnu::always_inline]] MIR_HD inline Rgb reflected(const Hit& hit,
@@ -34,7 +34,7 @@ struct SharedSamples {
     std::uint32_t share = 0;   ///< which of them asks
 };
 
-/// Mean light of `samples` > 0 samples at a luxel: `draw(k)` is the k-th one, WordCopyable, and
+/// Mean light of `samples` > 0 samples at a luxel. `draw(k)` is the k-th one, WordCopyable, and
 /// `shade(sample)` its LitPoint, by arithmetic without branches. Samples are added up in packets of
 /// sixteen, whether the visibility is asked about packets or about one after the other; then light
 /// first, which is up to four times as fast on a GPU (docs/decisions/034).
@@ -61,14 +61,14 @@ MIR_HD Rgb mean_of_samples(Vec3 origin, const V& visibility, std::uint32_t sampl
     return sum * (1.0f / static_cast<float>(samples));
 }
 
-/// The fraction of a number from 0 to 2, 2 excluded: glm::fract() asks for its floor, which takes
-/// a call where the instruction set has none.
+/// The fraction of a number in [0, 2). glm::fract() asks for its floor, which takes a call where
+/// the instruction set has none.
 MIR_HD inline float wrapped(float x) { return x >= 1.0f ? x - 1.0f : x; }
 
-/// Place in the unit square of the i-th point of the Kronecker sequence of the plastic number,
-/// shifted by `shift`, which lies there. The products wrap around as integers, so that no point
-/// loses digits, however late it comes. Source: Roberts, "The unreasonable effectiveness of
-/// quasirandom sequences", 2018.
+/// Point i of the Kronecker sequence of the plastic number in the unit square. It is shifted by
+/// `shift`, which lies there. The products wrap around as integers, so that no point loses digits,
+/// however late it comes. Source: Roberts, "The unreasonable effectiveness of quasirandom
+/// sequences", 2018.
 MIR_HD inline Vec2 kronecker_point(Vec2 shift, std::uint32_t i) {
     const std::uint32_t x = i * 3242174889u;  // 2^32 / 1.3247.., the plastic number
     const std::uint32_t y = i * 2447445414u;  // and / its square

@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// Light of the emissive triangles at a luxel, estimated from `samples` points chosen by power:
-/// f L_e cos cos / (d^2 p) averaged over the samples. The samples of all luxels of a pixel are one
+/// Light of the emissive triangles at a luxel, from `samples` points. They are chosen by power: f
+/// L_e cos cos / (d^2 p) averaged over the samples. The samples of all luxels of a pixel are one
 /// Kronecker sequence with a random shift per pixel: each point is uniform, so the estimate is
 /// unbiased, and together they are spread evenly over the lamps. Host and device.
 template <Bsdf B, Visibility V>
@@ -85,7 +85,7 @@ class EmitterLight {
     std::uint32_t samples_;
 };
 
-/// Light of what the scene lists at a luxel: exact where it has no extent, by one sample where it
+/// Light of what the scene lists at a luxel. Exact where it has no extent, by one sample where it
 /// has. No ray meets these lights, so they are never VPLs (docs/method.md, 5.2). A light at the
 /// luxel itself, or so near that its radiance is no float, adds nothing: 1/d^2 has no value there,
 /// and one luxel must not spoil its neighbours. Host and device.

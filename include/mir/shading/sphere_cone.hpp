@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// The directions in which a point sees a sphere: those within asin(sine) of the unit vector
+/// The directions in which a point sees a sphere. Those within asin(sine) of the unit vector
 /// `axis`. Precise for the smallest of them too, where 1 - cos of the angle has no digits.
 struct SphereCone {
     Vec3 axis{0, 0, 1};  ///< unit
@@ -30,9 +30,9 @@ struct SphereCone {
         return glm::dot(w, axis) > 0.0f && length_squared(glm::cross(w, axis)) <= sine * sine;
     }
 
-    /// int (w.a) (w.b) dw over the cone for unit vectors a and b, from axis.a, axis.b and a.b.
-    /// With c the cosine, int w w^T dw is 2 pi (1 - c^3) / 3 along the axis and
-    /// pi (1 - c)^2 (2 + c) / 3 across.
+    /// int (w.a) (w.b) dw over the cone for unit vectors a and b. From axis.a, axis.b and a.b. With
+    /// c the cosine, int w w^T dw is 2 pi (1 - c^3) / 3 along the axis and pi (1 - c)^2 (2 + c) / 3
+    /// across.
     [[nodiscard]] MIR_HD float cosine_product(float axis_a, float axis_b, float a_b) const {
         const float c = cosine();
         const float h = height();

@@ -13,7 +13,7 @@
 
 namespace mir {
 
-/// A Bsdf whose parameters follow textures and vertex colours: material_params() knows how one
+/// A Bsdf whose parameters follow textures and vertex colours. material_params() knows how one
 /// point of a material reflects.
 template <class B>
 concept TexturedBsdf = Bsdf<B> && requires(const MaterialFactors& factors) {
@@ -60,16 +60,16 @@ struct SurfaceTableView {
         return entries[material].params;
     }
 
-    /// Unit shading normal as the normal texture bends it, on the side of the geometric one. Where
-    /// it would turn away from the surface, the one of the vertices. It does not depend on where
-    /// the point is seen from: every way to sample a path means the same path.
+    /// Unit shading normal bent by the normal texture, on the geometric one's side. Where it would
+    /// turn away from the surface, the one of the vertices. It does not depend on where the point
+    /// is seen from: every way to sample a path means the same path.
     [[nodiscard]] MIR_HD Vec3 shading_normal(const SurfacePoint& p) const {
         if (!entries[p.material].textures.normal.is_set()) return p.shading_normal;
         return bent_normal(p);
     }
-    /// The shading normal of a luxel, which the camera sees from `wo`: shading_normal(), unless it
-    /// turns away from there; then that of the vertices, unless that does too; then the geometric
-    /// one. Luxels are the only points that every sampler sees from one direction.
+    /// The shading normal of a luxel, which the camera sees from `wo`. It is shading_normal(),
+    /// unless it turns away from there; then that of the vertices, unless that does too; then the
+    /// geometric one. Luxels are the only points that every sampler sees from one direction.
     [[nodiscard]] MIR_HD Vec3 seen_normal(const SurfacePoint& p, Vec3 wo) const {
         const Vec3 bent = shading_normal(p);
         if (glm::dot(bent, wo) > 0.0f) return bent;
@@ -79,7 +79,7 @@ struct SurfaceTableView {
     [[nodiscard]] MIR_HD bool is_lambertian(std::uint32_t material) const {
         return entries[material].lobe_share == 0.0f;
     }
-    /// Share of the reflected light at a typical angle that leaves in a lobe, 0..1; 0 only where
+    /// Share of the reflected light at a typical angle that leaves in a lobe, 0..1. 0 only where
     /// is_lambertian().
     [[nodiscard]] MIR_HD float lobe_share(std::uint32_t material) const {
         return entries[material].lobe_share;

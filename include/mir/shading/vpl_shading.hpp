@@ -11,9 +11,9 @@
 
 namespace mir {
 
-/// Geometry term of a luxel and a VPL, m^-2: cos cos / d^2 with the shading normal at the luxel
-/// and the geometric one at the VPL; 0 when either points away (docs/method.md, 4.2). `inverse` is
-/// 1 / d, the cosines those of the direction from the luxel to the VPL and back.
+/// Geometry term of a luxel and a VPL, m^-2: cos cos / d^2. It takes the shading normal at the
+/// luxel and the geometric one at the VPL; it is 0 when either points away (docs/method.md, 4.2).
+/// `inverse` is 1 / d, the cosines those of the direction from the luxel to the VPL and back.
 MIR_HD inline float geometry_term(float cos_l, float cos_v, float inverse) {
     return larger(cos_l, 0.0f) * larger(cos_v, 0.0f) * (inverse * inverse);
 }
@@ -49,16 +49,16 @@ struct VplShading {
                                                  const Vpl& vpl) const {
         return (*this)(prepared(hit, s), vpl);
     }
-    /// 1/d, m^-1, of the way from a luxel to a VPL, metres.
-    [[nodiscard, gnu::always_inline]] MIR_HD static float inverse_distance(Vec3 way) {
-        return mir::inverse_distance<Rounding>(way);
+    /// 1/d, m^-1, of the offset from a luxel to a VPL, metres.
+    [[nodiscard, gnu::always_inline]] MIR_HD static float inverse_distance(Vec3 offset) {
+        return mir::inverse_distance<Rounding>(offset);
     }
-    /// Radiance, the `way` from the luxel to the VPL, metres, and `inverse`, its 1/d, m^-1, being
-    /// known.
+    /// Radiance from the `offset` to the VPL, metres, and its inverse length. `inverse` is 1/d,
+    /// m^-1.
     [[nodiscard, gnu::always_inline]] MIR_HD Rgb at_distance(const Hit& hit, const Surface& s,
-                                                             const Vpl& vpl, Vec3 way,
+                                                             const Vpl& vpl, Vec3 offset,
                                                              float inverse) const {
-        return of(prepared(hit, s), vpl, way, inverse);
+        return of(prepared(hit, s), vpl, offset, inverse);
     }
     /// What is the same for all VPLs.
     [[nodiscard, gnu::always_inline]] MIR_HD Prepared prepared(const Hit& hit,
@@ -67,14 +67,14 @@ struct VplShading {
     }
     /// Radiance of a luxel that was prepared.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Prepared& luxel, const Vpl& vpl) const {
-        const Vec3 way = vpl.position - luxel.position;
-        return of(luxel, vpl, way, mir::inverse_distance<Rounding>(way));
+        const Vec3 offset = vpl.position - luxel.position;
+        return of(luxel, vpl, offset, mir::inverse_distance<Rounding>(offset));
     }
 
  private:
-    [[nodiscard, gnu::always_inline]] MIR_HD Rgb of(const Prepared& luxel, const Vpl& vpl, Vec3 way,
-                                                    float inverse) const {
-        const Vec3 wi = way * inverse;
+    [[nodiscard, gnu::always_inline]] MIR_HD Rgb of(const Prepared& luxel, const Vpl& vpl,
+                                                    Vec3 offset, float inverse) const {
+        const Vec3 wi = offset * inverse;
         const float cos_l = dot<Rounding>(wi, luxel.normal);
         const float cos_v = -dot<Rounding>(wi, vpl.normal);
         const float g = strict::at_most(geometry_term(cos_l, cos_v, inverse), bound);
@@ -91,12 +91,12 @@ struct RemovedByBound {
 
     float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
 
-    /// Radiance towards the viewer, W m^-2 sr^-1; 0 where G is no larger than the bound.
+    /// Radiance towards the viewer, W m^-2 sr^-1. 0 where G is no larger than the bound.
     [[gnu::always_inline]] MIR_HD Rgb operator()(const Hit& hit, const Surface& s,
                                                  const Vpl& vpl) const {
-        const Vec3 way = vpl.position - hit.position;
-        const float inverse = inverse_distance<SeparateRounding>(way);
-        const Vec3 wi = way * inverse;
+        const Vec3 offset = vpl.position - hit.position;
+        const float inverse = inverse_distance<SeparateRounding>(offset);
+        const Vec3 wi = offset * inverse;
         const float excess = geometry_term(wi, inverse, s.normal, vpl.normal) - bound;
         if (!(excess > 0.0f)) return {};
         return B::eval(s.bsdf, s.normal, wi, s.wo) * vpl.intensity * excess;

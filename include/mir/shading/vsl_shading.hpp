@@ -12,13 +12,13 @@
 
 namespace mir {
 
-/// What a VPL adds to a luxel's radiance when its light comes from a sphere around it, a virtual
-/// spherical light:
-///     J / (pi r^2) int f (n.w) (-w.n_v) dw
-/// over the cone of directions in which the luxel sees the sphere, cosines cut off at 0, the
-/// hemisphere around the direction to the VPL where the luxel lies inside. Far away that is J f G;
-/// close by it is at most 2/3 f J / r^2, so no bound is needed, and light is spread rather than
-/// removed. Visibility remains that of the VPL itself. Model of Shading.
+/// What a virtual spherical light adds to a luxel's radiance. The light of a VPL
+/// comes from a sphere around it: J / (pi r^2) int f (n.w) (-w.n_v) dw over the cone
+/// of directions in which the luxel sees the sphere, cosines cut off at 0, the
+/// hemisphere around the direction to the VPL where the luxel lies inside. Far away
+/// that is J f G; close by it is at most 2/3 f J / r^2, so no bound is needed, and
+/// light is spread rather than removed. Visibility remains that of the VPL itself.
+/// Model of Shading.
 ///
 /// Exact for a Lambertian luxel that sees the sphere above both horizons. Else an unbiased estimate
 /// by directions from the cone and as many from the BSDF, joined by the balance heuristic; its

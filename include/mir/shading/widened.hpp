@@ -7,9 +7,9 @@ namespace mir {
 
 /// Parameters of a Bsdf whose lobes are not narrower than the GGX width `least_alpha`. What the
 /// interface reflects at each angle (f0, f90) stays, so that a wider lobe reflects less in all, as
-/// a rougher surface does. Overloaded per model; one without lobes, or without an overload, stays
-/// as it is. Source: Kaplanyan and Dachsbacher, "Path space regularization for holistic and robust
-/// light transport", Eurographics 2013, for the idea.
+/// a rougher surface does. Overloaded per model; one without lobes, or without an overload, does
+/// not change. Source: Kaplanyan and Dachsbacher, "Path space regularization for holistic and
+/// robust light transport", Eurographics 2013, for the idea.
 template <class Params>
 Params widened(const Params& p, float /*least_alpha*/) {
     return p;

@@ -40,7 +40,7 @@ struct BruteForceRayCaster {
     }
 };
 
-/// A ray engine without acceleration structure, for checks of everything above ray tracing; each
+/// A ray engine without acceleration structure, for checks of everything above ray tracing. Each
 /// question takes time in proportion to the triangles. Safe from any thread. The geometry must
 /// outlive it.
 class BruteForceScene {

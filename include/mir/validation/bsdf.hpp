@@ -17,8 +17,8 @@ namespace mir::validation {
 
 namespace detail {
 
-/// Axiom 1: finite and not negative, up to grazing angles and for directions that oppose each
-/// other.
+/// Axiom 1: finite and not negative, up to grazing and opposed
+/// directions.
 template <Bsdf B>
 void expect_finite(const typename B::Params& p, Report& report) {
     std::size_t bad = 0;
@@ -57,8 +57,8 @@ void expect_reciprocal(const typename B::Params& p, Report& report) {
         "eval(wi, wo) and eval(wo, wi) differ by up to " + number_text(worst) + " of the larger");
 }
 
-/// Prepared it is the same in every bit, and with fused sums of products to a relative 1e-3, which
-/// is what narrow lobes lose anyway.
+/// The prepared model is the same in every bit. With fused sums of products it is so to a relative
+/// 1e-3, which is what narrow lobes lose anyway.
 template <PreparedBsdf B>
 void expect_same_when_prepared(const typename B::Params& p, Report& report) {
     Random random = numbers(33);
@@ -128,8 +128,8 @@ void expect_energy(const typename B::Params& p, Report& report) {
     }
 }
 
-/// Axiom 3, a millionth for rounding: albedo is a share, and what calls itself black reflects
-/// nothing in any direction.
+/// Axiom 3: albedo is a share, and a black model reflects nothing. A millionth is left for
+/// rounding.
 template <Bsdf B>
 void expect_albedo(const typename B::Params& p, Report& report) {
     std::size_t bad = 0;
@@ -151,7 +151,7 @@ void expect_albedo(const typename B::Params& p, Report& report) {
                   "it does in " + std::to_string(lit) + " of 49 pairs of directions");
 }
 
-/// Axiom 4: weights are eval cos / pdf, to 1e-4 because narrow lobes magnify the rounding of wi.
+/// Axiom 4: weights are eval cos / pdf, to 1e-4. Narrow lobes magnify the rounding of wi.
 template <Bsdf B>
 void expect_weights(const typename B::Params& p, Report& report) {
     Random random = numbers(32);
@@ -191,7 +191,7 @@ inline float apart(Rgb a, Rgb b) {
     return larger(std::fabs(d.r), larger(std::fabs(d.g), std::fabs(d.b)));
 }
 
-/// True when `p` reflects alike in all directions, as far as a grid of them tells.
+/// True when `p` reflects alike in all directions of a grid.
 template <Bsdf B>
 bool reflects_alike(const typename B::Params& p) {
     const Rgb f = B::eval(p, slanted_normal, slanted_normal, slanted_normal);
@@ -227,9 +227,9 @@ void expect_below(const typename B::Params& p, Report& report) {
 
 }  // namespace detail
 
-/// The axioms of Bsdf, and of PreparedBsdf if `B` is one, for a list of parameters that should
-/// cover the corners of the model: white, black, smooth, rough. All but one: that samples follow
-/// their density is for check_bsdf_samples().
+/// The axioms of Bsdf, and of PreparedBsdf if `B` is one. The list of parameters should cover the
+/// corners of the model: white, black, smooth, rough. All but one: that samples follow their
+/// density is for check_bsdf_samples().
 template <Bsdf B>
 Report check_bsdf(std::span<const typename B::Params> list) {
     Report report;

@@ -17,7 +17,7 @@ namespace mir::validation {
 
 namespace detail {
 
-/// 6 x 8 cells of (cos, azimuth) over the hemisphere, and one for samples that are thrown away.
+/// 6 x 8 cells of (cos, azimuth) over the hemisphere. One more is for samples that are thrown away.
 class HemisphereCells {
  public:
     static constexpr std::size_t thrown_away = 48;
@@ -35,7 +35,7 @@ class HemisphereCells {
     Frame frame_ = Frame::around(slanted_normal);
 };
 
-/// Probability of each cell, by quadrature of pdf(): midpoints of 200 x 120 parts of each.
+/// Probability of each cell, by quadrature of pdf() at 200 x 120 midpoints each.
 template <Bsdf B>
 std::vector<double> cell_probabilities(const typename B::Params& p, Vec3 wo) {
     constexpr int rings = 6 * 200;
@@ -89,8 +89,8 @@ inline double poisson_tail(double mean, double count) {
     return 1.0 - below;
 }
 
-/// Counts and what is expected: Pearson's chi-squared of the cells that expect 8 or more, and all
-/// others as one.
+/// Counts against expectation, by Pearson's chi-squared. Cells that expect 8 or more count alone,
+/// all others as one.
 class CellCounts {
  public:
     void add(double found, double expected) {
@@ -133,13 +133,13 @@ class CellCounts {
 
 }  // namespace detail
 
-/// The axiom of Bsdf that sample() follows pdf(), for light towards a direction at `cosine` from
-/// the normal. Hypothesis: the counts of 20 000 samples in 6 x 8 cells of (cos, azimuth), and of
-/// those thrown away, have the probabilities that quadrature of pdf() gives. Pearson's chi-squared
-/// (Wilson and Hilferty's approximation, quantile 4.75) of the cells that expect 8 samples or more;
-/// the others are one cell, or, when they expect fewer together, a Poisson variable whose mean may
-/// be larger by 2, the error of quadrature. Each at level 1e-6; fixed seed. Lobes must be wider
-/// than the grid's cells.
+/// The axiom of Bsdf that sample() follows pdf(). It holds for light towards a direction at
+/// `cosine` from the normal. Hypothesis: the counts of 20 000 samples in 6 x 8 cells of (cos,
+/// azimuth), and of those thrown away, have the probabilities that quadrature of pdf() gives.
+/// Pearson's chi-squared (Wilson and Hilferty's approximation, quantile 4.75) of the cells that
+/// expect 8 samples or more; the others are one cell, or, when they expect fewer together, a
+/// Poisson variable whose mean may be larger by 2, the error of quadrature. Each at level 1e-6;
+/// fixed seed. Lobes must be wider than the grid's cells.
 template <Bsdf B>
 Report check_bsdf_samples(const typename B::Params& p, float cosine) {
     constexpr int samples = 20000;

@@ -13,10 +13,10 @@
 
 namespace mir::validation {
 
-/// The claim of Metropolis instant radiosity: every recorded state brings the same light to the
-/// image. Each VPL alone lights the luxels; the luminance that it brings, over the states that it
-/// stands for, must be the same for all that any luxel sees, to a relative 1e-3. Source: Segovia,
-/// Iehl and Peroche, "Metropolis instant radiosity", 2007. Takes the time of one image.
+/// Metropolis instant radiosity's claim: every recorded state brings equal light to the image. Each
+/// VPL alone lights the luxels; the luminance that it brings, over the states that it stands for,
+/// must be the same for all that any luxel sees, to a relative 1e-3. Source: Segovia, Iehl and
+/// Peroche, "Metropolis instant radiosity", 2007. Takes the time of one image.
 template <TiledGBuffer G, Visibility V, Shading F, Executor E>
 Report check_equal_flux(const G& gbuffer, const VplList& vpls, V visibility, F shading,
                         E& executor) {

@@ -11,9 +11,9 @@
 
 namespace mir::validation {
 
-/// A room whose radiance is 1 W m^-2 sr^-1 in every direction: all surfaces reflect `reflectance`
-/// in a diffuse way and send out 1 - reflectance. With `block`, one stands in it and hides parts of
-/// the walls from one another: light that gets through it makes the room brighter than 1.
+/// A room whose radiance is 1 W m^-2 sr^-1 in every direction. All surfaces reflect `reflectance`
+/// diffusely and emit 1 - reflectance. With `block`, one stands in it and hides parts of the walls
+/// from one another: light that gets through it makes the room brighter than 1.
 inline Scene furnace(float reflectance, bool block) {
     Scene scene = builtin::furnace_box(reflectance, 1.0f - reflectance);
     if (block)
@@ -22,11 +22,11 @@ inline Scene furnace(float reflectance, bool block) {
     return scene;
 }
 
-/// The closed form of whole renderers: `render(scene)` makes the Image<Rgb> that the scene's first
+/// The closed form of whole renderers. `render(scene)` makes the Image<Rgb> that the scene's first
 /// camera sees, emission included, W m^-2 sr^-1. Furnaces of three reflectances, with a block and
 /// without, must have a mean of 1 in each channel, to within `tolerance`, which has to cover the
-/// noise of the renderer and what its bound removes. Not one of its sources of error has another
-/// radiance than another: what is too bright or too dark is lost or counted twice.
+/// noise of the renderer and what its bound removes. All light has the same radiance, so a result
+/// too bright or too dark means light counted twice or lost.
 template <class Render>
 Report check_furnace(const Render& render, double tolerance) {
     Report report;

@@ -12,23 +12,23 @@
 
 namespace mir::validation {
 
-/// Bounces that a sampler brings to the image, both ends included: 1 is direct light by VPLs on the
+/// Bounces that a sampler brings to the image, both ends included. 1 is direct light by VPLs on the
 /// lamps, 2 has been reflected once before.
 struct Bounces {
     std::uint8_t first = 2;  ///< at least 1
     std::uint8_t last = 32;  ///< at least `first`
 };
 
-/// A scene whose light is known: what the VPLs of bounce b bring to each quarter of the image of
-/// its only camera, and to all of it, is radiance(b). No two points of what shines or is seen are
-/// hidden from each other. Immutable; const use from any thread. Stays where it was made, since
-/// samplers refer to its geometry.
+/// A scene whose light is known. The VPLs of bounce b bring radiance(b) to each quarter of the
+/// image of its only camera, and to all of it. No two points of what shines or is seen are hidden
+/// from each other. Immutable; const use from any thread. Stays where it was made, since samplers
+/// refer to its geometry.
 class KnownLight {
  public:
     using Luxels = BlockedGBuffer<Lambert::Params>;  ///< what the camera sees
 
-    /// `direct` is radiance(1), `reflectance` what each further bounce multiplies it by, and
-    /// `emitted_power` that of the scene's lamps, luminance, W.
+    /// `direct` is radiance(1), `reflectance` the factor of each further bounce. `emitted_power` is
+    /// that of the scene's lamps, luminance, W.
     KnownLight(Scene scene, Rgb direct, Rgb reflectance, double emitted_power)
         : world_(std::move(scene)),
           direct_(direct),
@@ -75,8 +75,8 @@ class KnownLight {
     Luxels luxels_;
 };
 
-/// A closed box of 2 m with coloured walls that reflect rho and emit L, seen from its centre:
-/// bounce b has the radiance rho^b L everywhere (the furnace).
+/// The furnace: a closed box of 2 m, seen from its centre. Its coloured walls reflect rho and emit
+/// L, so bounce b has the radiance rho^b L everywhere.
 inline KnownLight known_furnace() {
     const Rgb reflectance{0.6f, 0.5f, 0.4f};
     const Rgb emission{0.25f, 0.5f, 1.0f};
@@ -88,10 +88,10 @@ inline KnownLight known_furnace() {
             std::numbers::pi * area * static_cast<double>(luminance(emission))};
 }
 
-/// A square lamp of 1 m and radiance 1 that faces a white square 1 m below it, seen from above:
-/// direct light has the mean radiance of the form factor, in each quarter by symmetry, and there is
-/// no other. For samplers that bring direct light. Source of the form factor: Howell, "A catalog of
-/// radiation heat transfer configuration factors", C-11.
+/// A square lamp of radiance 1, 1 m above a white square. Seen from above, direct light has the
+/// mean radiance of the form factor, in each quarter by symmetry, and there is no other. Both have
+/// an edge of 1 m. For samplers that bring direct light. Source of the form factor: Howell, "A
+/// catalog of radiation heat transfer configuration factors", C-11.
 inline KnownLight known_squares() {
     constexpr float form_factor = 0.199824896f;
     constexpr float height = 0.9f;  // below the lamp

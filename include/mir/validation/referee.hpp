@@ -33,9 +33,10 @@ class Referee {
 
     /// Answer to "is a hidden from b", with the margin by which it holds.
     struct Verdict {
-        /// Positive: hidden, and the deepest cut lies that far from the edges of its triangle and
-        /// from the ends of the segment (both in units of their length). Negative: visible, and
-        /// every triangle is missed by at least that much.
+        /// Positive where the segment is hidden, negative where it is visible. Hidden: the deepest
+        /// cut lies that far from the edges of its triangle and from the ends of the segment (both
+        /// in units of their length). Visible: every triangle is missed by at least that much.
+        /// Negative: visible, and every triangle is missed by at least that much.
         double margin = -std::numeric_limits<double>::infinity();
 
         /// True when nothing lies on the segment.
@@ -64,8 +65,8 @@ class Referee {
     struct Closest {
         std::uint32_t triangle = none;  ///< index into WorldGeometry; none: the ray meets nothing
         LineHit hit;                    ///< where it is met; t is in metres
-        /// Distance in barycentric units from the closest decision that could have gone otherwise:
-        /// an edge of this triangle or of one before it.
+        /// Distance in barycentric units from the closest decision that could differ. That is an
+        /// edge of this triangle or of one before it.
         double margin = std::numeric_limits<double>::infinity();
         double runner_up = std::numeric_limits<double>::infinity();  ///< t of the second triangle
     };

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-/// Checks of the axioms that concepts cannot express, for types of a program's own: functions that
+/// Checks of the axioms that concepts cannot express, for your own types. They are functions that
 /// run a model through its paces and return a Report. They print nothing, throw nothing of their
 /// own and need no test framework. Numbers are drawn with fixed seeds: the same model gets the same
 /// report each time.

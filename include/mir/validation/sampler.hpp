@@ -60,7 +60,8 @@ inline void expect_counted_states(const VplRecords& from, Report& report) {
                   "P_c is finite and not negative", number_text(from.path_luminance));
 }
 
-/// Whether a VPL lies at most `reach` metres off a triangle, above the side that its normal names.
+/// Whether a VPL lies within `reach` metres of a triangle. It must lie above the side that its
+/// normal names.
 inline bool lies_on_surface(const WorldGeometry& geometry, const Vpl& vpl, float reach) {
     const Referee referee(geometry);
     for (std::uint32_t i = 0; i < geometry.triangles().size(); ++i) {
@@ -78,9 +79,10 @@ inline bool lies_on_surface(const WorldGeometry& geometry, const Vpl& vpl, float
 
 }  // namespace detail
 
-/// Axioms 1 and 2 of Sampler: records are sound, the same for any executor and each time, and
-/// others for another seed. `make(seed)` gives the sampler; `others` are executors that run loops
-/// in other ways than InlineExecutor. The scene must have light to place VPLs for.
+/// Axioms 1 and 2 of Sampler: records are sound and repeatable. They are the same for any executor
+/// and each time, and others for another seed. `make(seed)` gives the sampler; `others` are
+/// executors that run loops in other ways than InlineExecutor. The scene must have light to place
+/// VPLs for.
 template <class Make, Executor... Others>
 Report check_sampler_records(const Make& make, Others&... others) {
     const auto sampler = make(std::uint64_t{7});
@@ -104,9 +106,9 @@ Report check_sampler_records(const Make& make, Others&... others) {
     return report;
 }
 
-/// Every VPL lies within `reach` metres of a triangle, lifted to the side that its normal names; a
-/// thousandth of the scene's size unless said otherwise. Takes time in proportion to VPLs times
-/// triangles.
+/// Every VPL lies within `reach` metres of a triangle. It is lifted to the side that its normal
+/// names; `reach` is a thousandth of the scene's size by default. Takes time in proportion to VPLs
+/// times triangles.
 template <Sampler S>
 Report check_vpl_places(const S& sampler, const WorldGeometry& geometry, float reach = 0.0f) {
     if (reach == 0.0f) reach = 1e-3f * geometry.bounds().diagonal();
@@ -148,8 +150,8 @@ Report check_sampler_light(const Make& make, const KnownLight& room, Bounces bou
     return report;
 }
 
-/// All axioms of Sampler, in a scene of known light that known_furnace() or, for samplers that
-/// bring direct light, known_squares() makes. Takes the time of 32 images of 16 x 16 luxels.
+/// All axioms of Sampler, in a scene of known light. known_furnace() makes it or, for samplers that
+/// bring direct light, known_squares(). Takes the time of 32 images of 16 x 16 luxels.
 template <class Make, Executor... Others>
 Report check_sampler(const Make& make, const KnownLight& room, Bounces bounces = {},
                      Others&... others) {

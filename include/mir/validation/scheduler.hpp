@@ -31,8 +31,8 @@ Image<Rgb> run_tiles(const S& scheduler, const In& in, const std::vector<TileInd
     return image;
 }
 
-/// Luxels of every other tile that differ from `wanted`, and luxels of the others that were
-/// written.
+/// Luxels of every other tile that differ, and luxels of the others that were written. They are
+/// compared with `wanted`.
 template <class S, class In>
 std::size_t wrong_luxels(const S& scheduler, const In& in, const Image<Rgb>& wanted) {
     const auto& tiles = in.gbuffer.tiles();
@@ -65,10 +65,10 @@ std::size_t luxels_by_order(const S& scheduler, const In& in) {
 
 }  // namespace detail
 
-/// The axioms of Scheduler, by the image that sched::Cpu makes of the same luxels, VPLs, visibility
-/// and shading, in every bit. Compile with -ffp-contract=off, or bits differ for other reasons. The
-/// G-buffer should have several tiles and ragged edges, and the VPLs should light a hundred luxels.
-/// A luxel that is stored twice with the same value is not noticed.
+/// The axioms of Scheduler, against the image of sched::Cpu, in every bit. Both see the same
+/// luxels, VPLs, visibility and shading. Compile with -ffp-contract=off, or bits differ for other
+/// reasons. The G-buffer should have several tiles and ragged edges, and the VPLs should light a
+/// hundred luxels. A luxel that is stored twice with the same value is not noticed.
 template <class S, TiledGBuffer G, VplSet P, Visibility V, Shading F>
 Report check_scheduler(const S& scheduler, const G& gbuffer, P vpls, V visibility, F shading) {
     const Inputs<G, P, V, F> in{gbuffer, vpls, visibility, shading};

@@ -12,8 +12,8 @@
 
 namespace mir::validation {
 
-/// Makes the surfaces of check_shading() for shadings that read mir's own: with these parameters of
-/// a Bsdf.
+/// Makes the surfaces of check_shading() for shadings that read mir's own surfaces. They have these
+/// parameters of a Bsdf.
 template <class Params>
 auto surfaces_with(const Params& params) {
     return [params](Vec3 normal, Vec3 wo) { return Surface<Params>{normal, wo, {}, params}; };
@@ -54,7 +54,8 @@ void expect_radiances(const F& shade, const MakeSurface& surface, Report& report
     expect_none(otherwise, "the same question has the same answer");
 }
 
-/// The VPL's colour multiplies what one of 1 W sr^-1 adds, channel by channel, to a relative 1e-5.
+/// The VPL's colour multiplies the effect of one of 1 W sr^-1. It does so channel by channel, to a
+/// relative 1e-5.
 template <Shading F, class MakeSurface>
 void expect_linear(const F& shade, const MakeSurface& surface, Report& report) {
     Random random = numbers(62);
@@ -96,7 +97,7 @@ void expect_nothing_skipped(const F& shade, const MakeSurface& surface, Report& 
                       std::to_string(out_of_reach) + " of 20000 values are not");
 }
 
-/// Told way and distance, it answers as if it had found them.
+/// Given offset and distance, it answers as if it had computed them.
 template <DistanceShading F, class MakeSurface>
 void expect_same_at_distance(const F& shade, const MakeSurface& surface, Report& report) {
     Random random = numbers(67);
@@ -104,8 +105,8 @@ void expect_same_at_distance(const F& shade, const MakeSurface& surface, Report&
     for (int i = 0; i < 20000; ++i) {
         const ShadedPlace at = random_shaded_place(random);
         const auto s = surface(at.normal, at.wo);
-        const Vec3 way = at.vpl.position - at.hit.position;
-        const Rgb told = shade.at_distance(at.hit, s, at.vpl, way, F::inverse_distance(way));
+        const Vec3 offset = at.vpl.position - at.hit.position;
+        const Rgb told = shade.at_distance(at.hit, s, at.vpl, offset, F::inverse_distance(offset));
         different += bits_of(told) == bits_of(shade(at.hit, s, at.vpl)) ? 0 : 1;
     }
     report.expect(different == 0, "at_distance() is the same in every bit",
@@ -145,10 +146,10 @@ Report check_shading(const F& shade, const MakeSurface& surface) {
     return report;
 }
 
-/// Closed form of shading by points without bound: J f cos cos / d^2 in double precision, to a
-/// relative `tolerance`, for `reflect(normal, wi, wo)`, which is f of the surfaces that `surface`
-/// makes, sr^-1. Pairs whose cosines are below 0.01, where directions of single precision are too
-/// coarse, are left out; so must be lobes that are narrower than the tolerance.
+/// Closed form of shading by points without bound: J f cos cos / d^2. In double precision, to a
+/// relative `tolerance`; `reflect(normal, wi, wo)` is f of the surfaces that `surface` makes,
+/// sr^-1. Pairs whose cosines are below 0.01, where directions of single precision are too coarse,
+/// are left out; so must be lobes that are narrower than the tolerance.
 template <Shading F, class MakeSurface, class Reflect>
 Report check_shading_by_closed_form(const F& shade, const MakeSurface& surface,
                                     const Reflect& reflect, double tolerance = 1e-4) {
@@ -172,9 +173,9 @@ Report check_shading_by_closed_form(const F& shade, const MakeSurface& surface,
     return report;
 }
 
-/// Reciprocity, which shading by points has where its surfaces have it, whatever their f is: viewer
-/// and VPL change places, and what arrives per cosine is the same to a relative `tolerance`. The
-/// VPL is `distance` metres away, where neither a bound nor a VPL's extent may matter.
+/// Reciprocity of shading by points, for surfaces that are reciprocal. When viewer and VPL change
+/// places, what arrives per cosine stays the same, to a relative `tolerance`. The VPL is `distance`
+/// metres away, where neither a bound nor a VPL's extent may matter.
 template <Shading F, class MakeSurface>
 Report check_shading_reciprocity(const F& shade, const MakeSurface& surface, float distance = 1.0f,
                                  double tolerance = 1e-4) {
@@ -203,8 +204,8 @@ Report check_shading_reciprocity(const F& shade, const MakeSurface& surface, flo
     return report;
 }
 
-/// Shading under a bound: never brighter than the same without, in any channel, by more than a
-/// relative 1e-6, the same for some pairs and darker for others.
+/// Shading under a bound is never brighter than without. In no channel by more than a relative
+/// 1e-6; it is the same for some pairs and darker for others.
 template <Shading F, Shading U, class MakeSurface>
 Report check_shading_bound(const F& bounded, const U& unbounded, const MakeSurface& surface) {
     Random random = detail::numbers(66);
@@ -233,7 +234,7 @@ Report check_shading_bound(const F& bounded, const U& unbounded, const MakeSurfa
     return report;
 }
 
-/// All axioms of Shading, its closed form and its reciprocity: for shading by points without bound.
+/// All axioms of Shading, its closed form and its reciprocity. For shading by points without bound.
 template <Shading F, class MakeSurface, class Reflect>
 Report check_shading(const F& shade, const MakeSurface& surface, const Reflect& reflect) {
     Report report;

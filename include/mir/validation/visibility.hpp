@@ -19,9 +19,9 @@ struct Segment {
     Vec3 b{0};  ///< the other end, metres
 };
 
-/// Barycentric margin below which single precision may see a segment either way, in units of 1e-4:
-/// four times as many as the scene lies of its own sizes from the origin, at least 1. Triangles
-/// that overlap by rounding do so by its unit there.
+/// Barycentric margin below which single precision may decide either way. In units of 1e-4: four
+/// times as many as the scene lies of its own sizes from the origin, at least 1. Triangles that
+/// overlap by rounding do so by its unit there.
 inline double doubt_of(const WorldGeometry& geometry) {
     const Bounds& box = geometry.bounds();
     const float farthest = larger(max_abs(box.low), max_abs(box.high));
@@ -54,7 +54,7 @@ inline bool expect_triangles(const WorldGeometry& geometry, Report& report) {
     return some;
 }
 
-/// Segments of which two answers differ.
+/// Segments with two different answers.
 struct Disagreements {
     double doubt;  ///< doubt_of() the geometry
     std::size_t all = 0;
@@ -65,7 +65,7 @@ struct Disagreements {
         sure += verdict.doubtful(1e-4 * doubt) ? 0 : 1;
     }
 
-    /// None may be sure, and one in a thousand of all `asked` in doubt, more by the same factor.
+    /// None may be sure, and one in a thousand of all `asked` in doubt. More by the same factor.
     void expect_few(std::size_t asked, const std::string& axiom, const std::string& how,
                     Report& report) const {
         const std::string of = " of " + std::to_string(asked) + " segments are judged " + how;
@@ -149,8 +149,8 @@ Report check_lifted_points(const V& visibility, const WorldGeometry& geometry,
     return report;
 }
 
-/// Axiom 3 of Visibility: four threads that ask at once get the answers that one gets. An exception
-/// of visible() is a finding on one of the four, and reaches the caller where only one asks.
+/// Axiom 3 of Visibility: four threads get the answers that one gets. An exception of visible() is
+/// a finding on one of the four, and reaches the caller where only one asks.
 template <Visibility V>
 Report check_concurrent_visibility(const V& visibility, const WorldGeometry& geometry) {
     Report report;
@@ -183,10 +183,10 @@ Report check_concurrent_visibility(const V& visibility, const WorldGeometry& geo
     return report;
 }
 
-/// All axioms of Visibility, for a model and the triangles that it knows: those of the program's
-/// own scene, or triangle_soup() of several scales and places. Brute force takes time in proportion
-/// to the triangles; a few hundred are enough. It takes triangles for whole, so the scene must have
-/// no alpha masks.
+/// All axioms of Visibility, for a model and the triangles it knows. Use those of the program's own
+/// scene, or triangle_soup() of several scales and places. Brute force takes time in proportion to
+/// the triangles; a few hundred are enough. It takes triangles for whole, so the scene must have no
+/// alpha masks.
 template <Visibility V>
 Report check_visibility(const V& visibility, const WorldGeometry& geometry) {
     Report report;

@@ -19,8 +19,8 @@ struct World {
     explicit World(Scene s) : scene(std::move(s)), geometry(scene) {}
 };
 
-/// `count` triangles with random corners, each in a cube of edge 0.5 inside [-1.25, 1.25]^3, then
-/// scaled and moved.
+/// `count` triangles with random corners, then scaled and moved. Before that each lies in a cube of
+/// edge 0.5 inside [-1.25, 1.25]^3.
 inline World triangle_soup(std::uint32_t count, std::uint64_t index, float scale = 1.0f,
                            Vec3 move = {0, 0, 0}) {
     Random random = detail::numbers(index);
@@ -38,7 +38,7 @@ inline World triangle_soup(std::uint32_t count, std::uint64_t index, float scale
     return World(std::move(scene));
 }
 
-/// A point on a random triangle, of which there must be one, seen from a random side.
+/// A point on a random triangle, seen from a random side. There must be a triangle.
 inline SurfacePoint random_surface_point(const WorldGeometry& geometry, Random& random) {
     const auto count = static_cast<float>(geometry.triangles().size());
     const auto triangle = static_cast<std::uint32_t>(random.next() * count);

@@ -20,10 +20,10 @@ namespace mir::detail {
                 shown_path(path) + ": the image cannot be read (" + reason + "); " + remedy);
 }
 
-/// Walks the attributes of an OpenEXR header (name, type, size and value of each) before OpenEXR
-/// does, which takes memory for whatever size they announce and, for types that it knows, reads as
-/// much as the type has, whatever the size.
-/// Source: OpenEXR file layout, "Header" and "Attribute types".
+/// Walks the attributes of an OpenEXR header before OpenEXR does. Each has a name, type, size and
+/// value. OpenEXR takes memory for whatever size they announce and, for types that it knows, reads
+/// as much as the type has, whatever the size. Source: OpenEXR file layout, "Header" and "Attribute
+/// types".
 class ExrAttributeWalk {
  public:
     ExrAttributeWalk(std::istream& stream, const std::filesystem::path& path,

@@ -25,7 +25,7 @@ inline std::uint64_t exr_expansion(Imf::Compression method) {
     return dwa ? 1u << 17 : 4096;
 }
 
-/// Bytes of a chunk that are taken for any file: writers code a flat row of many pixels in few
+/// Bytes of a chunk that are taken for any file. Writers code a flat row of many pixels in few
 /// bytes, and OpenEXR reads it into a chunk of many rows.
 inline constexpr std::uint64_t exr_free_chunk = 64ull << 20;
 
@@ -36,8 +36,8 @@ inline std::uint64_t exr_rows_of_chunk(Imf::Compression method) {
     return method == Imf::DWAB_COMPRESSION ? 256 : 32;
 }
 
-/// How a file is cut into parts that are compressed by themselves, those of the largest level if
-/// there are several. Each has a place in a table.
+/// How a file is cut into parts that are compressed by themselves. They are those of the largest
+/// level if there are several. Each has a place in a table.
 struct ExrChunks {
     std::uint64_t count;
     std::uint64_t pixels;  ///< of a whole one, or a row of tiles, beyond the image's edge too

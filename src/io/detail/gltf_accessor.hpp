@@ -104,8 +104,8 @@ T load_as(const unsigned char* bytes) {
     return value;
 }
 
-/// One component as a number; normalised integers are mapped to -1..1 or 0..1 as the
-/// specification says (3.6.2.2).
+/// One component as a number. Normalised integers are mapped to -1..1 or 0..1 as the specification
+/// says (3.6.2.2).
 inline float load_component(const unsigned char* bytes, int type, bool normalized) {
     const auto mapped = [normalized](float value, float most) {
         return normalized ? larger(value / most, -1.0f) : value;

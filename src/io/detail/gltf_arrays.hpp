@@ -20,7 +20,7 @@ Vec load_vector(const unsigned char* bytes, int type, bool normalized) {
     return value;
 }
 
-/// Overwrites the elements that a sparse accessor lists, each of `components` numbers, by what
+/// Overwrites the elements that a sparse accessor lists. Each has `components` numbers, which
 /// `element` makes of their bytes.
 template <class T, class Element>
 void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
@@ -72,8 +72,8 @@ std::vector<Vec> read_vectors(const tinygltf::Model& model, int index, const std
     return values;
 }
 
-/// The chosen vertices of an accessor that has one element for every vertex of its primitive.
-/// `what` names them, `user` whoever has them.
+/// The chosen vertices of an accessor. It has one element for every vertex of its primitive. `what`
+/// names them, `user` whoever has them.
 /// @throws Error(invalid_input) when there are more or fewer.
 template <class Vec>
 std::vector<Vec> read_vertices(const tinygltf::Model& model, int index, const VertexChoice& choice,

@@ -29,7 +29,7 @@ class GltfBuffers {
           limits_(limits),
           budget_(budget) {}
 
-    /// As many bytes as the buffer `index` announces; there may be more of them than that.
+    /// As many bytes as the buffer `index` announces. There may be more of them than that.
     /// @throws Error(invalid_input), Error(limit_exceeded)
     [[nodiscard]] Bytes load(const GltfValue& buffer, std::size_t index) {
         const std::string place = gltf_place("buffer", index, buffer.name());

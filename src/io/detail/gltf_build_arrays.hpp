@@ -63,7 +63,7 @@ int add_gltf_floats(tinygltf::Model& model, const std::vector<Element>& elements
         {TINYGLTF_COMPONENT_TYPE_FLOAT, types[floats - 1], TINYGLTF_TARGET_ARRAY_BUFFER});
 }
 
-/// Appends positions, of which there must be some, with the bounds that glTF wants for them.
+/// Appends one or more positions, with the bounds that glTF wants for them.
 inline int add_gltf_positions(tinygltf::Model& model, const std::vector<Vec3>& positions) {
     const int index = add_gltf_floats(model, positions);
     Bounds bounds;

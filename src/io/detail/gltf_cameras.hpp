@@ -65,8 +65,8 @@ inline Camera perspective_camera(const tinygltf::Camera& from, const std::string
     return camera;
 }
 
-/// Adds the camera `index`, its place to `places`, as placed by a node, or reports why it cannot be
-/// used.
+/// Adds the camera `index` and its place, as placed by a node. Or reports why it cannot be used;
+/// the place goes to `places`.
 /// @throws Error(invalid_input)
 inline void add_camera(const tinygltf::Model& model, int index, const PlacedNode& placed,
                        Scene& scene, Placements& places, SceneReport& report) {

@@ -49,7 +49,7 @@ inline double number_or(const tinygltf::Value& object, const char* key, double o
     return value.GetNumberAsDouble();
 }
 
-/// Whole number under `key`, -1 when it is missing or of another kind: no index is negative.
+/// Whole number under `key`, -1 when it is missing or of another kind. No index is negative.
 inline int index_under(const tinygltf::Value& object, const char* key) {
     return object.Has(key) && object.Get(key).IsInt() ? object.Get(key).GetNumberAsInt() : -1;
 }
@@ -62,7 +62,7 @@ inline std::uint16_t light_group_of(const tinygltf::Value& extras, const std::st
     return static_cast<std::uint16_t>(group);
 }
 
-/// Extensions that no picture shows: facts about the file, what a viewer does with a pointer, and
+/// Extensions that no picture shows. Facts about the file, what a viewer does with a pointer, and
 /// where animations lead, which stand still here.
 inline bool is_never_seen(std::string_view name) {
     return name == "KHR_xmp_json_ld" || name == "KHR_xmp" || name == "EXT_mesh_manifold" ||
@@ -75,7 +75,7 @@ inline void count_extension(const std::string& name, SceneReport& report) {
     if (!is_never_seen(name)) ++report.ignored[name];
 }
 
-/// Extensions that change nothing but the look of materials may be required: what of them is not
+/// Extensions that change nothing but the look of materials may be required. What of them is not
 /// supported is counted where it is used.
 inline bool can_read_extension(std::string_view name) {
     if (name == "KHR_texture_basisu") return false;

@@ -36,7 +36,7 @@ class GltfImages {
           report_(report),
           decoder_(limits, report) {}
 
-    /// Index into Scene::images; nothing, and counted once, when the file is missing or neither PNG
+    /// Index into Scene::images. Nothing, and counted once, when the file is missing or neither PNG
     /// nor JPEG.
     /// @throws Error(invalid_input) when it is broken; Error(limit_exceeded) before it is decoded.
     [[nodiscard]] std::optional<std::uint32_t> find(int index, const std::string& user) {

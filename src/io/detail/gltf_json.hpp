@@ -19,7 +19,7 @@ namespace mir::detail {
 
 using Json = nlohmann::json;
 
-/// Extensions of which more than the name is read.
+/// Extensions that are read beyond their name.
 inline bool is_read_extension(std::string_view name) {
     constexpr std::array<std::string_view, 8> known = {"EXT_mesh_gpu_instancing",
                                                        "KHR_lights_punctual",
@@ -32,8 +32,8 @@ inline bool is_read_extension(std::string_view name) {
     return std::find(known.begin(), known.end(), name) != known.end();
 }
 
-/// Builds the values of a glTF file that something may be read from, as nlohmann's parser meets
-/// them, and counts them. Everything else, most of `extras`, the inside of animations and of
+/// Builds and counts the values of a glTF file, for nlohmann's parser. They are those that
+/// something may be read from. Everything else, most of `extras`, the inside of animations and of
 /// unknown extensions, takes no memory, whatever its size.
 class GltfJsonBuilder {
  public:
@@ -136,7 +136,7 @@ inline Json* GltfJsonBuilder::slot(bool is_object) {
     return &parent.back();
 }
 
-/// Structures that are made of an element of a list are larger than its JSON: an empty material
+/// Structures that are made of an element of a list are larger than its JSON. An empty material
 /// takes two kilobytes.
 inline void GltfJsonBuilder::count(bool is_object) {
     std::uint64_t cost = 1;
@@ -194,7 +194,7 @@ inline bool GltfJsonBuilder::key(std::string& name) {
     return true;
 }
 
-/// The parser's complaint, with the place in the text and nothing that a terminal could obey.
+/// The parser's complaint, with the place in the text, safe for terminals.
 inline bool GltfJsonBuilder::parse_error(std::size_t position, const std::string&,
                                          const nlohmann::detail::exception& why) {
     // The last character that was read is the one that is wrong.

@@ -49,7 +49,7 @@ inline Rgb light_strength(const tinygltf::Light& light, const std::string& place
     return {channel(0), channel(1), channel(2)};
 }
 
-/// Cosine of an angle of 0..pi/2 radians, as the sine of the rest: exactly 0 at a right angle.
+/// Cosine of an angle of 0..pi/2 radians, as the sine of the rest. Exactly 0 at a right angle.
 inline float cone_cosine(double angle) {
     return static_cast<float>(std::sin(0.5 * 3.14159265358979323846 - angle));
 }

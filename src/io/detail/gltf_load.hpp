@@ -28,7 +28,7 @@ inline void parse_asset(const GltfDocument& document, tinygltf::Model& model) {
     check_version_and_extensions(model);
 }
 
-/// The JSON of a file, and in `binary` its binary chunk; its other bytes are let go.
+/// The JSON of a file, and in `binary` its binary chunk. Its other bytes are let go.
 inline Json read_gltf_json(const std::filesystem::path& path, const Limits& limits,
                            FileBudget& budget, SceneReport& report, std::optional<Bytes>& binary) {
     Bytes bytes = read_whole_file(path, budget);

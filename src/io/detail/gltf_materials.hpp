@@ -11,7 +11,7 @@
 
 namespace mir::detail {
 
-/// Converts the materials of one file and counts what they ask for and do not get.
+/// Converts the materials of a file and counts what they do not get.
 class GltfMaterials {
  public:
     GltfMaterials(const tinygltf::Model& model, GltfImages& images, SceneReport& report)
@@ -103,7 +103,7 @@ class GltfMaterials {
         ignore("KHR_materials_ior of 0 (taken as 1.5)");
     }
 
-    /// Diffuse colour and glossiness carry over; the coloured reflectance at normal incidence has
+    /// Diffuse colour and glossiness carry over. The coloured reflectance at normal incidence has
     /// no place in a metallic-roughness dielectric.
     void specular_glossiness(const tinygltf::Value& from, Material& to) {
         to.metallic = 0.0f;

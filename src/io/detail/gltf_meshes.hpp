@@ -19,11 +19,11 @@
 
 namespace mir::detail {
 
-/// Turns the primitives of a file into meshes of a scene whose materials are already there.
+/// Turns the primitives of a file into meshes of a scene. Its materials are already there.
 class GltfMeshes {
  public:
-    /// `coordinates`: for every material of the file the set of texture coordinates that it uses,
-    /// -1 for none.
+    /// `coordinates`: the set of texture coordinates of each material, -1 for none. Materials are
+    /// those of the file.
     GltfMeshes(const tinygltf::Model& model, const std::vector<int>& coordinates,
                const Limits& limits, Scene& scene, SceneReport& report)
         : model_(model),
@@ -32,7 +32,7 @@ class GltfMeshes {
           scene_(scene),
           report_(report) {}
 
-    /// For every mesh of the file, the scene meshes of its primitives; none for those that no node
+    /// For every mesh of the file, the scene meshes of its primitives. None for those that no node
     /// has as they are stored, which `is_plain` tells.
     /// @throws Error(invalid_input), Error(limit_exceeded)
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> convert_all(
@@ -82,7 +82,7 @@ class GltfMeshes {
         scene_.meshes.push_back(std::move(mesh));
     }
 
-    /// Bounds the memory of a mesh before any of it is taken: a small file can ask for much, by
+    /// Bounds the memory of a mesh before any of it is taken. A small file can ask for much, by
     /// primitives that share accessors.
     void reserve(std::size_t m) {
         const tinygltf::Mesh& mesh = model_.meshes[m];

@@ -20,7 +20,8 @@ namespace mir::detail {
 /// with weights of morph targets of its own, or with a skin, gets meshes of its own shape.
 class GltfNodeMeshes {
  public:
-    /// Converts every mesh that some node has as it is stored, or none has. All must outlive this.
+    /// Converts every mesh that a node has in its stored form, or that none has. All must outlive
+    /// this.
     GltfNodeMeshes(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes,
                    const std::vector<int>& coordinates, const Limits& limits, LoadedScene& loaded)
         : model_(model),

@@ -19,7 +19,7 @@ namespace mir::detail {
 struct PlacedNode {
     std::size_t node = 0;
     DMat4 to_world{1.0};
-    /// Turns what has an orientation but no size, a light or a camera: rotations of this node and
+    /// Turns what has an orientation but no size, a light or a camera. Rotations of this node and
     /// of those above, whose scale tilts and mirrors it. The node's own scale does not count.
     DMat4 turn{1.0};
     bool is_visible = true;  ///< false: it has no meshes and lights, but its camera
@@ -53,7 +53,7 @@ std::array<double, count> numbers_or(const std::vector<double>& given,
     return otherwise;
 }
 
-/// Translation x rotation x scale, the rotation as a quaternion (x, y, z, w) of any length.
+/// Translation x rotation x scale. The rotation is a quaternion (x, y, z, w) of any length.
 inline DMat4 compose(const std::array<double, 3>& t, const std::array<double, 4>& q,
                      const std::array<double, 3>& s, const std::string& place) {
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -84,7 +84,7 @@ inline std::array<double, 3> scale_of_turns(std::array<double, 3> s) {
     return s;
 }
 
-/// Transform of a node to its parent, with `scale` in place of its own unless it has a matrix.
+/// Transform of a node to its parent, with `scale` instead of its own. A matrix is taken whole.
 inline DMat4 node_transform(const tinygltf::Node& node, const std::array<double, 3>& scale,
                             const std::string& place) {
     if (node.matrix.empty())
@@ -142,7 +142,7 @@ inline std::vector<int> node_parents(const tinygltf::Model& model) {
     return parents;
 }
 
-/// Roots of the scene to show: the default one, else the first one, else every root node.
+/// Roots of the scene to show. The default one, else the first one, else every root node.
 inline std::vector<std::size_t> scene_roots(const tinygltf::Model& model, SceneReport& report) {
     const std::vector<int> parents = node_parents(model);
     std::vector<std::size_t> roots;
@@ -171,7 +171,7 @@ inline std::vector<std::size_t> scene_roots(const tinygltf::Model& model, SceneR
     return roots;
 }
 
-/// Every node of the scene to show, parents before children, in the order of the file's lists.
+/// Every node of the scene to show, parents before children. In the order of the file's lists.
 inline std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model, SceneReport& report) {
     const std::vector<std::size_t> roots = scene_roots(model, report);
     std::vector<PlacedNode> open;

@@ -23,8 +23,8 @@ void make_named_list(const GltfDocument& document, const char* kind, std::vector
     for (std::size_t i = 0; i < list.size(); ++i) list[i].name = document.element(kind, i).name();
 }
 
-/// Gives the lists of `model` their lengths, and names to those elements that a picture knows even
-/// when it does not need them; returns it.
+/// Gives the lists of `model` their lengths, and names to some elements. These are the ones that a
+/// picture knows even when it does not need them; returns it.
 inline tinygltf::Model& make_lists(const GltfDocument& document, tinygltf::Model& model) {
     make_named_list(document, "node", model.nodes);
     make_named_list(document, "mesh", model.meshes);
@@ -44,7 +44,7 @@ inline tinygltf::Model& make_lists(const GltfDocument& document, tinygltf::Model
     return model;
 }
 
-/// Fills tinygltf's structures from the JSON of a file: what can be reached from the scene that is
+/// Fills tinygltf's structures from the JSON of a file. What can be reached from the scene that is
 /// shown, of the types that glTF asks for; the rest as far as it is in order. So a file is refused
 /// for nothing that its picture does not need.
 class GltfParser {
@@ -238,7 +238,7 @@ inline void GltfParser::use_weights(const tinygltf::Node& node, std::size_t i) {
     if (std::any_of(weights.begin(), weights.end(), is_set)) morphed_[mesh] = 1;
 }
 
-/// A skin that cannot be used is no reason to refuse a picture: its mesh stands as it is stored.
+/// A skin that cannot be used is no reason to refuse a picture. Its mesh stands as stored.
 inline void GltfParser::use_skin(const GltfValue& from, tinygltf::Node& node) {
     const auto given = from.find("skin");
     if (!given) return;
@@ -254,7 +254,7 @@ inline void GltfParser::use_skin(const GltfValue& from, tinygltf::Node& node) {
     });
 }
 
-/// Meshes and materials that no node of the scene has: kept where they are in order.
+/// Meshes and materials that no node of the scene has. Kept where they are in order.
 inline void GltfParser::parse_the_rest() {
     for (std::size_t i = 0; i < meshes_.size(); ++i)
         if (meshes_[i] == 0 && !tolerates([&] { use_mesh(i); })) model_.meshes[i].primitives = {};

@@ -122,7 +122,7 @@ inline tinygltf::Sampler parse_sampler(const GltfValue& from) {
     return to;
 }
 
-/// An image; what a data URI holds stands in its bytes then, and it has no URI.
+/// An image. What a data URI holds stands in its bytes then, and it has no URI.
 inline tinygltf::Image parse_image(const GltfDocument& document, const GltfValue& from,
                                    std::size_t index) {
     tinygltf::Image to;

@@ -89,7 +89,7 @@ inline std::map<std::string, int> parse_attributes(const GltfDocument& document,
     return to;
 }
 
-/// A primitive of triangles with positions, as far as every one is drawn; of others what tells why
+/// A primitive of triangles with positions, as far as every one is drawn. Of others what tells why
 /// they are not.
 inline void parse_primitive(const GltfDocument& document, const GltfValue& from,
                             tinygltf::Primitive& to) {

@@ -68,7 +68,7 @@ inline tinygltf::Value parse_node_extension(const GltfDocument& document, const 
     return tinygltf::Value(std::move(to));
 }
 
-/// Everything of a node but its children, its skin and the weights of its morph targets.
+/// Everything of a node except its children, skin and morph weights.
 inline void parse_node(const GltfDocument& document, const GltfValue& from, tinygltf::Node& to) {
     take(from, "matrix", 16, to.matrix);
     if (to.matrix.empty()) {

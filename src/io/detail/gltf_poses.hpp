@@ -16,7 +16,7 @@
 
 namespace mir::detail {
 
-/// Tells how the meshes of nodes are shaped in the scene as it stands, at rest.
+/// Tells how the meshes of nodes are shaped at rest. That is how the scene stands.
 class GltfPoses {
  public:
     /// Both must outlive this.
@@ -32,7 +32,7 @@ class GltfPoses {
         return weights;
     }
 
-    /// The shape of a node's mesh that its skin gives; none when it has none that can be used.
+    /// The shape of a node's mesh that its skin gives. None when it has none that can be used.
     [[nodiscard]] std::optional<GltfShape> skinned(const tinygltf::Node& node) const {
         if (node.skin < 0 || !has_joints(node)) return std::nullopt;
         const tinygltf::Skin& skin = model_.skins[static_cast<std::size_t>(node.skin)];

@@ -40,8 +40,8 @@ inline void check_material_references(const GltfDocument& document, const GltfVa
         check(*surface, {"baseColorTexture", "metallicRoughnessTexture"});
 }
 
-/// Numbers that name nothing make a file worth less than it seems, even where its picture does not
-/// need them: most often it was cut or put together wrongly.
+/// Refuses numbers that name nothing, even where a picture does not need them. Most often such a
+/// file was cut or put together wrongly.
 /// @throws Error(invalid_input)
 inline void check_references(const GltfDocument& document) {
     const auto for_each = [&](const char* kind, const auto& check) {

@@ -18,8 +18,8 @@ class GltfTextures {
     GltfTextures(const tinygltf::Model& model, GltfImages& images, SceneReport& report)
         : model_(model), images_(images), report_(report) {}
 
-    /// The texture `index` with the extensions of its use, and the set of coordinates that it
-    /// wants. No texture, and counted, when its image cannot be had.
+    /// The texture `index`, its extensions, and its set of coordinates. Extensions are those of its
+    /// use. No texture, and counted, when its image cannot be had.
     /// @throws Error(invalid_input) on an index or a number that means nothing.
     [[nodiscard]] Texture convert(const std::string& name, int index, int set,
                                   const tinygltf::ExtensionMap& extensions,
@@ -65,7 +65,7 @@ inline Texture GltfTextures::convert(const std::string& name, int index, int set
     return to;
 }
 
-/// Source: Khronos, KHR_texture_transform: scaled, then turned counter-clockwise as the image is
+/// Source: Khronos, KHR_texture_transform. Scaled, then turned counter-clockwise as the image is
 /// seen (its v runs downwards), then shifted.
 inline void GltfTextures::transform(const tinygltf::Value& from, const std::string& place,
                                     Texture& to, int& set) {

@@ -12,7 +12,7 @@
 
 namespace mir::detail {
 
-/// Vertex colours where a Scene has no place for them: the emission of unlit materials and the
+/// Vertex colours where a Scene has no place for them. The emission of unlit materials and the
 /// alpha of masks. One that is the same all over a mesh goes into a material of its own, others are
 /// counted.
 class GltfTints {

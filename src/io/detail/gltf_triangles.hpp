@@ -35,8 +35,8 @@ inline std::vector<TriangleIndices> gltf_triangles(const std::vector<std::uint32
     return triangles;
 }
 
-/// Which vertices of its accessors a primitive has: exporters let many primitives share accessors,
-/// and each of them shall not hold all of these.
+/// Which vertices of its accessors a primitive has. Exporters let many primitives share accessors,
+/// and none of them should hold all of these.
 struct VertexChoice {
     std::uint64_t all = 0;              ///< vertices of the accessors
     std::vector<std::uint32_t> chosen;  ///< in their order; empty: all

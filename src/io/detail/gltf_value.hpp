@@ -34,14 +34,14 @@ inline std::string json_kind(const Json& json) {
     }
 }
 
-/// A name, which is for people alone: of another type it is as good as none.
+/// A name, which is for people alone. Of another type it is as good as none.
 inline std::string json_name(const Json& json) {
     if (!json.is_object()) return {};
     const auto found = json.find("name");
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// A value of the file's JSON and the way to it. Asks for the type that the caller needs and
+/// A value of the file's JSON and the path to it. Asks for the type that the caller needs and
 /// complains with the whole path. The JSON must outlive it.
 class GltfValue {
  public:
@@ -134,13 +134,13 @@ class GltfValue {
     }
 
  private:
-    /// A key, an element of an array, or a place of its own, which has `named`.
+    /// A key, an element of an array, or a place with `named`.
     struct Step {
         const char* name = nullptr;
         std::size_t index = 0;
         const Json* named = nullptr;
     };
-    struct Way {
+    struct Location {
         std::string place;  ///< "node 3 'lamp'"
         std::string path;   ///< "translation[0]"
     };
@@ -153,28 +153,28 @@ class GltfValue {
         return next;
     }
 
-    [[nodiscard]] Way where(std::size_t count) const;
+    [[nodiscard]] Location where(std::size_t count) const;
 
     const Json* json_;
     std::array<Step, 10> steps_;  ///< more than the deepest property that is read
     std::size_t count_ = 0;
 };
 
-inline GltfValue::Way GltfValue::where(std::size_t count) const {
-    Way way;
+inline GltfValue::Location GltfValue::where(std::size_t count) const {
+    Location at;
     for (std::size_t i = 0; i < count; ++i) {
         const Step& step = steps_[i];
         if (step.named != nullptr) {
-            way.place += (way.place.empty() ? "" : ", ") +
-                         gltf_place(step.name, step.index, json_name(*step.named));
-            way.path.clear();
+            at.place += (at.place.empty() ? "" : ", ") +
+                        gltf_place(step.name, step.index, json_name(*step.named));
+            at.path.clear();
         } else if (step.name != nullptr) {
-            way.path += (way.path.empty() ? "" : ".") + std::string(step.name);
+            at.path += (at.path.empty() ? "" : ".") + std::string(step.name);
         } else {
-            way.path += "[" + std::to_string(step.index) + "]";
+            at.path += "[" + std::to_string(step.index) + "]";
         }
     }
-    return way;
+    return at;
 }
 
 inline std::vector<double> GltfValue::numbers(std::size_t count) const {
@@ -220,7 +220,7 @@ inline int GltfValue::index(const char* kind, std::size_t count) const {
         return static_cast<int>(given);
     const Step& last = steps_[count_ - 1];
     const bool is_element = last.name == nullptr && count_ > 1;
-    const Way parent = where(is_element ? count_ - 2 : count_ - 1);
+    const Location parent = where(is_element ? count_ - 2 : count_ - 1);
     const std::string own =
         is_element ? steps_[count_ - 2].name + ("[" + std::to_string(last.index) + "]") : last.name;
     std::string place = parent.place;

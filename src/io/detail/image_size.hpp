@@ -45,8 +45,8 @@ inline ImageSize png_size(ByteSpan bytes) {
     return {png_number(bytes, 16), png_number(bytes, 20)};
 }
 
-/// Refuses a PNG image of which a chunk announces more bytes than there are: the decoder takes
-/// memory for them before it looks. Source: W3C, PNG specification, 5.3 (chunks).
+/// Refuses a PNG image with a chunk larger than the file. The decoder takes memory for it before it
+/// looks. Source: W3C, PNG specification, 5.3 (chunks).
 /// @throws Error(invalid_input)
 inline void check_png_chunks(ByteSpan bytes, const std::string& place) {
     constexpr std::size_t mark = 8;

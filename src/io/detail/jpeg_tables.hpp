@@ -10,9 +10,9 @@
 
 namespace mir::detail {
 
-/// Refuses a segment of Huffman tables of which one has more codes than JPEG knows: stb_image,
-/// before its version 2.27, writes them past the end of its own table.
-/// `at`: the first byte behind the mark.
+/// Refuses Huffman tables with more codes than JPEG knows. stb_image, before its version
+/// 2.27, writes them past the end of its own table. `at`: the first byte behind the
+/// mark.
 inline void check_huffman_tables(std::span<const unsigned char> bytes, std::size_t at,
                                  const std::string& place) {
     constexpr std::size_t most = 256;

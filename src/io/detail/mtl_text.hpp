@@ -51,7 +51,7 @@ class MtlText {
  public:
     explicit MtlText(std::string library) : library_(std::move(library)) {}
 
-    /// The materials in their order, each name once, with their failures, which are of no matter
+    /// The materials in their order, each name once, with their failures. A failure is of no matter
     /// until a face has the material. `text` has plain_lines().
     [[nodiscard]] std::vector<MtlMaterial> read(const std::string& text);
 

@@ -25,14 +25,14 @@
 
 namespace mir::detail {
 
-/// Roughness whose GGX lobe is as wide as a Phong lobe of the given exponent: alpha^2 =
-/// 2 / (exponent + 2). Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction
+/// Roughness whose GGX lobe is as wide as a Phong lobe. With the given exponent alpha^2 = 2 /
+/// (exponent + 2). Source: Walter, Marschner, Li, Torrance, "Microfacet models for refraction
 /// through rough surfaces", EGSR 2007, section 5.2.
 inline float roughness_of_phong(float exponent) {
     return std::sqrt(std::sqrt(2.0f / (exponent + 2.0f)));
 }
 
-/// The names in a list between blanks; a backslash before a blank makes it a part of the name.
+/// The names in a list between blanks. A backslash before a blank makes it a part of the name.
 inline std::vector<std::string> library_names(std::string_view list) {
     std::vector<std::string> names;
     bool open = false;
@@ -62,14 +62,14 @@ class ObjMaterials : public tinyobj::MaterialReader {
           report_(report),
           textures_(folder, budget, limits, scene, report) {}
 
-    /// Called by tinyobjloader for the first name behind `mtllib`: reads all libraries named there,
+    /// Called by tinyobjloader for the first name behind `mtllib`. Reads all libraries named there,
     /// or the one whose name has blanks. True: no other names need to be tried.
     /// @throws Error(invalid_input) when one lies outside of the folder.
     bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                     std::map<std::string, int>* by_name, std::string* warning,
                     std::string* error) override;
 
-    /// Material of the scene; nothing when no library has one of this name, which is counted.
+    /// Material of the scene. Nothing when no library has one of this name, which is counted.
     [[nodiscard]] std::optional<std::uint32_t> find(const std::string& name) {
         const auto found = indices_.find(trimmed(name));
         if (found != indices_.end()) return found->second;
@@ -202,7 +202,7 @@ inline Material ObjMaterials::convert(MtlMaterial& from) {
     return to;
 }
 
-/// Ks weighs a dielectric interface, Ns or Pr roughens it; with Pr or Pm alone it is a whole one.
+/// Ks weighs a dielectric interface, Ns or Pr roughens it. With Pr or Pm alone it is a whole one.
 inline void ObjMaterials::interface_of(MtlMaterial& from, Material& to) {
     const auto model = from.find("illum");
     const bool matte = model && ((*model)[0] == 0.0f || (*model)[0] == 1.0f);
@@ -242,7 +242,7 @@ inline void ObjMaterials::textures_of(const MtlMaterial& from, Material& to) {
     if (t.normal.is_set()) t.normal_scale = from.images.find("norm")->second.bump;
 }
 
-/// Counts a material once that light is meant to go through: by its opacity, by a filter that is
+/// Counts a material once that light is meant to go through. By its opacity, by a filter that is
 /// not white, which exporters write for none, or by a model of glass. `d` counts before `Tr`. A
 /// model of surfaces that only catch shadows counts as well.
 inline void ObjMaterials::note_transparency(MtlMaterial& from) {

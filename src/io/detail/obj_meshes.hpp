@@ -41,7 +41,7 @@ class ObjMeshes {
     /// What use_material() was given last.
     [[nodiscard]] std::optional<std::uint32_t> given_material() const { return material_; }
 
-    /// True when a face of so many corners is one; others are left out and counted.
+    /// True when a face of so many corners is one. Others are left out and counted.
     [[nodiscard]] static bool is_face(std::size_t corners) { return corners >= 3; }
 
     /// @throws Error(invalid_input), Error(limit_exceeded)
@@ -171,7 +171,7 @@ inline std::uint32_t ObjMeshes::vertex_of(Part& part, const Corner& corner) {
     return next;
 }
 
-/// A face is smooth when all of its corners have normals: with some alone it would be bent towards
+/// A face is smooth when all of its corners have normals. With some alone it would be bent towards
 /// no direction at the others.
 inline void ObjMeshes::settle_normals() {
     const auto has_none = [](const Corner& corner) { return corner.normal < 0; };

@@ -90,9 +90,9 @@ inline ObjText::int_type ObjText::underflow() {
     return traits_type::to_int_type(text_[begin]);
 }
 
-/// Checks the statement between two places of the text and blanks what tinyobjloader is not to
-/// read: a comment behind a face, and numbers that are read here, for it overflows at long
-/// exponents.
+/// Checks a statement and blanks what tinyobjloader is not to read. It lies between two places of
+/// the text. Blanked are a comment behind a face, and numbers that are read here, for it overflows
+/// at long exponents.
 inline void ObjText::check(std::size_t begin, std::size_t end) {
     const std::string_view whole(text_.data() + begin, end - begin);
     const std::string_view word = keyword_of(whole);
@@ -170,8 +170,8 @@ inline void ObjText::texture_coordinate(std::string_view numbers) {
     texture_coordinates_.emplace_back(n[0], n[1]);
 }
 
-/// Checks the corners of a face, which begin at a place of the text, and takes off slashes with
-/// nothing behind: there tinyobjloader would read on into the next corner.
+/// Checks the corners of a face and removes slashes with nothing behind. They begin at a place of
+/// the text; tinyobjloader would read on into the next corner.
 inline void ObjText::corners(std::size_t begin, std::string_view words) {
     for_each_word(words, [&](std::string_view word) {
         check_corner(word);
@@ -182,7 +182,7 @@ inline void ObjText::corners(std::size_t begin, std::string_view words) {
     });
 }
 
-/// A corner is a whole number and up to two more behind slashes, where nothing stands for none.
+/// A corner: a whole number and up to two more behind slashes. Nothing stands for none.
 inline void ObjText::check_corner(std::string_view word) const {
     constexpr std::size_t most_digits = 9;
     const auto is_index = [](std::string_view field) {

@@ -14,7 +14,7 @@
 
 namespace mir::detail {
 
-/// What stands behind a keyword like map_Kd: an image and how it lies on the surface.
+/// What stands behind a keyword like map_Kd. An image and how it lies on the surface.
 struct ObjTextureUse {
     std::string file;     ///< as the library names it, with slashes
     std::string place;    ///< line of the library, for messages
@@ -32,7 +32,7 @@ struct ObjTextureOption {
     std::size_t most;
 };
 
-/// The option that `word` is; nullptr when it is none, but the beginning of a file's name.
+/// The option that `word` is. Nullptr when it is none, but the beginning of a file's name.
 inline const ObjTextureOption* obj_texture_option(std::string_view word) {
     static constexpr std::array<ObjTextureOption, 13> options = {{{"-blendu", 1, 1},
                                                                   {"-blendv", 1, 1},
@@ -60,7 +60,7 @@ inline std::string_view take_word(std::string_view& line) {
     return word;
 }
 
-/// Takes the values of an option off `line`; where their number is free those that are numbers.
+/// Takes the values of an option off `line`. Where their number is free those that are numbers.
 inline std::vector<std::string_view> take_values(const ObjTextureOption& option,
                                                  std::string_view& line) {
     std::vector<std::string_view> values;
@@ -76,7 +76,7 @@ inline std::vector<std::string_view> take_values(const ObjTextureOption& option,
     return values;
 }
 
-/// Reads what follows `keyword` in a material library: options, then a file's name, which may hold
+/// Reads what follows `keyword` in a material library. Options, then a file's name, which may hold
 /// blanks; an empty one where there is none. Options that change the picture and are not read are
 /// counted.
 /// @throws Error(invalid_input)

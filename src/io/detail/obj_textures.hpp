@@ -32,7 +32,7 @@ class ObjTextures {
     /// Images are looked for in the folder of this library from now on.
     void begin_library(const std::filesystem::path& library) { library_ = library.parent_path(); }
 
-    /// The texture of a use; none, and its image counted once, when it cannot be had.
+    /// The texture of a use. None, and its image counted once, when it cannot be had.
     /// @throws Error(invalid_input) when the image is broken; Error(limit_exceeded) before it is
     /// decoded.
     [[nodiscard]] Texture find(const ObjTextureUse& use);
@@ -85,7 +85,7 @@ inline ObjTextures::Index ObjTextures::image(const ObjTextureUse& use) {
     return at->second = image ? add(std::move(*image)) : Index();
 }
 
-/// Meshes count v from the top, MTL from the bottom: its 1 - (s (1 - v) + o) is s v + 1 - s - o.
+/// Meshes count v from the top, MTL from the bottom. Its 1 - (s (1 - v) + o) is s v + 1 - s - o.
 inline Texture texture_laid(const ObjTextureUse& use, std::uint32_t image) {
     Texture to;
     to.image = image;
@@ -106,7 +106,7 @@ inline bool has_holes(const TextureImage& image) {
                        [](std::uint32_t texel) { return texel >> 24 != 0xff; });
 }
 
-/// 8 bits of the channel that -imfchan names: without one alpha where the image has any, else how
+/// 8 bits of the channel that -imfchan names. Without one alpha where the image has any, else how
 /// bright it is.
 inline std::uint32_t mask_value(std::uint32_t texel, char channel, bool has_alpha) {
     const auto byte = [&](std::uint32_t k) { return texel >> 8 * k & 0xff; };

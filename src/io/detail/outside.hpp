@@ -11,7 +11,7 @@
 namespace mir::detail {
 
 /// `path` without links, as far as it exists. What cannot be followed (a loop of links, a name that
-/// is too long) cannot be opened either: it is taken as it is written.
+/// is too long) cannot be opened either: it is taken as written.
 inline std::filesystem::path resolved(const std::filesystem::path& path) {
     namespace fs = std::filesystem;
     std::error_code failure;
@@ -23,8 +23,8 @@ inline std::filesystem::path resolved(const std::filesystem::path& path) {
     return failure ? whole.lexically_normal() : followed;
 }
 
-/// True when `file`, relative to `folder` or absolute, does not lie in `folder` or below it, links
-/// followed. A scene from a stranger has no business elsewhere on the machine.
+/// True when `file` does not lie in `folder` or below, links followed. It is relative to `folder`
+/// or absolute. A scene from a stranger has no business elsewhere on the machine.
 inline bool leads_outside(const std::filesystem::path& folder, const std::filesystem::path& file) {
     // The system would see the name up to its zero alone; a drive is Windows' absolute name.
     const std::string name = file.string();

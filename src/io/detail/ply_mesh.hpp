@@ -17,7 +17,7 @@
 
 namespace mir::detail {
 
-/// The code of a full channel: colours are whole numbers of 8 or 16 bits, or shares.
+/// The code of a full channel. Colours are whole numbers of 8 or 16 bits, or shares.
 constexpr double ply_white(PlyType type) {
     if (type == PlyType::float32 || type == PlyType::float64) return 1.0;
     return ply_size(type) == 2 ? 65535.0 : 255.0;

@@ -16,7 +16,7 @@
 
 namespace mir::detail {
 
-/// A complaint about the element that is being read: its place is put in front where it is known,
+/// A complaint about the element that is being read. Its place is put in front where it is known,
 /// for naming every element takes longer than reading it.
 [[noreturn]] inline void fail_here(const std::string& problem) { fail_at("", problem); }
 

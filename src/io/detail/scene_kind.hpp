@@ -50,7 +50,7 @@ inline std::string first_bytes(const std::filesystem::path& path) {
     return bytes;
 }
 
-/// The reader that a file asks for by the ending of its name, or by its first bytes where that says
+/// The reader for the ending of a file's name, or its first bytes. Bytes decide where the name says
 /// nothing. What is neither is left to the reader of glTF, which says what is wrong.
 /// @throws Error(unsupported) for files of other programs.
 inline SceneKind scene_kind(const std::filesystem::path& path) {

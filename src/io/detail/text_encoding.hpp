@@ -49,7 +49,7 @@ inline std::string utf16_to_utf8(const Bytes& bytes, bool big_endian) {
     return text;
 }
 
-/// The text of a file as its byte order mark says: UTF-16 is converted, everything else kept.
+/// The text of a file as its byte order mark says. UTF-16 is converted, everything else kept.
 inline std::string text_of(const Bytes& bytes) {
     const std::size_t n = bytes.size();
     if (n >= 2 && bytes[0] == 0xfe && bytes[1] == 0xff) return utf16_to_utf8(bytes, true);

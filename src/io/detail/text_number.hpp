@@ -12,8 +12,8 @@
 
 namespace mir::detail {
 
-/// The number that `token` begins with, in the notation of C without hexadecimals, and the
-/// characters behind it.
+/// The number that `token` begins with, and the characters behind it. In the notation of C without
+/// hexadecimals.
 struct LeadingNumber {
     double value = 0.0;
     std::string_view rest;

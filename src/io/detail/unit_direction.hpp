@@ -11,8 +11,8 @@ inline Vec3 times_power_of_two(Vec3 v, int exponent) {
     return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
 }
 
-/// The power of two that brings the length of `v`, which has one, between 0.7 and 1.5. Multiplying
-/// by it rounds nothing: a unit vector below a node of scale 2^k comes back in every bit, and no
+/// The power of two that brings `v`'s length between 0.7 and 1.5. It has a length. Multiplying by
+/// it rounds nothing: a unit vector below a node of scale 2^k comes back in every bit, and no
 /// square of what is left vanishes or overflows.
 inline int exponent_to_unit(Vec3 v) {
     int exponent = 0;

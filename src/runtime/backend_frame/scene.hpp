@@ -42,7 +42,7 @@ template <Backend M, Bsdf B>
 const KdTree& BackendFrame<M, B>::host_tree() {
     if (!host_tree_) {
         const auto stage = job_.clock.measure(&StageSeconds::build);
-        host_tree_.emplace(make_tree_());
+        host_tree_ = make_tree_();
     }
     return *host_tree_;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mir/compare/comparable.hpp"
+#include "mir/film/filter.hpp"
 #include "mir/io/html_page.hpp"
+#include "render_facts.hpp"
 #include "render_output.hpp"
 #include "report/sections.hpp"
 #include "text.hpp"
@@ -138,7 +140,7 @@ std::string scene_section(const ReportInput& in) {
     const mir::DVec3 origin = in.loaded.scene.origin;
     if (origin != mir::DVec3(0.0)) rows.push_back({"origin of positions", place(origin) + " m"});
     for (const auto& [what, times] : r.ignored)
-        rows.push_back({"ignored", what + " (" + std::to_string(times) + ")"});
+        rows.push_back({"ignored", ignored_text(what, times)});
     for (const std::string& note : r.notes) rows.push_back({"note", note});
     return "<h2>Scene</h2>\n" + mir::detail::html_table({"What the scene holds", {}, rows});
 }

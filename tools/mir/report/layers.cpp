@@ -34,7 +34,7 @@ std::string png_of(const mir::Image<mir::Rgb>& image, const mir::PreviewLook& lo
     return mir::detail::base64(mir::detail::encode_png(image, look, in.options.report));
 }
 
-/// Codes all pictures at one size and returns how many bytes they take; stops beyond `most`.
+/// Codes all pictures at one size and returns how many bytes they take. Stops beyond `most`.
 std::size_t encode_all(ReportPictures& out, const mir::Image<mir::Rgb>& error,
                        const ReportInput& in, std::size_t most) {
     std::size_t bytes = out.still.size();

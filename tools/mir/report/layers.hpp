@@ -12,8 +12,8 @@
 
 namespace mirtool {
 
-/// Means of squares of `factor` x `factor` pixels, those at the right and lower rim of what there
-/// is.
+/// Means of squares of `factor` x `factor` pixels, smaller at the rim. Those at the right and lower
+/// rim take what there is.
 mir::Image<mir::Rgb> shrunk(const mir::Image<mir::Rgb>& image, std::uint32_t factor);
 
 /// A layer of a report that can be shown at any exposure.
@@ -24,7 +24,7 @@ struct ReportLayer {
     std::string code;  ///< base64 of deflate_radiance(), shrunk
 };
 
-/// Everything of a report that is a picture, shrunk so that it fits into a page.
+/// Everything of a report that is a picture, shrunk to fit a page.
 struct ReportPictures {
     std::uint32_t shrink = 1;         ///< pixels of the render that one pixel of the page is across
     std::vector<ReportLayer> layers;  ///< direct, emission, indirect or its bounces, reference

@@ -56,7 +56,7 @@ std::vector<LogSeries::Point> drawable(const LogSeries& series) {
     return points;
 }
 
-/// Round numbers inside of a range: 1, 2 and 5 of each decade, or powers of ten of long ranges.
+/// Round numbers inside of a range. 1, 2 and 5 of each decade, or powers of ten of long ranges.
 std::vector<double> ticks(const Range& range) {
     std::vector<double> values;
     const bool few = range.high - range.low > 2.5;
@@ -91,7 +91,7 @@ std::string grid(const LogChart& chart, const Axes& axes) {
     return out + text(0.5 * (left + right), bottom + 36, "middle", chart.x_label) + "\n";
 }
 
-/// The part of the line of slope -1/2 through `p` that lies inside of the frame.
+/// The part of the line of slope -1/2 through `p` inside the frame.
 std::string half_slope(const Axes& axes, LogSeries::Point p) {
     const double x = std::log10(p.x);
     const double y = std::log10(p.y);

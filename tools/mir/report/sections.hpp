@@ -28,7 +28,7 @@ std::string vpls_section(const ReportInput& input);
 /// What Markov chains say about themselves.
 std::string chains_section(const mir::RenderStatistics& statistics);
 
-/// The error of a picture of several passes over VPLs and over seconds, as charts and as a table.
+/// The error of several passes over VPLs and seconds, as charts and table.
 std::string convergence_section(const ReportInput& input);
 
 /// Seconds by stage, as bars and as a table.

@@ -14,7 +14,7 @@ struct Stage {
     double seconds;
 };
 
-/// A bar of the chart with its name and number; `row` counts from 0, lengths are in its pixels.
+/// A bar of the chart with its name and number. `row` counts from 0, lengths are in its pixels.
 std::string bar(const Stage& stage, std::size_t row, double longest) {
     constexpr double room = 480.0;
     const double length = std::max(1.0, room * stage.seconds / longest);

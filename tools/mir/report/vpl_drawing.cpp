@@ -16,7 +16,7 @@
 namespace mirtool {
 namespace {
 
-/// Bounces that have a colour of their own; the last one stands for all later ones too.
+/// Bounces that have a colour of their own. The last one stands for all later ones too.
 constexpr std::uint8_t colours = 6;
 
 std::uint8_t colour_of(std::uint8_t bounce) { return std::clamp<std::uint8_t>(bounce, 1, colours); }

@@ -7,7 +7,7 @@
 
 namespace mirtool {
 
-/// Circles at the VPLs as the camera sees them, as SVG over the picture: the area is proportional
+/// Circles at the VPLs as the camera sees them, as SVG over the picture. The area is proportional
 /// to the power in luminance, the colour tells the main bounce, those behind a surface are faint.
 /// The strongest `most_drawn_vpls` inside of the picture. Hidden until the reader asks for them;
 /// empty without VPLs.

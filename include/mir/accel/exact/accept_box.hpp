@@ -14,7 +14,7 @@ namespace mir {
 // accept. This header computes such boxes.
 //
 // Let M be the largest |coordinate| of all corners, let the ends p, q of segments keep within
-// reach() = 1.5 M, e = 2^-24, g_u = |gradient of u|_1, g_v likewise, G = g_u + g_v.
+// reach() = 1.5 M, e = 2^-24, g_u = |gradient of u|_1, g_v the same, G = g_u + g_v.
 //
 // Lemma. If hits_segment() is true there is a point X on the segment with
 //   |s(X)| <= 41 e M, u(X) >= -28 e M g_u, v(X) >= -28 e M g_v, w(X) >= -(28 e M G + 10 e).
@@ -41,18 +41,18 @@ namespace mir {
     return box.empty() ? 0.0f : larger(max_abs(box.low), max_abs(box.high));
 }
 
-/// Largest |coordinate| that the ends of a segment may have for the bounds to hold, metres. Farther
-/// segments are cut to that cube first (reach.hpp).
+/// Largest |coordinate| of segments' ends for which the bounds hold, metres. Farther segments are
+/// cut to that cube first (reach.hpp).
 [[nodiscard]] MIR_HD inline float reach_of(float magnitude) { return 1.5f * magnitude; }
 
-/// Unit of the margins of shafts, metres: more than twice what rounding displaces a point of a
+/// Unit of the margins of shafts, metres. More than twice what rounding displaces a point of a
 /// segment, or a triangle's plane, per axis.
 [[nodiscard]] MIR_HD inline double sigma_of(float magnitude) {
     return 32.0 * 0x1p-24 * static_cast<double>(magnitude);
 }
 
-/// Largest distance in metres, per axis, between a segment that is taken to cross a triangle and
-/// the triangle's plane, or an edge in the plane, the rounding of traversal included.
+/// Largest distance in metres, per axis, between a crossing segment and its triangle's plane. Or an
+/// edge in the plane; the rounding of traversal is included.
 [[nodiscard]] MIR_HD inline double accept_margin_of(float magnitude) {
     return 2.0 * sigma_of(magnitude);
 }
@@ -104,10 +104,10 @@ MIR_HD inline Bounds rounded_outwards(Double3 low, Double3 high) {
 
 }  // namespace detail
 
-/// Box around all places where hits_segment() may accept a segment for the triangle a, b, c and
-/// where traversal may look for it, rounded outwards. `magnitude` is magnitude_of() the bounds of
-/// the whole scene, metres. Cut to the cube of reach_of(magnitude), outside of which there are no
-/// segments: needles would have boxes without end. The same bits on host and device.
+/// Box around all places where hits_segment() may accept a segment for a triangle. The triangle is
+/// a, b, c; traversal may look for it there. Rounded outwards. `magnitude` is magnitude_of() the
+/// bounds of the whole scene, metres. Cut to the cube of reach_of(magnitude), because needles would
+/// have boxes without end; no segment lies outside. The same bits on host and device.
 [[nodiscard]] MIR_HD inline Bounds accept_box(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
     const detail::AcceptTriangle t = detail::accept_triangle(a, b, c, magnitude);
     const detail::Double3 margin(accept_margin_of(magnitude));
@@ -118,8 +118,8 @@ MIR_HD inline Bounds rounded_outwards(Double3 low, Double3 high) {
                                     strict::add(detail::smaller_axes(high, reach), margin));
 }
 
-/// Largest distance, per axis and in metres, of a point of the region that accept_box() surrounds
-/// from the triangle itself, rounded up. Boxes around clipped parts of a triangle grow by it.
+/// Largest distance of accept_box()'s region from the triangle itself, rounded up. Per axis and in
+/// metres. Boxes around clipped parts of a triangle grow by it.
 [[nodiscard]] inline float overshoot(Vec3 a, Vec3 b, Vec3 c, float magnitude) {
     const detail::AcceptTriangle t = detail::accept_triangle(a, b, c, magnitude);
     const auto largest = [](detail::Double3 v) {

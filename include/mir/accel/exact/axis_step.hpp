@@ -13,7 +13,7 @@ struct alignas(8) AxisStep {
     float offset = 0.0f;
 };
 
-/// What a component of zero is taken for, metres: so short that it moves a point by less than 2^-24
+/// What a component of zero is taken for, metres. So short that it moves a point by less than 2^-24
 /// of the rounding of coordinates, so long that coordinates times its inverse stay finite. The
 /// second term only keeps scenes below 1e-18 m from overflowing, where no product of two distances
 /// differs from zero, and so no triangle is crossed.
@@ -30,7 +30,7 @@ MIR_HD inline AxisStep axis_step(float from, float to, float shortest) {
     return {inverse, strict::mul(from, inverse)};
 }
 
-/// Step to a face `size` metres away, not less than 0, on the side of `sign`, 1 or -1.
+/// Step to a face `size` >= 0 metres away on the side of `sign`, +-1.
 MIR_HD inline AxisStep face_step(float from, float size, float sign, float shortest) {
     const float inverse = sign * loose::reciprocal(larger(size, shortest));
     return {inverse, strict::mul(from, inverse)};

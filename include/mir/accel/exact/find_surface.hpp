@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// Lets segments leave a point by an edge, which a ray met at the distance `t`, metres, where the
-/// ray's origin sees them begin. `hides(p, q)` says whether two points do not see each other.
+/// Lets segments leave a point by an edge where the ray's origin sees them begin. A ray met the
+/// point at the distance `t`, metres. `hides(p, q)` says whether two points do not see each other.
 ///
 /// Triangles reach over their edges by what rounding can hide (detail/thick_triangle.hpp). So a ray
 /// that passes by the edge of a closed body may meet the inner side of the triangle behind the

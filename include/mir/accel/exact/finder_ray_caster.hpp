@@ -17,7 +17,7 @@ class FinderRayCaster {
     static constexpr Space space = F::space;  ///< of the finder and the geometry
     using Mask = typename F::Mask;            ///< of the finder
 
-    /// `view` is what the finder reads: a tree; `mask` says which points of triangles are there.
+    /// `view` is what the finder reads: a tree. `mask` says which points of triangles are there.
     MIR_HD FinderRayCaster(const GeometryView<space>& geometry, const typename F::View& view,
                            const Mask& mask = {})
         : geometry_(geometry), finder_{view, mask} {}

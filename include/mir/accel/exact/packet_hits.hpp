@@ -14,8 +14,8 @@ namespace mir::detail {
 
 static_assert(PointPacket::width == lane_count);
 
-/// The end that the segments of some packets share, and how far outside of an edge they may be to
-/// be looked at one by one.
+/// The end that the segments of some packets share, and their doubt at edges. Segments within that
+/// doubt are tested one by one.
 struct SharedEnd {
     Vec3 origin{0};  ///< metres
     EdgeDoubt doubt;
@@ -79,8 +79,8 @@ LaneHits sort_lanes(const TriangleRows& rows, const OriginRows& from, const Poin
     return {bits_of<Set>(inside), bits_of<Set>(near)};
 }
 
-/// Lanes of `open` whose segments from the shared end the triangle hits: hits_segment(), bit for
-/// bit. `from` are the triangle's rows there.
+/// Lanes of `open` whose segments the triangle hits: hits_segment(), bit for bit. `from` are the
+/// triangle's rows there.
 template <InstructionSet Set = InstructionSet::baseline>
 std::uint32_t hit_lanes(const TriangleRows& rows, const OriginRows& from, const SharedEnd& end,
                         const PointPacket& points, std::uint32_t open) {

@@ -8,9 +8,9 @@
 
 namespace mir::detail {
 
-/// visible_in_packet(tree, origin, points, active, mask) by the widest registers that this
-/// processor has, whoever asks. Not inlined: a walk is much longer than a call, and is compiled for
-/// each instruction set once instead of anew for every caller.
+/// visible_in_packet(tree, origin, points, active, mask) by the processor's widest registers. Not
+/// inlined: a walk is much longer than a call, and is compiled for each instruction set once
+/// instead of once per caller.
 template <class Tree, class... Mask>
 [[nodiscard, gnu::noinline]] std::uint32_t ask_packet(const Tree& tree, Vec3 origin,
                                                       const PointPacket& points,

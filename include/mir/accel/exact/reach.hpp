@@ -21,29 +21,29 @@ struct CutSegment {
     float t_length = 0.0f;  ///< rays: distance from `from` to `to`, metres
 };
 
-/// True when the point lies in the cube, which is what callers check first: cutting is rare.
+/// True when the point lies in the cube, which is what callers check first. Cutting is rare.
 [[nodiscard]] MIR_HD inline bool within_reach(Vec3 p, float reach) { return max_abs(p) <= reach; }
 
 namespace detail {
 
-/// Share of the way from a to b before the cube begins; 2 when it never does.
-MIR_HD inline float way_to_cube(float a, float b, float reach) {
+/// Share of the segment from a to b before the cube begins. 2 when it never does.
+MIR_HD inline float share_outside(float a, float b, float reach) {
     if (fabsf(a) <= reach) return 0.0f;
     const float gap = strict::sub(a, copysignf(reach, a));
-    const float way = strict::sub(a, b);
-    const bool arrives = a > 0.0f ? way >= gap : way <= gap;
-    return arrives ? strict::div(gap, way) : 2.0f;
+    const float length = strict::sub(a, b);
+    const bool arrives = a > 0.0f ? length >= gap : length <= gap;
+    return arrives ? strict::div(gap, length) : 2.0f;
 }
 
 /// The same for each axis and for all of them.
-struct WayToCube {
+struct ShareOutside {
     Vec3 axis{0};
     float all = 0.0f;
 };
 
-MIR_HD inline WayToCube way_to_cube(Vec3 a, Vec3 b, float reach) {
-    const Vec3 t(way_to_cube(a.x, b.x, reach), way_to_cube(a.y, b.y, reach),
-                 way_to_cube(a.z, b.z, reach));
+MIR_HD inline ShareOutside share_outside(Vec3 a, Vec3 b, float reach) {
+    const Vec3 t(share_outside(a.x, b.x, reach), share_outside(a.y, b.y, reach),
+                 share_outside(a.z, b.z, reach));
     return {t, larger(t.x, larger(t.y, t.z))};
 }
 
@@ -55,13 +55,13 @@ MIR_HD inline float coordinate_in_cube(float origin, float t, float direction, f
     return t == t_of_face ? face : larger(-reach, smaller(x, reach));
 }
 
-MIR_HD inline Vec3 entry_point(Vec3 a, Vec3 b, const WayToCube& way, float reach) {
+MIR_HD inline Vec3 entry_point(Vec3 a, Vec3 b, const ShareOutside& share, float reach) {
     const auto coordinate = [&](float from, float to, float t) {
-        return coordinate_in_cube(from, way.all, strict::sub(to, from), t, copysignf(reach, from),
+        return coordinate_in_cube(from, share.all, strict::sub(to, from), t, copysignf(reach, from),
                                   reach);
     };
-    return {coordinate(a.x, b.x, way.axis.x), coordinate(a.y, b.y, way.axis.y),
-            coordinate(a.z, b.z, way.axis.z)};
+    return {coordinate(a.x, b.x, share.axis.x), coordinate(a.y, b.y, share.axis.y),
+            coordinate(a.z, b.z, share.axis.z)};
 }
 
 /// Distances along a ray at which it passes the faces of the cube, by axis.
@@ -81,7 +81,7 @@ MIR_HD inline CubePassage cube_passage(const Ray& ray, float reach) {
             {passes(o.x, d.x, 1.0f), passes(o.y, d.y, 1.0f), passes(o.z, d.z, 1.0f)}};
 }
 
-/// Point of the ray where it passes the faces at `t`; `side` is -1 where it enters, 1 where it
+/// Point of the ray where it passes the faces at `t`. `side` is -1 where it enters, 1 where it
 /// leaves.
 MIR_HD inline Vec3 passage_point(const Ray& ray, float t, Vec3 t_of_faces, float side,
                                  float reach) {
@@ -99,8 +99,8 @@ MIR_HD inline Vec3 passage_point(const Ray& ray, float t, Vec3 t_of_faces, float
 /// Cuts the segment from a to b, metres. Ends inside keep their bits; exchanging the ends exchanges
 /// `from` and `to` and changes nothing else.
 [[nodiscard]] MIR_HD inline CutSegment cut_to_reach(Vec3 a, Vec3 b, float reach) {
-    const detail::WayToCube from_a = detail::way_to_cube(a, b, reach);
-    const detail::WayToCube from_b = detail::way_to_cube(b, a, reach);
+    const detail::ShareOutside from_a = detail::share_outside(a, b, reach);
+    const detail::ShareOutside from_b = detail::share_outside(b, a, reach);
     CutSegment cut{a, b};
     cut.empty = !(strict::add(from_a.all, from_b.all) <= 1.0f);
     if (from_a.all > 0.0f) cut.from = detail::entry_point(a, b, from_a, reach);
@@ -108,7 +108,7 @@ MIR_HD inline Vec3 passage_point(const Ray& ray, float t, Vec3 t_of_faces, float
     return cut;
 }
 
-/// Cuts the segment from `a` to `b` where it must be cut, which is rare; false when nothing of it
+/// Cuts the segment from `a` to `b` where it must be cut, which is rare. False when nothing of it
 /// is left.
 [[nodiscard]] MIR_HD inline bool is_left_within_reach(Vec3& a, Vec3& b, float reach) {
     if (within_reach(a, reach) && within_reach(b, reach)) return true;

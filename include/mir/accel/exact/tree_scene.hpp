@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// A scene to trace rays through by way of a tree over its triangles: owns the tree, hands out the
+/// A scene to trace rays through by way of a tree over its triangles. Owns the tree, hands out the
 /// ray caster and the visibility that read it. `Builder` names the Tree and its Options, and has a
 /// build(geometry, executor, options). The geometry must outlive it. Const use from any thread.
 template <class Builder>

@@ -23,7 +23,7 @@ struct TreeVisibility {
     /// bit when they change places.
     [[nodiscard]] MIR_HD bool visible(Vec3 a, Vec3 b) const { return !is_hidden(tree, a, b, mask); }
 
-    /// As PacketVisibility says, bit k being visible(origin, point k); by the widest registers of
+    /// As PacketVisibility says, bit k being visible(origin, point k). By the widest registers of
     /// the processor.
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const

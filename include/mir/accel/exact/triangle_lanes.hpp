@@ -32,7 +32,7 @@ struct LaneRows {
 
 }  // namespace detail
 
-/// Sixteen triangles side by side, as vector units read them: those at the places 16 i to 16 i + 15
+/// Sixteen triangles side by side, as vector units read them. Those at the places 16 i to 16 i + 15
 /// of a hierarchy, whose leaves next to each other share them.
 struct TriangleLanes {
     detail::LaneRows u;  ///< as TriangleRows::u, of each

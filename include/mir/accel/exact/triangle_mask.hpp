@@ -7,7 +7,7 @@
 
 namespace mir {
 
-/// Says of every point of every triangle that it is there. What traversal takes in place of an
+/// Says of every point of every triangle that it is there. Traversal takes it instead of an
 /// AlphaMaskView where no triangle is masked; it leaves no instruction behind.
 struct Opaque {
     /// False: is_solid() need not be asked.

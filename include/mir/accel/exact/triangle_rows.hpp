@@ -11,7 +11,7 @@ namespace mir {
 
 namespace detail {
 
-/// A triangle as affine frame, double precision: a point is corner + u e1 + v e2 + s normal.
+/// A triangle as affine frame, double precision. A point is corner + u e1 + v e2 + s normal.
 struct TriangleFrame {
     Double3 corner{0};
     Double3 e1{0};
@@ -65,7 +65,7 @@ MIR_HD inline bool is_finite_row(AffineRow r) {
     return usable ? rows : uncrossable_rows();
 }
 
-/// True when the segment crosses the triangle: its ends lie strictly on opposite sides of the
+/// True when the segment crosses the triangle. Its ends lie strictly on opposite sides of the
 /// plane, and it passes inside the three edges, or outside of them by no more than rounding can
 /// hide (detail/thick_triangle.hpp). All as computed in single precision: the bit is the same when
 /// the ends change places, on every processor and in every compilation. An "or" of this over all
@@ -92,12 +92,12 @@ MIR_HD bool is_solid(const TriangleRows& rows, Vec3 from, Vec3 to, const RowsAtE
 
 }  // namespace detail
 
-/// The same of triangle number `triangle`, which `mask` may say not to be there where it is
-/// crossed: an Opaque or an AlphaMaskView.
+/// The same of triangle number `triangle` with holes by `mask`. The mask is an Opaque or an
+/// AlphaMaskView.
 template <class Mask>
 [[nodiscard]] MIR_HD bool hits_segment(const TriangleRows& rows, Vec3 from, Vec3 to,
                                        std::uint32_t triangle, const Mask& mask) {
-    // Not by way of what follows, of which a device's compiler makes other instructions.
+    // Returns early, because a device's compiler makes other instructions of what follows.
     if constexpr (std::is_same_v<Mask, Opaque>) return hits_segment(rows, from, to);
     const float s_from = row_at(rows.s, from);
     const float s_to = row_at(rows.s, to);
@@ -110,7 +110,7 @@ template <class Mask>
 
 namespace detail {
 
-/// True when the segment meets the triangle behind the share `t`, wherever in its thin piece.
+/// True when the segment meets the triangle's thin piece behind the share `t`.
 MIR_HD inline bool crosses_behind(Vec3 from, Vec3 to, float s_from, float s_to, float t) {
     const float d = strict::sub(s_from, s_to);
     const float behind = strict::sub(strict::div(s_from, d), t);
@@ -120,9 +120,9 @@ MIR_HD inline bool crosses_behind(Vec3 from, Vec3 to, float s_from, float s_to, 
 
 }  // namespace detail
 
-/// Replaces `best` when the segment crosses triangle number `triangle` before it, or at the same
-/// computed place and with a smaller number: the first crossing then does not depend on the order
-/// in which triangles are asked. Crosses exactly when hits_segment() with the same mask says so.
+/// Replaces `best` when the segment crosses triangle number `triangle` before it. At the same
+/// computed place the smaller number wins, so the first crossing does not depend on the order in
+/// which triangles are asked. Crosses exactly when hits_segment() with the same mask says so.
 template <class Mask = Opaque>
 MIR_HD void keep_closer(const TriangleRows& rows, Vec3 from, Vec3 to, std::uint32_t triangle,
                         TriangleHit& best, const Mask& mask = {}) {

@@ -20,7 +20,7 @@ inline std::uint32_t kd_depth(const KdTreeOptions& options, std::size_t triangle
     return std::min(KdTreeOptions::depth_limit, static_cast<std::uint32_t>(depth));
 }
 
-/// Size of a subtree that one thread grows: enough of them for many threads, each large enough to
+/// Size of a subtree that one thread grows. Enough of them for many threads, each large enough to
 /// pay for itself. Must not depend on the number of threads, for the tree's bytes do on it.
 inline std::size_t kd_subtree_size(std::size_t triangles) {
     return std::max<std::size_t>(4096, triangles / 64);

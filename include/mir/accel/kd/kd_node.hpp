@@ -7,8 +7,8 @@
 
 namespace mir {
 
-/// One node of a kd-tree, 8 bytes: a plane between two neighbouring children, or a leaf that lists
-/// triangles. A trivially copyable value, the same on host and device.
+/// One node of a kd-tree, 8 bytes. It is a plane between two neighbouring children, or a leaf that
+/// lists triangles. A trivially copyable value, the same on host and device.
 class alignas(8) KdNode {
  public:
     /// Largest index of a child and largest number of references of a leaf.
@@ -59,8 +59,8 @@ class alignas(8) KdNode {
 
 static_assert(sizeof(KdNode) == 8);
 
-/// Both children of an inner node as they lie in memory, so that one fetch of 16 bytes can begin
-/// before it is known which child comes next.
+/// Both children of an inner node as they lie in memory. One fetch of 16 bytes can begin before it
+/// is known which child comes next.
 struct alignas(16) KdChildren {
     KdNode below;  ///< the child on the side of smaller coordinates
     KdNode above;  ///< the other

@@ -12,7 +12,7 @@ struct KdTreeOptions {
     /// Deepest leaf that any tree may have; traversal has a stack of that size.
     static constexpr std::uint32_t depth_limit = 64;
 
-    /// Choices for traversal on a GPU, one ray per thread: there an inner node costs less beside a
+    /// Choices for traversal on a GPU, one ray per thread. There an inner node costs less beside a
     /// triangle than in the packets of the host (docs/decisions/023 has the sweep).
     [[nodiscard]] static KdTreeOptions for_gpu() {
         KdTreeOptions options;

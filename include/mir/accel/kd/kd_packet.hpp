@@ -128,7 +128,7 @@ std::uint32_t PacketWalk<Set>::run() {
 
 }  // namespace detail
 
-/// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
+/// Bit i: bit i of `active` is set and point i sees the origin. These are the bits of
 /// !is_hidden(tree, origin, point i, mask). Thread-safe.
 template <InstructionSet Set = InstructionSet::baseline>
 [[nodiscard]] std::uint32_t visible_in_packet(const KdTreeView<Space::host>& tree, Vec3 origin,

@@ -85,8 +85,8 @@ MIR_HD bool next_cell(const KdTreeView<S>& tree, const KdWalkMemory<S>& memory, 
     return true;
 }
 
-/// The walk: calls `leaf(node, end)` for the leaves along the segment until one returns true, which
-/// the walk then returns. `end` is the fraction of the segment at which the leaf's cell ends.
+/// The walk: calls `leaf(node, end)` along the segment until one returns true. The walk then
+/// returns that. `end` is the fraction of the segment at which the leaf's cell ends.
 template <Space S, class Leaf>
 MIR_HD bool walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to, Leaf& leaf) {
     KdWalkMemory<S> memory;
@@ -98,7 +98,7 @@ MIR_HD bool walk(const KdTreeView<S>& tree, Vec3 from, Vec3 to, Leaf& leaf) {
     return false;
 }
 
-/// True when one of the leaf's triangles hides the ends of the segment from each other. This is
+/// True when one of the leaf's triangles hides the segment's ends from each other. This is
 /// hits_segment(), with its two conditions apart: one boolean less per triangle on the device,
 /// which is a sixth of the instructions of a triangle whose plane is not crossed.
 template <Space S, class Mask = Opaque>

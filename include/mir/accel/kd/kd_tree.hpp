@@ -22,11 +22,11 @@ struct KdTally;
 /// Equal in bytes for any number of threads. The constructor is defined in kd_build.hpp.
 class KdTree {
  public:
-    /// Builds by the surface area heuristic: planes at the ends of clipped triangles, exact below
+    /// Builds by the surface area heuristic. Planes at the ends of clipped triangles, exact below
     /// and beside the best of up to 256 borders in large nodes. A leaf lists every triangle that
-    /// may be accepted (accept_box.hpp) in its closed cell. O(N log N).
-    /// Source: Wald and Havran, "On building fast kd-trees for ray tracing, and on doing that in
-    /// O(N log N)", IEEE Symposium on Interactive Ray Tracing 2006.
+    /// may be accepted (accept_box.hpp) in its closed cell. O(N log N). Source: Wald and Havran,
+    /// "On building fast kd-trees for ray tracing, and on doing that in O(N log N)", IEEE Symposium
+    /// on Interactive Ray Tracing 2006.
     /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
     ///         beyond 1e36 metres; Error(limit_exceeded) on more than options.max_references.
     template <Executor E>

@@ -17,7 +17,7 @@ struct WideLevel {
 
 /// What is noted of wide nodes before they are written, by node.
 struct WideNotes {
-    std::uint32_t* roots = nullptr;  ///< nodes of the binary tree of which they are made
+    std::uint32_t* roots = nullptr;  ///< nodes of the binary tree they are made of
     WideChildren* children = nullptr;
     std::uint32_t* first_child = nullptr;  ///< the first wide node among their children
     /// Place of the first triangle below. Those in leaves of the node itself come first, side by
@@ -39,8 +39,8 @@ struct StartAtRoot {
     }
 };
 
-/// Kernel over the nodes of a level and one index more, so that sums of what it writes include all:
-/// chooses children and counts those that are no leaves.
+/// Kernel over the nodes of a level: chooses children and counts inner ones. One index more makes
+/// sums of what it writes include all.
 struct ChooseChildren {
     ChildChoice choice;
     WideNotes notes;
@@ -58,7 +58,7 @@ struct ChooseChildren {
     }
 };
 
-/// Kernel over the nodes of a level and one index more: numbers the nodes of the next, and their
+/// Kernel over the nodes of a level and one index more. Numbers the nodes of the next, and their
 /// triangles.
 struct NumberChildren {
     const BinaryNode* nodes = nullptr;

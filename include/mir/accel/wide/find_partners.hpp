@@ -7,7 +7,7 @@ namespace mir::detail {
 
 // Only the backend knows how many clusters are left. Kernels may be given more indices than that.
 
-/// Kernel over clusters: which of those up to `radius` places away is nearest, that is, has the
+/// Kernel over clusters. Which of those up to `radius` places away is nearest, that is, has the
 /// smallest box together with it. Of equally near ones i prefers the j for which the number i ^ j
 /// is least: pairs that are equally good for both sides then find each other even where all
 /// clusters are equal, and the best of all pairs always does.
@@ -44,7 +44,7 @@ struct FindNearest {
 };
 
 /// Kernel over clusters: the neighbour of the pair that they form by their order. The last of an
-/// odd number has none but itself.
+/// odd number has itself alone.
 struct PairNeighbours {
     const std::uint32_t* left = nullptr;  ///< how many clusters there are
     std::uint32_t* partners = nullptr;

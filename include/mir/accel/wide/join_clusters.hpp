@@ -11,8 +11,8 @@ MIR_HD inline bool is_pair(const std::uint32_t* partners, std::uint32_t i) {
     return partners[i] != i && partners[partners[i]] == i;
 }
 
-/// Kernel over clusters and one index more, so that sums of what it writes include all: 1 where a
-/// cluster keeps a place, 0 for the second of a pair and for what is no cluster.
+/// Kernel over clusters: 1 where a cluster keeps a place, else 0. That is for the second of a pair
+/// and for what is no cluster. One index more makes sums of what it writes include all.
 struct MarkKept {
     const std::uint32_t* left = nullptr;  ///< how many clusters there are
     const std::uint32_t* partners = nullptr;
@@ -24,7 +24,7 @@ struct MarkKept {
     }
 };
 
-/// Kernel over clusters and one index more: joins pairs, closes the gaps and counts what is left.
+/// Kernel over clusters and one index more. Joins pairs, closes the gaps and counts what is left.
 /// Nodes are numbered in the order of the clusters that go.
 struct JoinClusters {
     const Cluster* clusters = nullptr;

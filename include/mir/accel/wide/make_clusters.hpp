@@ -8,7 +8,7 @@
 
 namespace mir::detail {
 
-/// Kernel over triangles: boxes around their accept regions, or around the parts of these, and the
+/// Kernel over triangles. Boxes around their accept regions, or around the parts of these, and the
 /// places of the boxes along Morton's curve through the scene's bounds.
 template <Space S>
 struct MakeBoxes {
@@ -51,7 +51,7 @@ struct MakeBoxes {
     }
 };
 
-/// Kernel over places along the curve: a leaf of the binary tree and a cluster of its own for each.
+/// Kernel over places along the curve: makes a leaf and a cluster of each.
 struct PlaceLeaves {
     const Cluster* boxes = nullptr;             ///< by reference
     const std::uint32_t* references = nullptr;  ///< by place

@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Triangles of some leaves of one node, in the order of their places in the hierarchy.
+/// Triangles of some leaves of one node, in the order of the hierarchy.
 struct LeafTriangles {
     std::uint32_t first[2];  ///< place of bit 0 of either word
     std::uint32_t bits[2];   ///< bit k of a word: the triangle at first + k
@@ -18,7 +18,7 @@ struct LeafTriangles {
     /// True when there is none.
     [[nodiscard]] MIR_HD bool empty() const { return (bits[0] | bits[1]) == 0; }
 
-    /// Takes the next one, of which there must be one; returns its place.
+    /// Takes the next one, which must exist; returns its place.
     MIR_HD std::uint32_t pop() {
         const bool is_first_half = bits[0] != 0;
         const std::uint32_t from = is_first_half ? bits[0] : bits[1];
@@ -37,16 +37,16 @@ struct LeafTriangles {
     }
 };
 
-/// Where the children of a WideNode are, in 16 bytes: those that are nodes have consecutive numbers
+/// Where the children of a WideNode are, in 16 bytes. Those that are nodes have consecutive numbers
 /// in the order of their slots, and so have the triangles of its leaves their places, as
 /// WideBvhView promises.
 struct alignas(16) NodeLinks {
     std::uint32_t first_node;      ///< number of the first child that is a node
     std::uint32_t first_triangle;  ///< place of the first triangle of the leaves
-    /// Byte j of word h: triangles in the leaves of slots 4 h to 4 h + j. A leaf holds at most 8.
+    /// Byte j of word h. Triangles in the leaves of slots 4 h to 4 h + j. A leaf holds at most 8.
     std::uint32_t ends[2];
 
-    /// Number of the child in slot `k`, which is a node; bit k of `inner` says so of each slot.
+    /// Number of the child in slot `k`, which is a node. Bit k of `inner` says so of each slot.
     [[nodiscard]] MIR_HD static std::uint32_t node(std::uint32_t first_node, std::uint32_t inner,
                                                    std::uint32_t k) {
         return first_node + LaneGroup::count_before(inner, k);

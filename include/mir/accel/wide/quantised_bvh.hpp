@@ -22,10 +22,10 @@ template <Space S>
 struct QuantiseNodes {
     WideBvhView<S> bvh;              ///< whose nodes are read
     QuantisedNode* boxes = nullptr;  ///< one for each node, by its number
-    NodeLinks* links = nullptr;      ///< likewise
+    NodeLinks* links = nullptr;      ///< as above
 
-    /// Writes the boxes of node `i`, with a margin of 2^-20 of the hierarchy's reach, and its
-    /// links.
+    /// Writes the boxes of node `i` and its links. The margin is 2^-20 of the hierarchy's
+    /// reach.
     MIR_HD void operator()(std::uint32_t i) const {
         // 2^-20 reach is 24 e M.
         boxes[i] = quantised(bvh.nodes[i], 0x1p-20f * bvh.reach);

@@ -9,19 +9,19 @@
 
 namespace mir {
 
-/// The boxes of a WideNode on a grid of its own, 64 bytes that the device fetches as four words
+/// The boxes of a WideNode on a grid of its own, in 64 bytes. The device fetches them as four words
 /// where the node itself takes twelve: for walks that may visit a few nodes too many. Plane b of an
 /// axis lies at origin + b step, b from 0 to 255; every box holds that of the WideNode with the
-/// margin of quantised(). Made from a WideNode, kept beside it under the same number.
-/// Source: Ylitie, Karras and Laine, "Efficient incoherent ray traversal on GPUs through compressed
-/// wide BVHs", HPG 2017.
+/// margin of quantised(). Made from a WideNode, kept beside it under the same number. Source:
+/// Ylitie, Karras and Laine, "Efficient incoherent ray traversal on GPUs through compressed wide
+/// BVHs", HPG 2017.
 struct alignas(64) QuantisedNode {
     static constexpr std::uint32_t words_per_row = WideNode::width / 4;  ///< four children each
 
     Vec3 origin{0};                         ///< plane 0 of each axis, metres
     std::uint8_t exponents[3] = {0, 0, 0};  ///< of the steps, with the bias of single precision
     std::uint8_t inner = 0;                 ///< bit k: child k is a node
-    /// Bytes of eight children, four to a word: low x, high x, low y, high y, low z, high z.
+    /// Bytes of eight children, four to a word. Order: low x, high x, low y, high y, low z, high z.
     std::uint32_t rows[6][words_per_row] = {};
 
     /// Distance of neighbouring planes, metres: a power of two.
@@ -52,7 +52,7 @@ struct NodeGrid {
     float step = 0.0f;
 };
 
-/// A grid of 256 planes with more than two to spare on both sides of [low, high].
+/// A grid of 256 planes, more than two of them beyond [low, high] each side.
 MIR_HD inline NodeGrid grid_over(float low, float high) {
     const float wanted = larger(strict::sub(high, low) * (1.0f / 240.0f), 0x1p-125f);
     NodeGrid grid;
@@ -65,7 +65,8 @@ MIR_HD inline NodeGrid grid_over(float low, float high) {
     return grid;
 }
 
-/// Number of the plane at x or beyond it on the given side by a hundredth of a step at least.
+/// Number of the plane at x or beyond it on the given side. A hundredth of a step at least is to
+/// spare.
 MIR_HD inline std::uint32_t plane_beyond(const NodeGrid& grid, float x, bool upper) {
     const float steps = strict::div(strict::sub(x, grid.origin), grid.step);
     const float beyond = upper ? ceilf(steps + 0.02f) : floorf(steps - 0.02f);
@@ -99,7 +100,7 @@ MIR_HD inline void quantise_axis(const WideNode& node, int axis, float margin, Q
 
 }  // namespace detail
 
-/// The boxes of a node, grown by `margin` metres, on a grid; and by a hundredth of a step more.
+/// The boxes of a node, grown by `margin` metres, on a grid. And by a hundredth of a step more.
 /// `margin` is 8 e M or more: it holds the rounding of the grid's origin, too. Boxes of empty slots
 /// mean nothing.
 [[nodiscard]] MIR_HD inline QuantisedNode quantised(const WideNode& node, float margin) {

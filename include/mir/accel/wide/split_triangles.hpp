@@ -7,7 +7,7 @@
 
 namespace mir::detail {
 
-/// A triangle as it is cut.
+/// A triangle in the form that is cut.
 struct CutTriangle {
     AcceptTriangle accept;
     PartBox box;
@@ -26,11 +26,11 @@ MIR_HD CutTriangle whole_triangle(const GeometryView<S>& geometry, std::uint32_t
 /// Most splits of one triangle.
 inline constexpr std::uint32_t most_splits = 1023;
 
-/// Cuts a triangle `splits` times, fewer where no plane is left, and calls part(box) for each part;
-/// gives their number. Splits of a part are shared by the lengths of what a plane makes of it. No
-/// more than log2 of `most_splits` parts wait: the one with more splits does.
-/// Source: Karras and Aila, "Fast parallel construction of high-quality bounding volume
-/// hierarchies", High Performance Graphics 2013.
+/// Cuts a triangle `splits` times and calls part(box) for each part. There are fewer where no plane
+/// is left; returns their number. Splits of a part are shared by the lengths of what a plane makes
+/// of it. No more than log2 of `most_splits` parts wait: the one with more splits does. Source:
+/// Karras and Aila, "Fast parallel construction of high-quality bounding volume hierarchies", High
+/// Performance Graphics 2013.
 template <class Part>
 MIR_HD std::uint32_t cut_into_parts(const CutTriangle& t, std::uint32_t splits,
                                     const SplitPlanes& planes, const Part& part) {
@@ -63,11 +63,11 @@ MIR_HD std::uint32_t cut_into_parts(const CutTriangle& t, std::uint32_t splits,
     }
 }
 
-/// Kernel over triangles: how much each gains by splits, as a number that is multiplied by a common
-/// density to get its number of splits; 0 where there is nothing to gain. What counts is the part
-/// of the box's surface that the triangle does not need, and how coarse the plane is that cuts it;
-/// after Karras and Aila, with a fourth root, which all machines round alike, in place of the
-/// third.
+/// Kernel over triangles. How much each gains by splits, as a number that is multiplied by a
+/// common density to get its number of splits; 0 where there is nothing to gain. What counts is
+/// the part of the box's surface that the triangle does not need, and how coarse the plane is that
+/// cuts it; after Karras and Aila, with a fourth root, which all machines round alike, instead of
+/// the third.
 template <Space S>
 struct RateTriangles {
     GeometryView<S> geometry;
@@ -91,13 +91,13 @@ struct RateTriangles {
         return static_cast<float>(strict::sqrt(strict::sqrt(weighed)));
     }
 
-    /// How many times its shadows the box of a triangle may be before splits are thought to pay. A
-    /// right triangle along two axes, as walls are made of, has 2.
+    /// How many times its shadows a triangle's box may be before splits pay. A right triangle along
+    /// two axes, as walls are made of, has 2.
     static constexpr double well_filled = 4.0;
 };
 
-/// Kernel over triangles and one index more, so that sums of what it writes include all: how many
-/// splits each gets at that density.
+/// Kernel over triangles: how many splits each gets at that density. One index more makes sums of
+/// what it writes include all.
 struct SplitCounts {
     const float* gains = nullptr;
     std::uint32_t* splits = nullptr;

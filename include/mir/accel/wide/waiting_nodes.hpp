@@ -5,12 +5,13 @@
 
 namespace mir {
 
-/// Nodes of a wide hierarchy that a walk down has met and not visited, with their boxes. They are
-/// kept as the children of nodes that are made up, so that another walk can meet eight of them at
-/// once, by what it does with the children of any node. On the host; without values until pushed.
+/// Nodes of a wide hierarchy that a walk has met and not visited. Their boxes stand with them. They
+/// are kept as the children of nodes that are made up, so that another walk can meet eight of them
+/// at once, by what it does with the children of any node. On the host; without values until
+/// pushed.
 class WaitingNodes {
  public:
-    /// Nodes that wait at most, which is enough for a walk that visits the last one first.
+    /// Most nodes that wait: enough for a walk that visits the last one first.
     static constexpr std::uint32_t capacity = WideBvhView<Space::host>::most_waiting;
 
     /// How many there are.

@@ -13,8 +13,8 @@ namespace mir {
 /// makes one of a scene.
 class WideBvh {
  public:
-    /// Of parts that keep what WideBvhView promises: a root at least, and as many `indices` as
-    /// `triangles`.
+    /// Of parts that keep what WideBvhView promises. There is a root at least, and as many
+    /// `indices` as `triangles`.
     WideBvh(std::vector<WideNode> nodes, std::vector<TriangleRows> triangles,
             std::vector<std::uint32_t> indices, float reach)
         : nodes_(std::move(nodes)),
@@ -30,7 +30,7 @@ class WideBvh {
 
     /// The root first; children are numbered as WideNode::ref says.
     [[nodiscard]] std::span<const WideNode> nodes() const { return nodes_; }
-    /// Rows of the triangles of leaves, leaf by leaf; one that was split stands in each of its
+    /// Rows of the triangles of leaves, leaf by leaf. One that was split stands in each of its
     /// leaves.
     [[nodiscard]] std::span<const TriangleRows> triangles() const { return triangles_; }
     /// Which triangle of WorldGeometry stands at each place of triangles().

@@ -21,7 +21,7 @@ struct WideBvhView {
     /// Largest number of nodes on the way to a triangle. Traversal keeps a stack of this size.
     static constexpr std::uint32_t max_depth = WideBvhOptions::depth_limit;
 
-    /// Most nodes that wait while a walk goes down first: one child per level is on the way.
+    /// Most nodes that wait while a walk goes down first. One child per level is on the way.
     static constexpr std::uint32_t most_waiting = (WideNode::width - 1) * max_depth + 1;
 
     /// Index of the first node.

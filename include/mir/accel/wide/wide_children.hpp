@@ -34,7 +34,7 @@ struct ChildChoice {
     std::uint32_t max_depth = 0;  ///< nodes
     float area_scale = 0.0f;
 
-    /// The children of a wide node below `depth` others, the largest first: what hides a whole
+    /// The children of a wide node below `depth` others, the largest first. What hides a whole
     /// block of luxels is large, and shafts look at the first slot first.
     MIR_HD void choose(std::uint32_t root, std::uint32_t depth, WideChildren& children) const {
         children.count = 0;
@@ -83,7 +83,7 @@ struct ChildChoice {
         }
     }
 
-    /// Place of the highest node; among those that fit into a leaf, of the largest surface.
+    /// Place of the highest node. Among those that fit into a leaf, of the largest surface.
     [[nodiscard]] MIR_HD std::uint32_t highest(const WideChildren& children) const {
         std::uint32_t best = 0;
         for (std::uint32_t k = 1; k < children.count; ++k)

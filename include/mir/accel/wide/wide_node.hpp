@@ -21,7 +21,7 @@ struct alignas(16) ChildRow {
     [[nodiscard]] MIR_HD float& operator[](std::size_t k) { return at[k]; }
 };
 
-/// One node of a wide bounding volume hierarchy, 256 bytes: the boxes of up to eight children, side
+/// One node of a wide bounding volume hierarchy, 256 bytes. The boxes of up to eight children, side
 /// by side so that one vector instruction reads a plane of all of them, and what they are. A
 /// trivially copyable value, the same on host and device.
 struct alignas(64) WideNode {
@@ -29,8 +29,8 @@ struct alignas(64) WideNode {
     static constexpr std::int32_t inner = 0;                 ///< count of a child that is a node
     static constexpr std::int32_t empty = -1;                ///< count of a slot without a child
 
-    /// Planes that bound the children, metres: low x, high x, low y, high y, low z, high z. Those
-    /// of empty slots lie so that no segment within the reach of the scene meets them.
+    /// Planes that bound the children, metres. Order: low x, high x, low y, high y, low z, high z.
+    /// Those of empty slots lie so that no segment within the reach of the scene meets them.
     ChildRow planes[6];
     std::uint32_t ref[width];   ///< node, or first triangle of a leaf
     std::int32_t count[width];  ///< triangles of a leaf, `inner` or `empty`
@@ -43,7 +43,7 @@ struct alignas(64) WideNode {
     [[nodiscard]] MIR_HD float high(int axis, std::uint32_t slot) const {
         return planes[low_plane(axis) + 1][slot];
     }
-    /// Writes both planes of a slot's box on one axis, metres; `ref` and `count` stay as they are.
+    /// Writes both planes of a slot's box on one axis, metres. `ref` and `count` stay as they are.
     MIR_HD void set_bounds(int axis, std::uint32_t slot, float low, float high) {
         planes[low_plane(axis)][slot] = low;
         planes[low_plane(axis) + 1][slot] = high;

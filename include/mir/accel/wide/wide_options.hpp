@@ -10,7 +10,7 @@ namespace mir {
 /// How a wide bounding volume hierarchy is built. Choices change speed and memory, never what is
 /// visible.
 struct WideBvhOptions {
-    /// Most nodes on the way from the root to a triangle; traversal has a stack of that size.
+    /// Most nodes on the way from the root to a triangle. Traversal has a stack of that size.
     static constexpr std::uint32_t depth_limit = 32;
 
     /// Most triangles that a leaf may hold, whatever the options say.
@@ -23,7 +23,7 @@ struct WideBvhOptions {
     /// leaves, each time with its rows.
     float splits = 0.0f;
 
-    /// How far along Morton's curve a cluster looks for its nearest, in clusters; 1 to 64. More
+    /// How far a cluster looks for its nearest along Morton's curve, in clusters. 1 to 64. More
     /// makes better trees, more slowly.
     std::uint32_t radius = 8;
 
@@ -32,8 +32,8 @@ struct WideBvhOptions {
     /// 7 better than 2 by some percent.
     float node_cost = 5.0f;
 
-    /// Most nodes on the way from the root to a triangle, raised to what a balanced tree needs.
-    /// 1 to depth_limit: clusters are joined in their order along the curve where the nearest could
+    /// Most nodes on the way to a triangle, at least those of a balanced tree. 1 to
+    /// depth_limit: clusters are joined in their order along the curve where the nearest could
     /// not keep it.
     std::uint32_t max_depth = depth_limit;
 };

@@ -49,8 +49,8 @@ class PacketSlabs {
         }
     }
 
-    /// Lanes whose segments meet the box of child `k`, those for which met_children() finds it but
-    /// for rounding. An empty slot may be met by lanes that go both ways.
+    /// Lanes whose segments meet the box of child `k`. They agree with met_children() except for
+    /// rounding. An empty slot may be met by lanes that go both ways.
     [[nodiscard]] std::uint32_t meet(const WideNode& node, std::uint32_t k) const {
         return mixed_ ? meet<true>(node, k) : meet<false>(node, k);
     }
@@ -115,14 +115,14 @@ inline void prefetch(const void* from, std::size_t bytes) {
 /// Place of a triangle that is none.
 inline constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
 
-/// Some packets that walk together, and which of their lanes have met a triangle: a bit for each
-/// lane, packet after packet. `Hull` says which children of a node the lanes may meet at all,
-/// met<Set>(node), and spares asking all lanes about the others.
+/// Packets that walk together, and a bit for each lane that met a triangle. Bits come packet after
+/// packet. `Hull` says which children of a node the lanes may meet at all, met<Set>(node), and
+/// spares asking all lanes about the others.
 template <InstructionSet Set, class Hull, std::uint32_t Packets = 1>
 class WidePacketWalk {
  public:
-    /// From the origin to `Packets` packets of points, of which some are active. `mask` outlives
-    /// the walk; nullptr: all triangles are whole.
+    /// From the origin to `Packets` packets of points, some of them active. `mask` outlives the
+    /// walk; nullptr: all triangles are whole.
     WidePacketWalk(const WideBvhView<Space::host>& bvh, const Hull& hull, Vec3 origin,
                    const PointPacket* points, std::uint32_t active,
                    const AlphaMaskView<Space::host>* mask = nullptr)
@@ -136,8 +136,8 @@ class WidePacketWalk {
             slabs_[p].set(origin, points[p], lanes_of_packet(active, p), bvh.reach);
     }
 
-    /// Lanes of `active` that meet no triangle below some nodes, which another walk down left to
-    /// this one.
+    /// Lanes of `active` that meet no triangle below the nodes of another walk. That walk left
+    /// these nodes to this one.
     std::uint32_t run(const WaitingNodes& roots) {
         for (std::uint32_t g = 0; g < roots.groups() && open_ != 0; ++g) {
             Round round;
@@ -164,12 +164,12 @@ class WidePacketWalk {
         std::uint32_t lanes;
     };
 
-    /// Nodes are visited some at a time, so that loops are long and know their lengths before they
-    /// begin: a processor guesses wrong once a loop, not once a node.
+    /// Nodes are visited some at a time, in long loops of known length. A processor guesses wrong
+    /// once a loop, not once a node.
     static constexpr std::uint32_t nodes_at_once = 8;
-    /// A round takes from the stack only what lies above what an earlier one has left there, hence
-    /// nodes below those that the earlier one put: so the shallowest node that it puts lies deeper
-    /// than the shallowest of those, and what is on the stack comes from no more rounds than there
+    /// A round takes from the stack only what lies above the remains of earlier rounds. These are
+    /// nodes below those that the earlier round put. So the shallowest node that it puts lies
+    /// deeper than the shallowest of those, and the stack holds nodes of no more rounds than there
     /// are levels.
     static constexpr std::uint32_t most_waiting =
         (nodes_at_once * WideBvhView<Space::host>::max_depth + 1) * WideNode::width +
@@ -217,7 +217,7 @@ class WidePacketWalk {
         round.parents[round.parent_count++] = &node;
     }
 
-    /// Puts those of the listed children that open lanes meet on the stack, or lists their
+    /// Puts children that open lanes meet on the stack, or lists their
     /// triangles.
     void meet_lanes(Round& round) {
         for (std::uint32_t i = 0; i < round.child_count; ++i) {
@@ -235,8 +235,8 @@ class WidePacketWalk {
             const void* const wanted[2] = {&node,
                                            below_[is_inner].from + below_[is_inner].bytes * ref};
             prefetch(wanted[is_met], sizeof(WideNode));
-            // Written in any case, and counted where there is something: by sums and products, of
-            // which compilers make no branches.
+            // Written in any case, and counted where there is something: by sums and products,
+            // which compilers do not turn into branches.
             stack_[waiting_] = {ref, lanes};
             waiting_ += is_inner & is_met;
             for (std::uint32_t t = 0; t < Round::leaf_size; ++t)
@@ -292,7 +292,7 @@ class WidePacketWalk {
 
 }  // namespace detail
 
-/// Bit i is set when bit i of `active` is and point i of the packet sees the origin: the bits of
+/// Bit i: bit i of `active` is set and point i sees the origin. These are the bits of
 /// !is_hidden(bvh, origin, point i, mask). Thread-safe.
 template <InstructionSet Set = InstructionSet::baseline>
 [[nodiscard]] std::uint32_t visible_in_packet(const WideBvhView<Space::host>& bvh, Vec3 origin,

@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// Says by a wide hierarchy in memory of space `S` whether two points see each other.
+/// Decides by a wide hierarchy in `S` whether two points see each other.
 template <Space S, class M = UsualMask<S>>
 using WideBvhVisibility = TreeVisibility<WideBvhView<S>, M>;
 

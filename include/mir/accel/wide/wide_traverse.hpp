@@ -18,8 +18,8 @@ namespace mir {
 // by at most
 //   |t d - (plane - from)| <= 3 e |plane - from| + e |plane| + e |from| <= 12 e M    (unfused)
 //                          <= 4 e |plane - from| + e |from|             <= 13.5 e M  (fused),
-// since ends and planes lie within 1.5 M but for terms in e^2. So for d > 0
-//   t_near d <= low - from + 13.5 e M <= t_x d - 0.5 e M, and likewise on the other side.
+// since ends and planes lie within 1.5 M except for terms in e^2. So for d > 0
+//   t_near d <= low - from + 13.5 e M <= t_x d - 0.5 e M, and the same on the other side.
 // A d nearer to zero than 2^-50 reach becomes one of that length: it moves X by less than
 // 2^-48 M, which the 0.5 e M cover, and no product overflows. (Where 2^-110 m is longer than that,
 // coordinates are so small that no product of two distances differs from zero.) Nothing here is
@@ -50,7 +50,7 @@ struct MetChildren {
     std::uint32_t mask = 0;  ///< bit k: child k
 };
 
-/// Children whose boxes the segment meets between its start and the fraction `end`; always those
+/// Children whose boxes the segment meets between its start and the fraction `end`. Always those
 /// that it meets by 14 e M.
 MIR_HD inline MetChildren met_children(const WideNode& node, const SlabSegment& segment,
                                        float end) {
@@ -84,8 +84,8 @@ MIR_HD inline MetChildren met_children(const WideNode& node, const SlabSegment& 
     return met;
 }
 
-/// Slots of children in the order in which they are to be visited, the next one in the lowest four
-/// bits: the slot plus one, so that zero says that there is none left.
+/// Slots of children in the order of visits, next one in the lowest four bits. A slot stands plus
+/// one, so that zero says that there is none left.
 struct ChildQueue {
     std::uint32_t slots;
 
@@ -116,7 +116,7 @@ struct WaitingNode {
     ChildQueue children;
 };
 
-/// Shows the met leaves of a node to the visitor; true when it wants no more. The inner children
+/// Shows the met leaves of a node to the visitor. True when it wants no more. The inner children
 /// that were met, nearest first, are put into `inner`.
 template <class Leaf>
 MIR_HD bool visit_children(const WideNode& node, const SlabSegment& segment, Leaf& leaf,
@@ -132,10 +132,10 @@ MIR_HD bool visit_children(const WideNode& node, const SlabSegment& segment, Lea
     return false;
 }
 
-/// The walk: calls `leaf(first, count)` for the leaves along the segment until one returns true,
-/// which the walk then returns. `leaf.end()` is the fraction of the segment up to which leaves
-/// matter. A node is on the stack only while one of its children is visited, so the stack holds
-/// nodes of one path alone and never more than the tree is deep.
+/// The walk: calls `leaf(first, count)` along the segment until one returns true. The walk then
+/// returns that. `leaf.end()` is the fraction of the segment up to which leaves matter. A node is
+/// on the stack only while one of its children is visited, so the stack holds nodes of one path
+/// alone and never more than the tree is deep.
 template <Space S, class Leaf>
 MIR_HD bool walk(const WideBvhView<S>& bvh, Vec3 from, Vec3 to, Leaf& leaf) {
     const SlabSegment segment(from, to, bvh.reach);

@@ -27,7 +27,7 @@ inline Rgb rgb_of_xyz(Vec3 xyz) {
             glm::dot(Vec3(0.052873939f, -0.203976959f, 1.151103020f), xyz)};
 }
 
-/// L*, a*, b* or Y, Cx, Cz from the three numbers that CIELAB and YCxCz each make of X, Y and Z.
+/// L*, a*, b* or Y, Cx, Cz from the numbers made of X, Y, Z. CIELAB and YCxCz each make three.
 inline Vec3 opponent_of(Vec3 f) {
     return {116.0f * f.y - 16.0f, 500.0f * (f.x - f.y), 200.0f * (f.y - f.z)};
 }
@@ -54,7 +54,7 @@ inline Vec3 hunt_lab_of(Rgb c) {
     return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z};
 }
 
-/// Distance for large colour differences: city block in lightness, Euclidean in chroma (Abasi,
+/// Distance for large colour differences. City block in lightness, Euclidean in chroma (Abasi,
 /// Amani Tehran and Fairchild, "Distance metrics for very large color differences", 2020).
 inline float hyab(Vec3 a, Vec3 b) {
     const Vec3 d = a - b;

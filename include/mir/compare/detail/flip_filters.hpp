@@ -17,8 +17,8 @@ std::vector<double> sampled(int radius, const F& f) {
     return values;
 }
 
-/// The filters of FLIP for a number of pixels per degree of visual angle, each made of functions of
-/// one coordinate.
+/// The filters of FLIP for a number of pixels per degree. Each is made of functions of one
+/// coordinate.
 struct FlipFilters {
     FilterWeights achromatic;      ///< contrast sensitivity of Y, across and down, sum 1
     FilterWeights red_green;       ///< of Cx
@@ -48,7 +48,7 @@ struct FlipFilters {
         return sum;
     }
 
-    /// Divides so that what is positive adds up to 1 and what is negative to -1.
+    /// Divides so that positive values add up to 1 and negative ones to -1.
     static FilterWeights balanced(const std::vector<double>& values) {
         double positive = 0.0;
         double negative = 0.0;
@@ -56,7 +56,7 @@ struct FlipFilters {
         return scaled(values, positive, negative);
     }
 
-    /// Contrast sensitivity in space: sums of a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees.
+    /// Contrast sensitivity in space. Sums of a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees.
     void make_contrast(double ppd) {
         constexpr double pi2 = 9.869604401089358;
         constexpr double widest = 0.04;
@@ -80,8 +80,8 @@ struct FlipFilters {
             blue_yellow_share[i] = static_cast<float>(volume[i] / (volume[0] + volume[1]));
     }
 
-    /// Derivatives of a Gaussian whose width, 0.082 degrees, is that of the eye's own
-    /// edge detectors.
+    /// Derivatives of a Gaussian as wide as the eye's edge detectors, 0.082
+    /// degrees.
     void make_features(double ppd) {
         const double sd = 0.5 * 0.082 * ppd;
         const int radius = static_cast<int>(std::ceil(3.0 * sd));

@@ -12,7 +12,7 @@
 
 namespace mir::detail {
 
-/// Place of a VPL in six dimensions: its position, and its normal on a scale on which opposite
+/// Place of a VPL in six dimensions. Its position, and its normal on a scale on which opposite
 /// normals lie as far apart as a part of the scene.
 struct VplKey {
     float at[6] = {};

@@ -16,10 +16,10 @@ namespace mir::detail {
 /// neighbouring columns weigh once more, are few; narrow enough for the first-level cache.
 inline constexpr std::uint32_t film_columns = 64;
 
-/// One luxel row, as far as film_columns pixel columns need it, in planes by cell: neighbours in
+/// One luxel row, as far as film_columns pixel columns need it, in planes by cell. Neighbours in
 /// memory are the luxels of one cell in neighbouring pixels. What pixel i needs for one cell and
-/// tap then lies at the same distance for every i, and a vector register takes several pixels.
-/// For one thread.
+/// tap then lies at the same distance for every i, and a vector register takes several pixels. For
+/// one thread.
 class LuxelColumns {
  public:
     /// For pixels from column `first_pixel` on; `grid` and `taps` must outlive this.
@@ -163,7 +163,7 @@ void LuxelColumns::add_products(double* sums) {
     }
 }
 
-/// Adds neighbouring taps: the further right the pixel, the further left in its plane the luxel.
+/// Adds neighbouring taps. The further right the pixel, the further left in its plane the luxel.
 template <std::uint32_t channels, std::uint32_t taps>
 void LuxelColumns::add_taps(const double* weight, const double* product, double* __restrict sums) {
     for (std::uint32_t i = 0; i < film_columns; ++i)

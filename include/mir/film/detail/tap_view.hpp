@@ -29,7 +29,7 @@ struct TapView {
     const TapRange* ranges = nullptr;  ///< of cell columns, then of cell rows
     std::uint32_t columns = 0;         ///< of cells
 
-    /// The taps of cell column `cx` that a luxel can reach; all others have weight zero.
+    /// The taps of cell column `cx` that a luxel can reach. All others have weight zero.
     [[nodiscard]] MIR_HD TapRange x(std::uint32_t cx) const { return ranges[cx]; }
     /// The same along y.
     [[nodiscard]] MIR_HD TapRange y(std::uint32_t cy) const { return ranges[columns + cy]; }

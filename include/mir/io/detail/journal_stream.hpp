@@ -27,7 +27,7 @@ class ByteHash {
     std::uint64_t state_ = 0xcbf29ce484222325ull;
 };
 
-/// Takes apart what is no plain value: `Stream` reads or writes bytes() and resizes with sized().
+/// Takes apart what is no plain value. `Stream` reads or writes bytes() and resizes with sized().
 /// Bytes are those of memory, so files are good on machines of one kind.
 template <class Stream>
 class Transfer {

@@ -31,7 +31,7 @@ class LockedFile {
         if (descriptor_ >= 0) close(descriptor_);
     }
 
-    /// Makes a new file of these permissions, less those that the process gives to none; no file,
+    /// Makes a new file of these permissions, less those that the process gives to none. No file,
     /// with errno, where there is one already or none can be. On file systems without locks it is
     /// not locked.
     static LockedFile create(const std::filesystem::path& path, mode_t permissions) {
@@ -43,7 +43,7 @@ class LockedFile {
         return {};
     }
 
-    /// Locks a file that is there; none when another process has it, or its name is another's now.
+    /// Locks a file that is there. None when another process has it, or its name is another's now.
     static LockedFile take(const std::filesystem::path& path) {
         LockedFile file(open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
         const bool taken =
@@ -71,9 +71,9 @@ class LockedFile {
     int descriptor_ = -1;
 };
 
-/// An empty file `.NAME.N.tmp` beside the file NAME that it is going to replace, with the first N
-/// that no other writer has. Removed with the object, unless it was renamed. What killed processes
-/// left over of NAME is removed first: nobody has it locked.
+/// An empty file `.NAME.N.tmp` beside the file NAME that it will replace. N is the first that no
+/// other writer has. Removed with the object, unless it was renamed. What killed processes left
+/// over of NAME is removed first: nobody has it locked.
 class TemporaryFile {
  public:
     /// `error()` says why there is none.
@@ -103,8 +103,8 @@ class TemporaryFile {
     [[nodiscard]] int error() const { return error_; }
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
-    /// Gives the file its final name, and the permissions of the file that had it before; a second
-    /// call does nothing.
+    /// Gives the file its final name, and the former file's permissions. A second call does
+    /// nothing.
     std::error_code rename(const std::filesystem::path& target) {
         std::error_code failure;
         if (!renamed_ && permissions_) file_.set_permissions(*permissions_);

@@ -12,7 +12,7 @@
 
 namespace mir::detail {
 
-/// Distance from a point to the farthest point of a disc, metres; relative error below 2^-48. The
+/// Distance from a point to the farthest point of a disc, metres. Relative error below 2^-48. The
 /// part of the way that lies in the plane comes from a cross product: a difference of squares would
 /// lose it where the point lies above the centre.
 inline double farthest_distance(const Surfel& s, Double3 from) {

@@ -27,7 +27,7 @@ inline std::pair<Double3, Double3> extreme_centres(std::span<const Surfel> surfe
     return best;
 }
 
-/// Centre of Ritter's sphere: the ball over two distant centres, grown by each disc that it does
+/// Centre of Ritter's sphere. The ball over two distant centres, grown by each disc that it does
 /// not hold just so far that it does. Source: Ritter, "An efficient bounding sphere", Graphics
 /// Gems, 1990.
 inline Double3 ritter_centre(std::span<const Surfel> surfels) {

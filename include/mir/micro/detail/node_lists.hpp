@@ -5,8 +5,8 @@
 
 namespace mir::detail {
 
-/// Calls write(place, lane) for the lanes for whose `pictures` there are any, places counted from
-/// `length` on. Returns how many lanes that are.
+/// Calls write(place, lane) for lanes with any `pictures`. Places count from `length` on. Returns
+/// how many lanes that are.
 template <class Write>
 MIR_HD std::uint32_t put_where_any(const LaneGroup& group, std::uint32_t length,
                                    const LaneGroup::PerLane<std::uint32_t>& pictures,
@@ -19,7 +19,7 @@ MIR_HD std::uint32_t put_where_any(const LaneGroup& group, std::uint32_t length,
     return LaneGroup::count(these);
 }
 
-/// Puts the node of each lane for whose `pictures` there are any behind a list of `length` nodes
+/// Puts the nodes of lanes with any `pictures` behind a list of nodes. The list has `length` nodes
 /// (MicroBufferSpace::Shares). Returns how many were put.
 template <class List>
 MIR_HD std::uint32_t put_nodes(const LaneGroup& group, List& list, std::uint32_t length,

@@ -32,8 +32,8 @@ inline NormalCone normal_cone(std::span<const Surfel> surfels) {
     return {axis, larger(-1.0f, rounded_down(least - 0x1p-48))};
 }
 
-/// How far discs reach from a point along an axis, to either side, metres: rounded upwards. `axis`
-/// need only be a unit vector as far as single precision goes.
+/// How far discs reach along an axis, to either side, metres, rounded upwards. Counted from a
+/// point. `axis` need only be a unit vector as far as single precision goes.
 inline float thickness_along(std::span<const Surfel> surfels, Vec3 from, Vec3 axis) {
     const Double3 unit = glm::normalize(Double3(axis));
     double most = 0.0;

@@ -41,8 +41,8 @@ struct OrientationBin {
         return 2.0f * (e.x * e.y + e.y * e.z + e.z * e.x);
     }
 
-    /// Solid angle into which discs shine whose normals spread evenly over a cone and have this
-    /// mean: its length is (1 + cos) / 2. Source: Conty Estevez and Kulla 2018, equation 1.
+    /// Solid angle into which discs of this mean normal shine. Normals spread evenly over a cone:
+    /// the length of the mean is (1 + cos) / 2. Source: Conty Estevez and Kulla 2018, equation 1.
     [[nodiscard]] float orientation() const {
         const float mean = smaller(glm::length(normals) / area, 1.0f);
         const float angle = std::acos(2.0f * mean - 1.0f);
@@ -66,7 +66,7 @@ struct OrientationCut {
     float cost = std::numeric_limits<float>::infinity();
 };
 
-/// Where a disc's bin lies on an axis: 0 to 2 are those of places, 3 to 5 those of normals. Planes
+/// Where a disc's bin lies on an axis. 0 to 2 are those of places, 3 to 5 those of normals. Planes
 /// in space leave some discs of one wall with the other where two walls meet, at every size;
 /// normals part them at once.
 struct OrientationGrid {

@@ -16,12 +16,13 @@ enum class Fate {
     unsure      ///< to be told for each point
 };
 
-/// Points close to each other that look at the same nodes, and what can be told of a node for all
-/// of them at once: a ball around the points and one around their normals. Whatever is rounded, it
-/// errs on one side: all slack is at least eight times what single precision rounds there.
+/// Points close to each other that look at the same nodes, as two balls. One is around the points
+/// and one around their normals; they tell of a node what holds for all points. Whatever is
+/// rounded, it errs on one side: all slack is at least eight times what single precision rounds
+/// there.
 class PointGroup {
  public:
-    /// Of those of `points` whose bits are set in `chosen`, MicroPoints that stop at nodes of up to
+    /// Group of the `points` whose bits are set in `chosen`. MicroPoints stop at nodes of up to
     /// `share` steradians over the density of their texels.
     template <class Point>
     MIR_HD PointGroup(const Point* points, std::uint32_t chosen, float share) {
@@ -71,16 +72,16 @@ class PointGroup {
         return is_small && is_above && sides == Sides::one ? Fate::ended : Fate::unsure;
     }
 
-    /// True when all points have the same texels and reach() covers few more of them than a point's
-    /// own would: the ball around the points is small against the node or, seen from there, against
-    /// a texel of `side` x `side`.
+    /// True when reach() for all points covers few more texels than for one. All must have the same
+    /// texels, and the ball around the points must be small against the node or, seen from there,
+    /// against a texel of `side` x `side`.
     [[nodiscard]] MIR_HD bool is_far(const SurfelNode& node, std::uint32_t side) const {
         const Vec3 to_centre = node.centre - centre_;
         const float small = 64.0f * static_cast<float>(side * side) * radius_ * radius_;
         return is_alike_ && (4.0f * radius_ < node.radius || small < dot(to_centre, to_centre));
     }
 
-    /// What a node may cover of any point's texels, where those are alike: as seen from all points
+    /// What a node may cover of any point's texels, where those are alike. As seen from all points
     /// it lies in a ball that is larger by theirs, seen from their centre.
     template <class Texels>
     [[nodiscard]] MIR_HD TexelReach reach(const Texels& texels, const SurfelNode& node) const {
@@ -94,7 +95,7 @@ class PointGroup {
     /// Which sides of its discs a node shows to a point, as shows_one_side() sees it.
     enum class Sides { one, both, unsure };
 
-    /// True only when lies_below() is true for no point, whose plane has the node's centre at
+    /// True only when lies_below() is true for no point. The point's plane has the node's centre at
     /// `height` or above it.
     [[nodiscard]] MIR_HD bool reaches_up(const SurfelNode& node, float height,
                                          float farthest) const {

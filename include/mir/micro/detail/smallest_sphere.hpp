@@ -14,7 +14,7 @@ struct Ball {
     double radius = 0.0;
 };
 
-/// Smallest sphere with all of 1 to 4 points on it; none where they lie so that there is none.
+/// Smallest sphere with all of 1 to 4 points on it. None where they lie so that there is none.
 inline std::optional<Ball> ball_through(std::span<const Double3> points) {
     const std::size_t n = points.size() - 1;
     // Centre p0 + sum of x_i v_i, v_i = p_i - p0, with v_i . (2 sum of x_j v_j - v_i) = 0.
@@ -41,7 +41,7 @@ inline std::optional<Ball> ball_through(std::span<const Double3> points) {
     return Ball{points[0] + offset, glm::length(offset)};
 }
 
-/// Smallest ball around a few points: those that it is known to touch, 1 to 4 of them.
+/// Smallest ball around a few points. Those that it is known to touch, 1 to 4 of them.
 class BallBasis {
  public:
     explicit BallBasis(Double3 first) : points_{first}, ball_{first, 0.0} {}
@@ -80,11 +80,11 @@ class BallBasis {
     Ball ball_;
 };
 
-/// Centre of a sphere around discs that is at most a thousandth larger than the smallest: the
-/// farthest point of any disc is added until none lies outside. Every ball on the way is the
-/// smallest around points of the discs, thus not larger than the sphere that is looked for.
-/// Sources: Welzl, "Smallest enclosing disks (balls and ellipsoids)", LNCS 555, 1991, with the
-/// pivots of Gaertner, "Fast and robust smallest enclosing balls", ESA 1999.
+/// Centre of a sphere around discs, a thousandth larger than the smallest at most. The farthest
+/// point of any disc is added until none lies outside. Every ball on the way is the smallest around
+/// points of the discs, thus not larger than the sphere that is looked for. Sources: Welzl,
+/// "Smallest enclosing disks (balls and ellipsoids)", LNCS 555, 1991, with the pivots of Gaertner,
+/// "Fast and robust smallest enclosing balls", ESA 1999.
 inline Double3 smallest_sphere_centre(std::span<const Surfel> surfels) {
     const Double3 start(surfels[0].position);
     BallBasis basis(farthest_point(surfels[farthest_disc(surfels, start).index], start));

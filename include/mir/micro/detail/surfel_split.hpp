@@ -20,7 +20,7 @@ inline Bounds box_of_centres(std::span<const Surfel> surfels) {
     return box;
 }
 
-/// Puts the lower half along the longest axis of the centres' box first; returns its size.
+/// Puts the lower half along the longest axis of the centres' box first. Returns its size.
 inline std::size_t halve(std::span<Surfel> surfels, const Bounds& box) {
     const Vec3 extent = box.high - box.low;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
@@ -33,10 +33,10 @@ inline std::size_t halve(std::span<Surfel> surfels, const Bounds& box) {
     return middle;
 }
 
-/// Puts the discs of the left child first; returns their number, at least one and not all.
-/// `room` is the number of nodes that may lie on a way below this one. No tree is deeper than its
-/// options say: a node with n discs has room for balanced_depth_of(n) - 1 at least, since halves
-/// keep that, and other cuts are made only where it stays true of both sides.
+/// Puts the discs of the left child first. Returns their number, at least one and not all. `room`
+/// is the number of nodes that may lie on a way below this one. No tree is deeper than its options
+/// say: a node with n discs has room for balanced_depth_of(n) - 1 at least, since halves keep that,
+/// and other cuts are made only where it stays true of both sides.
 inline std::size_t split(std::span<Surfel> surfels, const SurfelTreeOptions& options,
                          std::uint32_t room) {
     if (options.split == SurfelSplit::median) return halve(surfels, box_of_centres(surfels));

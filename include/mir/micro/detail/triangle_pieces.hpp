@@ -11,7 +11,7 @@
 
 namespace mir::detail {
 
-/// Place of a piece in the triangular lattice of its level: its first corner, in steps along the
+/// Place of a piece in the triangular lattice of its level. Its first corner, in steps along the
 /// edges to the triangle's second and third corner, and whether it points like the triangle (1) or
 /// the other way (-1).
 struct PiecePlace {
@@ -20,7 +20,7 @@ struct PiecePlace {
     std::int64_t sign = 1;
 };
 
-/// Piece `index` of 4^level: its digits to base 4, the highest first, say into which part of its
+/// Piece `index` of 4^level. Its digits to base 4, the highest first, say into which part of its
 /// parent it goes. Parts 0 to 2 touch the parent's corners, 3 lies in the middle.
 inline PiecePlace piece_place(std::uint64_t index, std::uint32_t level) {
     PiecePlace p;
@@ -33,7 +33,7 @@ inline PiecePlace piece_place(std::uint64_t index, std::uint32_t level) {
     return p;
 }
 
-/// The piece of 4^level that a point of the triangle lies in; `b` are the weights of the second and
+/// The piece of 4^level that a point of the triangle lies in. `b` are the weights of the second and
 /// third corner. Inverse of piece_place().
 inline std::uint64_t piece_at(Vec2 b, std::uint32_t level) {
     std::uint64_t index = 0;

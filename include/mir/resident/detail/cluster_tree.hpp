@@ -11,8 +11,8 @@
 
 namespace mir::detail {
 
-/// A binary tree over all triangles of a scene, or parts of them, in a backend's memory, made by
-/// joining clusters that lie next to each other. Equal in bytes on every backend.
+/// A binary tree over all triangles of a scene, or parts of them. A backend makes it in its memory
+/// by joining clusters that lie next to each other. Equal in bytes on every backend.
 template <Backend B>
 class ClusterTree {
  public:
@@ -63,8 +63,8 @@ class ClusterTree {
         return {plan_.leaf_size, plan_.node_cost, plan_.area_scale};
     }
 
-    /// The host waits for the backend when it looks how many clusters are left, which takes longer
-    /// than rounds of few clusters do.
+    /// Rounds after which the host looks how many clusters are left. It waits for the backend then,
+    /// which takes longer than rounds of few clusters do.
     static constexpr std::uint32_t rounds_between_looks = 4;
 
     void find_partners(typename B::Queue& queue, bool searches, std::uint32_t bound) {

@@ -9,12 +9,12 @@
 
 namespace mir::detail {
 
-/// Which triangles of a scene are split before a tree is built over them, and how often: decided in
-/// a backend's memory, the same everywhere.
+/// Which triangles are split before a tree is built, and how often. Decided in a backend's memory,
+/// the same everywhere.
 template <Backend B>
 class SplitPlan {
  public:
-    /// `plan` says how many splits there may be; it learns how many references come of them.
+    /// `plan` says how many splits there may be. It learns how many references come of them.
     /// `queue` must outlive it.
     SplitPlan(const B& backend, typename B::Queue& queue, GeometryView<B::space> geometry,
               ClusterPlan& plan)
@@ -42,9 +42,9 @@ class SplitPlan {
     [[nodiscard]] const std::uint32_t* first() const { return room_ == 1 ? nullptr : sums_.data(); }
 
  private:
-    /// The largest of those from 2^-32 to 2^32, 16 to an octave, for which there are not too many
-    /// splits. At the least there are none: gains are below 2^14, since no accept triangle that is
-    /// cut leaves the reach.
+    /// The largest density without too many splits, from 2^-32 to 2^32. There are 16 to an octave.
+    /// At the least there are none: gains are below 2^14, since no accept triangle that is cut
+    /// leaves the reach.
     void choose_density(typename B::Queue& queue, std::uint32_t splits) {
         const auto density = [](std::uint32_t step) {
             return std::bit_cast<float>(0x2F800000u + (step << 19));

@@ -6,7 +6,7 @@
 
 namespace mir::detail {
 
-/// Chooses which nodes of a binary tree become those of a wide one, level by level.
+/// Chooses which binary nodes become those of a wide tree, level by level.
 template <Backend B>
 class WideCollapse {
  public:
@@ -41,7 +41,7 @@ class WideCollapse {
     }
 
  private:
-    /// Room for wide nodes: each is made of a node of the binary tree that has two children.
+    /// Room for wide nodes. Each is made of a node of the binary tree that has two children.
     static std::size_t most_nodes(const ClusterPlan& plan) {
         return std::max(plan.references, 2u) - 1;
     }

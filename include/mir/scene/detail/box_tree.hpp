@@ -29,7 +29,7 @@ class BoxTree {
         if (!leaves_.empty()) build(0, static_cast<std::uint32_t>(leaves_.size()));
     }
 
-    /// Calls visit(i) for every box i that touches `box`, in an order of the tree's own.
+    /// Calls visit(i) for every box i that touches `box`. The order is the tree's own.
     template <class Visit>
     void each_touching(const Bounds& box, const Visit& visit) const {
         if (!nodes_.empty()) search(0, box, visit);

@@ -9,7 +9,7 @@
 
 namespace mir::detail {
 
-/// Texture coordinates and colours: one for each vertex, or none, and of numbers that can be used.
+/// Texture coordinates and colours. One for each vertex, or none, and of numbers that can be used.
 /// @throws Error(invalid_input) that names mesh and place, as do the others.
 inline void check_attributes(const Mesh& mesh) {
     const auto check = [&](const char* what, std::size_t count, auto&& is_good) {

@@ -13,7 +13,7 @@
 
 namespace mir::detail {
 
-/// Steps between neighbouring floats that the median edge of a mesh should have: rounding of its
+/// Steps between neighbouring floats that the median edge of a mesh should have. Rounding of its
 /// corners then turns and shortens it by a thousandth.
 inline constexpr double least_steps = 1000.0;
 
@@ -24,8 +24,9 @@ inline double float_step(double coordinate) {
            static_cast<double>(x);
 }
 
-/// Median length of the edges of at most 1024 triangles, spread over the mesh, in the mesh's unit;
-/// edges without length do not count. 0 when there are none, or a triangle names no vertex.
+/// Median length of the edges of at most 1024 triangles, in the mesh's unit. They are spread over
+/// the mesh; edges without length do not count. 0 when there are none, or a triangle names no
+/// vertex.
 inline double median_edge(const Mesh& mesh) {
     constexpr std::size_t most = 1024;
     const std::size_t count = mesh.triangles.size();
@@ -50,12 +51,12 @@ inline double median_edge(const Mesh& mesh) {
 /// "0.00781 m".
 inline std::string metres(double length) { return number_text(length, 3) + " m"; }
 
-/// Collects meshes whose edges are short beside the steps of the floats that hold their corners,
-/// and words one sentence about all of them.
+/// Collects meshes with edges that are short beside the steps of floats. The floats hold their
+/// corners; one sentence is about all of them.
 class CoarseMeshes {
  public:
-    /// `reach`: largest coordinate of a corner; `edge`: median_edge(). Both in one unit, `unit` of
-    /// which are a metre of the world.
+    /// `reach`: largest coordinate of a corner; `edge`: median_edge(). Both in one unit; `unit` of
+    /// it are a metre of the world.
     void look_at(const std::string& name, double reach, double edge, double unit) {
         const double steps = edge / float_step(reach);
         if (!(steps > 0.0 && steps < least_steps)) return;

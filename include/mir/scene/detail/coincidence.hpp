@@ -38,8 +38,8 @@ struct Facet {
     return flat;
 }
 
-/// By how much two triangles overlap along the normal of that edge of `a` along which they overlap
-/// least; not positive when such an edge parts them.
+/// Overlap of two triangles along the normal of the edge where it is least. The edge is one of `a`;
+/// not positive when such an edge parts them.
 [[nodiscard]] inline double overlap_across_edges(const FlatCorners& a, const FlatCorners& b) {
     double least = INFINITY;
     for (std::size_t k = 0; k < 3; ++k) {

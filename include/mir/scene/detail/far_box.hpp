@@ -49,13 +49,14 @@ inline FarBox box_of(const std::vector<Vec3>& points) {
     return {DVec3(bounds.low), DVec3(bounds.high)};
 }
 
-/// Sizes of a box that may lie between it and the origin: they cost three of the 24 bits of a
+/// Sizes of a box that may lie between it and the origin. They cost three of the 24 bits of a
 /// float, and what was not made to lie far away keeps its coordinates.
 inline constexpr double near_sizes = 8.0;
 
-/// What to subtract from one coordinate of all points of a box of such a size around `centre`: 0
-/// for a box that is near, else a multiple of a power of two so large that differences are exact in
-/// double precision and, of floats, in single precision, and so small that the box ends up near.
+/// What to subtract from one coordinate of all points of a box. The box has such a size around
+/// `centre`. It is 0 for a box that is near, else a multiple of a power of two so large that
+/// differences are exact in double precision and, of floats, in single precision, and so small that
+/// the box ends up near.
 inline double shift_along(double centre, double size) {
     if (std::fabs(centre) <= near_sizes * size) return 0.0;
     // Six sizes: lengths that people choose, 1, 2, 2.5, 4 or 5, lie away from where the power

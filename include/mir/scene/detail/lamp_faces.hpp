@@ -16,7 +16,7 @@
 
 namespace mir::detail {
 
-/// A face of a lamp that coincides with other surfaces: it lies before them by `level` steps.
+/// A face of a lamp that coincides with other surfaces. It lies before them by `level` steps.
 struct LampFace {
     std::uint32_t triangle = 0;
     bool front = true;        ///< the side it shines from
@@ -96,7 +96,7 @@ class LampFaceFinder {
         }
         return box;
     }
-    /// By which segments that leave the lamp are lifted off it: what is nearer lies in its place.
+    /// By which segments that leave the lamp are lifted off it. What is nearer lies in its place.
     [[nodiscard]] float reach_of(std::uint32_t lamp) const {
         const float size = std::sqrt(geometry_.area(lamp));
         float reach = 0.0f;
@@ -146,7 +146,7 @@ class LampFaceFinder {
         return static_cast<std::size_t>(at - lamps_.begin());
     }
 
-    /// From the last lamp to the first: each lies before those that come later in its place and
+    /// From the last lamp to the first. Each lies before those that come later in its place and
     /// shine to the same side.
     [[nodiscard]] std::vector<LampFace> ordered_faces(const std::vector<Pair>& pairs) const {
         std::vector<Levels> levels(lamps_.size(), Levels{0, 0});

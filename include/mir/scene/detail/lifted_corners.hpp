@@ -25,9 +25,9 @@ struct FaceCorner {
     [[nodiscard]] auto key() const { return std::tuple(place.x, place.y, place.z, level, front); }
 };
 
-/// Direction that comes out of the surfaces that meet in a place, with a component of one along
+/// Direction that comes out of the surfaces that meet in a place. It has a component of one along
 /// that normal which it is furthest from. Zero where they turn too far from each other for that.
-[[nodiscard]] inline Vec3 way_out(std::span<const FaceCorner> corners) {
+[[nodiscard]] inline Vec3 outwards(std::span<const FaceCorner> corners) {
     Vec3 sum(0.0f);
     for (const FaceCorner& c : corners) sum += c.normal;
     const float length = glm::length(sum);
@@ -38,7 +38,7 @@ struct FaceCorner {
     return least > 0.5f ? mean / least : Vec3(0.0f);
 }
 
-/// Where the corners of lifted faces lie, in the order of their triangles' corners: `step` metres a
+/// Where the corners of lifted faces lie, in the order of their triangles' corners. `step` metres a
 /// level before the lamp. Faces of one level that meet in a corner still meet there, unless they
 /// turn by more than 120 degrees.
 [[nodiscard]] inline std::vector<std::array<Vec3, 3>> lifted_corners(
@@ -58,11 +58,11 @@ struct FaceCorner {
     for (auto first = all.begin(); first != all.end();) {
         const auto last =
             std::find_if(first, all.end(), [&](const auto& c) { return c.key() != first->key(); });
-        const Vec3 way = way_out({first, last});
+        const Vec3 out = outwards({first, last});
         for (; first != last; ++first)
             lifted[first->face][first->corner] =
                 first->place + (static_cast<float>(first->level) * step) *
-                                   (way == Vec3(0.0f) ? first->normal : way);
+                                   (out == Vec3(0.0f) ? first->normal : out);
     }
     return lifted;
 }

@@ -34,7 +34,7 @@ class Recentring {
                                                    [](DVec3 shift) { return shift != DVec3(0.0); });
     }
 
-    /// Sentences on meshes that are too fine for the floats that hold them: in their own
+    /// Sentences on meshes that are too fine for the floats that hold them. In their own
     /// coordinates, and in those of the world that apply() leads to.
     [[nodiscard]] std::vector<std::string> remarks(const Scene& scene) const {
         std::vector<double> edges;
@@ -98,8 +98,8 @@ class Recentring {
         }
     }
 
-    /// Vertices that lie far from the origin of their mesh would be rounded there once more on
-    /// their way to the world: their distance is to become part of the placement.
+    /// Moves vertices that lie far from the origin of their mesh. They would be rounded there once
+    /// more on their way to the world: their distance is to become part of the placement.
     void find_far_vertices(const Scene& scene) {
         if (!world_.is_usable()) return;
         const double far = near_sizes * world_.size();

@@ -11,7 +11,7 @@
 
 namespace mir {
 
-/// A light of one of several kinds, as kernels read it: its bytes, and which kind they are.
+/// A light of one of several kinds, as kernels read it. Its bytes, and which kind they are.
 template <LightSource... Sources>
 class AnySource {
  public:

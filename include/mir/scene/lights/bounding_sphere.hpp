@@ -13,7 +13,7 @@ struct BoundingSphere {
     Vec3 centre{0};       ///< metres
     float radius = 0.0f;  ///< metres
 
-    /// A ray of the light that travels along the unit vector `w`: uniform over the sphere's disc.
+    /// A ray of the light that travels along the unit vector `w`. Uniform over the sphere's disc.
     [[nodiscard]] MIR_HD Ray ray(Vec3 w, Vec2 u) const {
         const Frame frame = Frame::around(w);
         const Vec2 disc = radius * square_to_disc(u);

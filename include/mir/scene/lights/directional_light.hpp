@@ -28,7 +28,7 @@ struct DirectionalLight {
     }
 };
 
-/// A DirectionalLight as it is sampled. Model of LightSource.
+/// A DirectionalLight in the form that is sampled. Model of LightSource.
 struct DirectionalSource : OutsideSource {
     /// Whether a point or a direction is drawn, see LightSource.
     static constexpr bool has_extent = false;
@@ -53,7 +53,7 @@ struct DirectionalSource : OutsideSource {
     }
 };
 
-/// The light as it is sampled.
+/// The light in the form that is sampled.
 inline DirectionalSource source_of(const DirectionalLight& l, const BoundingSphere& scene) {
     return {{scene}, l.direction, l.irradiance, l.light_group};
 }

@@ -89,7 +89,7 @@ struct LampView {
         return found < count && triangles[found] == triangle ? found : none;
     }
 
-    /// Point on the emissive triangle at `index` of `triangles`; pdf_area is that of the triangle
+    /// Point on the emissive triangle at `index` of `triangles`. pdf_area is that of the triangle
     /// alone.
     [[nodiscard]] MIR_HD EmitterSample point_on(const GeometryView<S>& geometry,
                                                 std::uint32_t index, Vec2 uv) const {
@@ -160,8 +160,8 @@ struct LampSource {
         return p.emission * (pi / (probability * p.pdf_start()));
     }
 
-    /// Writes the point that a path ran into at these barycentrics, on the side with this normal;
-    /// false when that side does not shine.
+    /// Writes the point that a path ran into at these barycentrics. It lies on the side with this
+    /// normal; false when that side does not shine.
     [[nodiscard]] MIR_HD bool met(Vec2 barycentrics, Vec3 normal, LightPoint& point) const {
         EmitterSample s = lamps.point_on(geometry, index, {0.0f, 0.0f});
         const bool back = glm::dot(normal, s.normal) < 0.0f;

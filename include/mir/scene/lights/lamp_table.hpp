@@ -31,14 +31,14 @@ inline float checked_power(double power, const std::string& who) {
                     "emission, or the size of what shines or is lit");
 }
 
-/// Radiance of a material as far as it does not depend on the place: a texture counts by its mean.
+/// Radiance of a material without its place: a texture counts by its mean.
 inline Rgb mean_emission(const Scene& scene, const Material& m) {
     const Texture& texture = m.textures.emission;
     if (!m.emits() || !texture.is_set()) return m.emission;
     return m.emission * mean_of(scene.images[texture.image], TexelEncoding::srgb);
 }
 
-/// The images of a scene where lamps use any: a device holds them once more for the lights.
+/// The images of a scene where lamps use any. A device holds them once more for the lights.
 inline TextureTable lamp_textures(const Scene& scene) {
     for (const Material& m : scene.materials)
         if (m.emits() && (m.textures.emission.is_set() || m.is_masked()))
@@ -89,7 +89,7 @@ class LampTable {
     [[nodiscard]] std::span<const LampEntry> entries() const { return entries_; }
     /// Picks triangles by powers().
     [[nodiscard]] const DiscreteDistribution& by_power() const { return by_power_; }
-    /// The images of the scene if a lamp has a texture or a mask, else none.
+    /// The scene's images if a lamp has a texture or a mask, else none.
     [[nodiscard]] const TextureTable& textures() const { return textures_; }
 
  private:

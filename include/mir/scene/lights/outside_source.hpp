@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// What lights that come from outside of the scene have in common; a base of such sources.
+/// What lights from outside of the scene have in common. A base of such sources.
 struct OutsideSource {
     /// How rays find it, see LightSource.
     static constexpr LightOrigin origin = LightOrigin::outside;

@@ -29,7 +29,7 @@ struct PointLight {
     }
 };
 
-/// A PointLight as it is sampled. Model of LightSource.
+/// A PointLight in the form that is sampled. Model of LightSource.
 struct PointSource {
     /// How rays find it, see LightSource.
     static constexpr LightOrigin origin = LightOrigin::place;
@@ -69,7 +69,7 @@ struct PointSource {
     [[nodiscard]] double power() const { return luminance(intensity) * 4.0f * pi; }
 };
 
-/// The light as it is sampled.
+/// The light in the form that is sampled.
 inline PointSource source_of(const PointLight& l, const BoundingSphere& /*scene*/) {
     return {l.position, l.intensity, l.light_group};
 }

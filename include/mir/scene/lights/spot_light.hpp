@@ -12,8 +12,9 @@
 
 namespace mir {
 
-/// Shines into a cone around the unit vector `direction`: full `intensity` (W sr^-1) inside the
-/// inner angle, none outside the outer one, smooth between as glTF's KHR_lights_punctual says.
+/// Shines into a cone around the unit vector `direction`. It has the full `intensity` (W sr^-1)
+/// inside the inner angle, none outside the outer one, smooth between as glTF's KHR_lights_punctual
+/// says.
 struct SpotLight {
     static constexpr const char* kind = "spot light";  ///< what messages call it
 
@@ -34,7 +35,7 @@ struct SpotLight {
     }
 };
 
-/// A SpotLight as it is sampled. Model of LightSource.
+/// A SpotLight in the form that is sampled. Model of LightSource.
 struct SpotSource {
     /// How rays find it, see LightSource.
     static constexpr LightOrigin origin = LightOrigin::place;
@@ -87,7 +88,7 @@ struct SpotSource {
     }
 };
 
-/// The light as it is sampled.
+/// The light in the form that is sampled.
 inline SpotSource source_of(const SpotLight& l, const BoundingSphere& /*scene*/) {
     return {l.position, l.direction, l.intensity, l.cos_inner, l.cos_outer, l.light_group};
 }

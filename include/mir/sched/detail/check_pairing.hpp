@@ -11,7 +11,7 @@ namespace mir::sched::detail {
 template <class G>
 using ViewOf = decltype(std::declval<const G&>().view(TileIndex{}));
 
-/// True when the luxels are already in the device's memory, so that nothing has to be copied.
+/// True when the luxels are already in the device's memory. Nothing has to be copied then.
 template <class G, class B>
 concept ResidentGBuffer = B::space == Space::device&& ViewOf<G>::space == Space::device;
 

@@ -19,7 +19,7 @@ struct NoFinder {
 template <Backend B, class In, class Finder = NoFinder<B>>
 class TilePipeline {
  public:
-    /// Takes memory of the backend for up to three tiles and starts to copy the VPLs.
+    /// Allocates up to three tiles on the backend and starts to copy VPLs.
     /// @throws What the backend throws when it has no memory left.
     TilePipeline(const In& in, Image<Rgb>& image, const B& backend, Monitor* monitor)
         : in_(in),
@@ -32,7 +32,7 @@ class TilePipeline {
         vpls_.send(copy_);
     }
 
-    /// Waits for the tiles that are still on their way and writes them to the image.
+    /// Waits for the tiles under way and writes them to the image.
     /// @throws What the backend throws when its work failed.
     void finish() { ring_.drain(); }
 

@@ -36,9 +36,9 @@ struct TileSlot {
 /// What kinds of visibility the slots of a ring hold.
 enum class SlotVisibility { none, words, masks };
 
-/// A few tiles on their way: while one is computed, the next goes up and the last comes home.
-/// Slots are used in turn; acquire() waits for the tile that used a slot last and writes it into
-/// the image. Not thread-safe.
+/// A few tiles on their way. While one is computed, the next goes up and the last comes home. Slots
+/// are used in turn; acquire() waits for the tile that used a slot last and writes it into the
+/// image. Not thread-safe.
 template <Backend B, class G>
 class TileRing {
  public:
@@ -94,8 +94,8 @@ class TileRing {
             return {{slot.hits.data(), slot.luxels}, {slot.surfaces.data(), slot.luxels}};
     }
 
-    /// Starts the way home by the queue `home`, so that the next tile's kernels do not wait for it;
-    /// what was given to `compute` before is done by then.
+    /// Starts the way home by the queue `home`. The next tile's kernels do not wait for it; what
+    /// was given to `compute` before is done by then.
     void send_back(Slot& slot, typename B::Queue& compute, typename B::Queue& home) {
         home.wait(compute.record());
         home.download(slot.radiance, slot.at_home.span().first(words<Rgb>(slot.luxels)));

@@ -6,7 +6,7 @@
 
 namespace mir::sched::detail {
 
-/// Lays the luxels of a tile out row by row in the image: radiance(i) is that of blocked index i.
+/// Writes the luxels of a tile to the image row by row. radiance(i) is that of blocked index i.
 template <class T, class Radiance>
 void write_tile(Image<T>& image, Tile tile, const Radiance& radiance) {
     const auto layout = BlockedLayout::of(tile);

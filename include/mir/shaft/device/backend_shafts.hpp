@@ -17,27 +17,27 @@
 
 namespace mir {
 
-/// What the searches of shafts may cost on a backend, and how many pairs are worked on at a time.
-/// Any numbers give the same bits.
+/// What searches of shafts may cost, and how many pairs a batch has. Any numbers give the same
+/// bits.
 struct BackendShaftOptions {
     std::uint32_t block_nodes = 16;     ///< that the shaft of 256 luxels and a VPL visits
     std::uint32_t cluster_nodes = 128;  ///< that the shaft of 32 luxels and a VPL visits
     std::uint32_t vpls = 256;  ///< at a time, at least 1: queues have room for all their pairs
     std::uint32_t groups = 1u << 14;  ///< that empty a queue together, at least 1
     std::uint32_t leaves = 1u << 26;  ///< room for the leaves that shafts meet, 4 bytes each
-    /// What a difference of 1 in a component of a normal counts as when luxels are put into
-    /// clusters, in reaches of the hierarchy.
+    /// What a difference of 1 in a normal counts as in clusters. In reaches of the
+    /// hierarchy.
     float normal_weight = 0.02f;
 };
 
-/// Fills words of visibility on a backend by shafts: the better neighbours lie together, the
+/// Fills words of visibility on a backend by shafts. The better neighbours lie together, the
 /// faster. Holds the memory between the stages: 35 bytes for each 32 luxels and each VPL of a batch
-/// at most, of which 24 are for leaves and stop growing at BackendShaftOptions::leaves; and 32
-/// bytes for each luxel. One queue at a time.
+/// at most; 24 of them are for leaves and stop growing at BackendShaftOptions::leaves; and 32 bytes
+/// for each luxel. One queue at a time.
 template <Backend B>
 class BackendShafts {
  public:
-    /// For up to `luxels` luxels, a multiple of 256, and sets of up to `vpls` VPLs.
+    /// For up to `luxels` luxels and sets of up to `vpls` VPLs. `luxels` is a multiple of 256.
     /// @throws Error(invalid_argument) on options out of range; what the backend throws when it
     ///         has no memory left.
     BackendShafts(const B& backend, std::uint32_t luxels, std::uint32_t vpls,
@@ -59,7 +59,7 @@ class BackendShafts {
           places_(backend.template buffer<std::uint32_t>(luxels)),
           counters_(backend.template buffer<std::uint32_t>(9)) {}
 
-    /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`: bit for bit
+    /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`. Bit for bit
     /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are padded with
     /// empty ones. With the layout of their tile they are in blocked order, and put into clusters
     /// while it works; without one they are taken as they are.
@@ -91,7 +91,7 @@ class BackendShafts {
  private:
     static constexpr std::size_t hit_words = SoaView<Hit>::words;
 
-    /// The options with so few VPLs at a time that leaves are counted in 32 bits.
+    /// The options with few enough VPLs at a time that 32 bits count leaves.
     [[nodiscard]] static BackendShaftOptions fitted(BackendShaftOptions options,
                                                     std::uint32_t luxels) {
         constexpr std::uint32_t most_pairs = 1u << 27;

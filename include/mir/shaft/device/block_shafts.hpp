@@ -10,10 +10,10 @@
 
 namespace mir {
 
-/// Decides pairs of 256 luxels and a VPL: kernel for groups, a block per lane, neighbouring blocks
+/// Decides pairs of 256 luxels and a VPL. Kernel for groups, a block per lane, neighbouring blocks
 /// and one VPL a group. Zeroes the words of pairs that a triangle covers, leaves those of clear
-/// ones as they are, facing masks (FacingPass), and queues the rest: with all triangles
-/// that are partial, if it has found them, since those of each cluster are among them.
+/// ones as they are, facing masks (FacingPass), and queues the rest: with all triangles that are
+/// partial, if it has found them, since those of each cluster are among them.
 template <Space S, VplSet P>
 struct BlockShafts {
     /// Thread blocks that a multiprocessor of a GPU is to hold at least.
@@ -45,8 +45,8 @@ struct BlockShafts {
         return (blocks + LaneGroup::width - 1) / LaneGroup::width * batch.count;
     }
 
-    /// Group `i` < groups(): VPL batch.first + i % batch.count and the 32 blocks from
-    /// 32 (i / batch.count) on.
+    /// Group `i` < groups(). VPL batch.first + i % batch.count and the 32 blocks from 32 (i /
+    /// batch.count) on.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
         const std::uint32_t k = i % batch.count;
         const VplIndex j = batch.first + k;
@@ -150,7 +150,7 @@ struct BlockShafts {
         return stored & ~left;
     }
 
-    /// Copies the triangles of a lane's leaves whose bits are set in `partial`, which are those of
+    /// Copies the triangles of a lane's leaves whose bits are set in `partial`. Bits are those of
     /// the turns in which classify() has tested them.
     MIR_HD void copy(std::uint32_t to, std::uint32_t lane, std::uint32_t nodes,
                      std::uint32_t partial, const Workspace& space) const {

@@ -7,18 +7,18 @@
 
 namespace mir {
 
-/// Decides pairs of 32 luxels and a VPL by the leaves that their shafts, or those of their blocks,
-/// meet: kernel for groups, a few pairs at a time. First a triangle per lane against the pyramid of
-/// its pair, then, pair by pair, a luxel per lane against the triangles that are partial. Pairs
-/// with too many triangles are queued.
+/// Decides pairs of 32 luxels and a VPL by the leaves met. They are those of their shafts, or of
+/// their blocks': kernel for groups, a few pairs at a time. First a triangle per lane against the
+/// pyramid of its pair, then, pair by pair, a luxel per lane against the triangles that are
+/// partial. Pairs with too many triangles are queued.
 template <Space S, VplSet P>
 struct ClusterLists {
     /// As BlockShafts::resident_blocks.
     static constexpr std::uint32_t resident_blocks = 9;
 
-    /// What a group works in: little, because it is taken from the cache of nodes and triangles.
+    /// Workspace of a group: little, since it shares the cache of nodes and triangles.
     struct Workspace {
-        KeptForms forms;                                     ///< of triangles that are partial
+        KeptPlanes planes;                                   ///< of triangles that are partial
         std::uint32_t triangles[ListBatch::most_triangles];  ///< of all pairs, by place
         Pyramid pyramids[ListBatch::most_lists];             ///< of the pairs
     };
@@ -66,7 +66,7 @@ struct ClusterLists {
         LaneGroup::PerLane<std::uint32_t> lit;  ///< lane k: luxels of pair k that no triangle hides
         std::uint32_t dark = 0;                 ///< bit k: no luxel of pair k is lit
         std::uint32_t list = 0;                 ///< the pair whose triangles come next
-        FormRange forms;                        ///< of its triangles that are partial
+        PlaneRange planes;                      ///< of its triangles that are partial
     };
 
     /// Decides what was taken, as many clusters at a time as a batch holds. Clusters of a block may
@@ -118,39 +118,39 @@ struct ClusterLists {
         return words[std::size_t{batch.clusters[lane]} * vpls.size() + batch.vpls[lane]];
     }
 
-    /// Tests the triangles from `first` on, one per lane, and ends the pairs whose last one is
-    /// among them. Returns which one is next.
+    /// Tests the triangles from `first` on, one per lane. Ends the pairs whose last one is among
+    /// them. Returns which one is next.
     MIR_HD std::uint32_t test(const LaneGroup& group, const ListBatch& batch, std::uint32_t first,
                               Progress& progress, Workspace& space) const {
         const LaneGroup::PerLane<std::uint32_t> list = batch.lists_from(group, first);
         LaneGroup::PerLane<Occlusion> found;
-        LaneGroup::PerLane<SegmentForms> forms;
+        LaneGroup::PerLane<ShadowPlanes> planes;
         LaneGroup::PerLane<std::uint32_t> triangle;
         group.each([&](std::uint32_t lane) {
-            // Lanes without a triangle test another's, so that all have forms.
+            // Lanes without a triangle test another's, so that all have planes.
             const bool is_own = first + lane < batch.triangles;
             triangle[lane] = space.triangles[is_own ? first + lane : first];
             Pyramid pyramid = space.pyramids[is_own ? list[lane] : progress.list];
             pyramid.sigma = sigma;  // which all lanes know
-            found[lane] = occlusion(bvh.exact.triangles[triangle[lane]], pyramid, forms[lane]);
+            found[lane] = occlusion(bvh.exact.triangles[triangle[lane]], pyramid, planes[lane]);
             if (!is_own) found[lane] = Occlusion::none;
         });
         const std::uint32_t full =
             group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::full; });
         const std::uint32_t partial =
             group.ballot([&](std::uint32_t lane) { return found[lane] == Occlusion::partial; });
-        if (progress.forms.end + LaneGroup::count(partial) > KeptForms::capacity) {
+        if (progress.planes.end + LaneGroup::count(partial) > KeptPlanes::capacity) {
             ask(group, batch, progress, space);
-            progress.forms = {};
+            progress.planes = {};
         }
-        const std::uint32_t first_kept = progress.forms.end;
+        const std::uint32_t first_kept = progress.planes.end;
         group.each([&](std::uint32_t lane) {
             if ((partial >> lane & 1u) == 0) return;
             const std::uint32_t at = first_kept + LaneGroup::count_before(partial, lane);
-            space.forms.put(at,
-                            in_margins(forms[lane], OcclusionMargins::plane * sigma,
-                                       OcclusionMargins::hit_share),
-                            triangle[lane]);
+            space.planes.put(at,
+                             in_margins(planes[lane], OcclusionMargins::plane * sigma,
+                                        OcclusionMargins::hit_share),
+                             triangle[lane]);
         });
         return end_lists(group, batch, first, full, partial, progress, space);
     }
@@ -163,15 +163,15 @@ struct ClusterLists {
         for (;;) {
             const std::uint32_t end = group.broadcast(batch.ends, progress.list);
             const std::uint32_t its = LaneGroup::bits(0, end - first);
-            progress.forms.end += LaneGroup::count(partial & its);
+            progress.planes.end += LaneGroup::count(partial & its);
             if ((full & its) != 0) progress.dark |= 1u << progress.list;
             const bool is_dark = (progress.dark >> progress.list & 1u) != 0;
             if (end > first + LaneGroup::width && !is_dark) return first + LaneGroup::width;
             if (!is_dark) ask(group, batch, progress, space);
-            progress.forms.first = progress.forms.end;
+            progress.planes.first = progress.planes.end;
             if (++progress.list == batch.lists) return batch.triangles;
             if (end >= first + LaneGroup::width) {
-                progress.forms = {};
+                progress.planes = {};
                 return end;
             }
             full &= ~its;
@@ -179,14 +179,14 @@ struct ClusterLists {
         }
     }
 
-    /// Which luxels of the pair that comes next its forms leave lit.
+    /// Which luxels of the pair that comes next its planes leave lit.
     MIR_HD void ask(const LaneGroup& group, const ListBatch& batch, Progress& progress,
                     const Workspace& space) const {
-        if (progress.forms.empty()) return;
+        if (progress.planes.empty()) return;
         const std::uint32_t cluster = group.broadcast(batch.clusters, progress.list);
         PairSegments segments(group, hits, cluster * cluster_luxels, space.pyramids[progress.list]);
         const std::uint32_t lit =
-            segments.lit_behind(space.forms, progress.forms, bvh.exact.triangles,
+            segments.lit_behind(space.planes, progress.planes, bvh.exact.triangles,
                                 group.broadcast(progress.lit, progress.list));
         group.each([&](std::uint32_t lane) {
             if (lane == progress.list) progress.lit[lane] = lit;

@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// Looks for the leaves of pairs of 32 luxels and a VPL whose block has no list: kernel for
+/// Looks for the leaves of pairs of 32 luxels and a VPL. Their block has no list: kernel for
 /// groups, a cluster per lane, four blocks at a time. Leaves the words of clear pairs, facing
 /// masks, as they are. Pairs with leaves are queued with them, those whose search gave up or for
 /// which there is no room without.
@@ -20,7 +20,7 @@ struct ClusterShafts {
     static constexpr std::uint32_t block_words = block_luxels / cluster_luxels;
     /// Lanes whose searches have ended wait for the next pairs until so few others search,
     static constexpr std::uint32_t few_lanes = 20;
-    /// and until so many nodes have been visited since pairs were last handed out: that has a
+    /// and until so many nodes have been visited since pairs were last handed out. That has a
     /// price.
     static constexpr std::uint32_t least_turns = 8;
 
@@ -40,7 +40,7 @@ struct ClusterShafts {
     LeafPool pool;                 ///< for the leaves of `listed`; may run full
     WorkQueue<OpenPair> open;      ///< clusters, left to single segments; has room for all
 
-    /// Takes pairs from `blocks` until none is left: any number of groups does all the work.
+    /// Takes pairs from `blocks` until none is left. Any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace& space) const {
         LaneGroup::PerLane<Task> tasks;
         LaneGroup::PerLane<LeafSearch> searches;

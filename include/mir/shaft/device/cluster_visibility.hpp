@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// What backends need to decide the visibility of whole clusters by shafts: a wide hierarchy for
+/// What backends need to decide the visibility of clusters by shafts. That is a wide hierarchy for
 /// shafts, and an engine for the segments that are left. Model of Visibility by that engine alone,
 /// which must give the bits of hits_segment() asked of every triangle of the hierarchy, as those of
 /// mir/accel/ do. Thread-safe; both must outlive it.

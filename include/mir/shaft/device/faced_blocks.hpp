@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// Which blocks of 256 luxels have one that faces a VPL: a byte for each pair, blocks side by side,
+/// Which blocks of 256 luxels have one that faces a VPL. A byte for each pair, blocks side by side,
 /// since shafts ask for one VPL and neighbouring blocks. Their words would be far apart.
 struct FacedBlocks {
     std::uint8_t* flags = nullptr;  ///< 1 where a luxel faces the VPL

@@ -5,7 +5,7 @@
 #include "mir/data/luxel.hpp"
 #include "mir/data/soa.hpp"
 #include "mir/data/vpl.hpp"
-#include "mir/shaft/exact/segment_forms.hpp"
+#include "mir/shaft/exact/shadow_planes.hpp"
 
 #include <limits>
 
@@ -18,7 +18,7 @@ inline constexpr float infinite = std::numeric_limits<float>::infinity();
 
 }  // namespace detail
 
-/// What faces() says of a VPL and all luxels of a run that are not empty.
+/// What faces() says of a VPL and all nonempty luxels of a run.
 enum class Facing : std::uint8_t {
     none,  ///< true of no luxel
     some,  ///< neither is shown
@@ -39,7 +39,8 @@ struct FacingBounds {
     bool has_one_normal = false;  ///< `normal` is that of every luxel that is a number
 };
 
-/// Numbers by which facing_of() keeps away from zero. docs/shafts.md derives 29 e of `relative`.
+/// Numbers by which facing_of() keeps away from zero. docs/shaft_proofs.md derives 29 e of
+/// `relative`.
 struct FacingMargins {
     static constexpr float relative = 0x1p-18f;  ///< 64 e, of the sum of absolute products
     static constexpr float absolute = 1e-30f;    ///< for products that vanish, metres
@@ -90,7 +91,7 @@ MIR_HD inline MiddleOfRange middle_of(const LaneGroup& group,
     return {middle, larger(most - middle, middle - least)};
 }
 
-/// Calls f(lane, hit) for the luxels of a run that are not empty, every 32nd of them a lane's.
+/// Calls f(lane, hit) for the nonempty luxels of a run. Every 32nd of them is a lane's.
 template <class F>
 MIR_HD void each_luxel(const LaneGroup& group, SoaView<const Hit> hits, std::uint32_t first,
                        std::uint32_t count, const F& f) {
@@ -150,12 +151,12 @@ MIR_HD void each_luxel(const LaneGroup& group, SoaView<const Hit> hits, std::uin
     return bounds;
 }
 
-/// What can be said of all luxels and a VPL at once; host and device may differ in how often that
-/// is nothing. With m = q - centre the two numbers that faces() compares with zero are
-///   (q - p) . n = m . n - (p - centre) . n  and  (q - p) . n_q = m . n_q - (p - centre) . n_q,
-/// of which the bounds know the ranges. Where luxels and VPL lie on the same side of one plane, as
-/// on a wall, rounding leaves both near zero; but with one normal for all they are the same number,
-/// which is not positive and negative at once.
+/// What can be said of all luxels and a VPL at once. Host and device may differ in how often that
+/// is nothing. With m = q - centre the two numbers that faces() compares with zero are (q - p) . n
+/// = m . n - (p - centre) . n and (q - p) . n_q = m . n_q - (p - centre) . n_q, whose ranges the
+/// bounds know. Where luxels and VPL lie on the same side of one plane, as on a wall, rounding
+/// leaves both near zero; but with one normal for all they are the same number, which is not
+/// positive and negative at once.
 [[nodiscard]] MIR_HD inline Facing facing_of(const FacingBounds& luxels, const Vpl& vpl) {
     if (luxels.is_empty) return Facing::none;
     const Vec3 m = vpl.position - luxels.centre;

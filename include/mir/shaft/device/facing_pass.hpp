@@ -29,8 +29,8 @@ struct FacingPass {
         return luxels / block_luxels * runs(batch);
     }
 
-    /// Group `i` < groups(): block i / r and the VPLs from 32 (i % r) of the batch on, of which r
-    /// are runs of 32.
+    /// Group `i` < groups(). Block i / r and the VPLs from 32 (i % r) of the batch on; there are r
+    /// runs of 32.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace&) const {
         const std::uint32_t block = i / runs(batch);
         const FacingRecord& record = records[block];
@@ -77,7 +77,7 @@ struct FacingPass {
     static_assert(FacingRecord::words % at_once == 0);
     using Words = LaneGroup::PerLane<std::uint32_t>[at_once];
 
-    /// Gives the lanes whose bit is set in `open` the words of some clusters and their VPL, first +
+    /// Gives the lanes of `open` the words of some clusters and their VPL. That is first +
     /// lane.
     MIR_HD void vote(const LaneGroup& group, std::uint32_t cluster, VplIndex first,
                      std::uint32_t open, Words& word) const {

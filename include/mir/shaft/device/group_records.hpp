@@ -8,8 +8,8 @@
 
 namespace mir {
 
-/// Records of all blocks of 256 luxels and all clusters of 32, as cluster_record() makes them but
-/// for the order in which normals are summed: kernel for groups, a run of luxels each, which
+/// Records of all blocks of 256 luxels and all clusters of 32. They are those of cluster_record()
+/// except for the order in which normals are summed: kernel for groups, a run of luxels each, which
 /// neighbouring lanes read side by side. Luxels beyond the last one are padding, that is empty, and
 /// are there to be read.
 struct GroupRecords {

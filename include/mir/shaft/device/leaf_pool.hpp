@@ -5,7 +5,7 @@
 
 namespace mir {
 
-/// Memory for what shafts meet, which kernels fill and the next one reads: a word for the leaves of
+/// Memory for what shafts meet, filled by kernels and read by the next. A word is for the leaves of
 /// a node (MetLeaves::bits) or for the place of a triangle, as the queue says that refers to it.
 struct LeafPool {
     std::uint32_t* words = nullptr;  ///< `capacity` of them

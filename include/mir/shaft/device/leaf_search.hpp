@@ -8,7 +8,7 @@
 
 namespace mir {
 
-/// Leaves of one node of a wide hierarchy, in one word: the node and a bit for each slot. Empty
+/// Leaves of one node of a wide hierarchy, in one word. The node and a bit for each slot. Empty
 /// slots may be among them.
 struct MetLeaves {
     static constexpr std::uint32_t most_nodes = 1u << 24;  ///< larger numbers of nodes do not fit

@@ -8,9 +8,9 @@
 
 namespace mir {
 
-/// A few pairs of 32 luxels and a VPL on which a group works together, with the triangles of their
-/// leaves, one pair's behind the other's: lanes that one pair leaves without a triangle have one of
-/// the next.
+/// A few pairs of 32 luxels and a VPL, with their leaves' triangles. A group works on them
+/// together, one pair's triangles behind the other's: lanes that one pair leaves without a triangle
+/// have one of the next.
 struct ListBatch {
     static constexpr std::uint32_t most_lists = 8;        ///< pairs
     static constexpr std::uint32_t most_triangles = 224;  ///< of all pairs
@@ -22,7 +22,8 @@ struct ListBatch {
     /// Lane k: where the triangles of the k-th pair end; ~0 from `lists` on.
     LaneGroup::PerLane<std::uint32_t> ends;
 
-    /// For each lane the number of the pair that has triangle first + lane, of those there are.
+    /// For each lane the number of the pair that has triangle first + lane. Pairs without it count
+    /// not.
     [[nodiscard]] MIR_HD LaneGroup::PerLane<std::uint32_t> lists_from(const LaneGroup& group,
                                                                       std::uint32_t first) const {
         LaneGroup::PerLane<std::uint32_t> list;
@@ -45,7 +46,7 @@ struct BatchNodes {
     LaneGroup::PerLane<std::uint32_t> ends;  ///< lane k < lists: where the nodes of list k end
 };
 
-/// As many of the `count` > 0 lists from `listed` on as have 32 nodes together.
+/// As many of the lists from `listed` on as have 32 nodes together. There are `count` > 0.
 MIR_HD inline BatchNodes nodes_of_batch(const LaneGroup& group, const ListedPair* listed,
                                         std::uint32_t count, ListBatch& batch) {
     LaneGroup::PerLane<std::uint32_t> firsts;
@@ -77,8 +78,8 @@ MIR_HD inline BatchNodes nodes_of_batch(const LaneGroup& group, const ListedPair
 
 }  // namespace detail
 
-/// Fills a batch with the first of the `count` > 0 lists from `listed` on, and `triangles`, which
-/// has room for most_triangles of a batch, with the triangles of their leaves by their place in the
+/// Fills a batch with the first lists from `listed` on. There are `count` > 0. `triangles`, which
+/// has room for most_triangles of a batch, gets the triangles of their leaves by their place in the
 /// hierarchy. Takes as many lists as fit, each of at most 32 nodes: none, when the first one has
 /// too many triangles.
 template <Space S>
@@ -111,9 +112,9 @@ MIR_HD void unpack_lists(const LaneGroup& group, const QuantisedBvhView<S>& bvh,
     });
 }
 
-/// Fills a batch with the clusters of a block from the one with number `first` in it on, as many as
-/// fit, and `triangles` as unpack_lists() does: each has those of the block's list, which are 1 to
-/// 32 single ones.
+/// Fills a batch with the clusters of a block from number `first` on. As many as fit; `triangles`
+/// is filled as unpack_lists() does: each has those of the block's list, which are 1 to 32 single
+/// ones.
 MIR_HD inline void share_list(const LaneGroup& group, const std::uint32_t* pool,
                               const ListedPair& block, std::uint32_t first, ListBatch& batch,
                               std::uint32_t* triangles) {

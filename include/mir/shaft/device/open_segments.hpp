@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// Decides the pairs of 32 luxels and a VPL that no shaft could: kernel for groups, a pair at a
+/// Decides the pairs of 32 luxels and a VPL that no shaft could. Kernel for groups, a pair at a
 /// time and a luxel per lane, by single segments.
 template <VplSet P, Visibility V>
 struct OpenSegments {
@@ -22,7 +22,7 @@ struct OpenSegments {
     std::uint32_t* words = nullptr;  ///< as VisibilityWords
     WorkQueue<OpenPair> open;        ///< clusters
 
-    /// Takes pairs from `open` until none is left: any number of groups does all the work.
+    /// Takes pairs from `open` until none is left. Any number of groups does all the work.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t /*i*/, Workspace&) const {
         const std::uint32_t count = open.size();
         for (std::uint32_t at = open.take(group, 1); at < count; at = open.take(group, 1))

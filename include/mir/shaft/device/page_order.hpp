@@ -13,7 +13,7 @@
 
 namespace mir {
 
-/// Puts the luxels of a tile in an order in which every aligned run of 32 lies close together and
+/// Sorts the luxels of a tile so that aligned runs of 32 are compact. A run lies close together and
 /// looks the same way: kernel for groups, a page each. Pages whose runs are compact as they are
 /// stay so. Others are split at medians, along the widest of the six keys of cluster_order(),
 /// position and weighted normal, ties by index, empty luxels last; but page by page, which is as
@@ -34,7 +34,7 @@ struct PageOrder {
     /// luxel moves.
     std::uint32_t* places = nullptr;
 
-    static constexpr std::uint32_t stays = 0xFFFFFFFFu;  ///< in place of a number
+    static constexpr std::uint32_t stays = 0xFFFFFFFFu;  ///< instead of a number
 
     /// Page `i`.
     MIR_HD void operator()(const LaneGroup& group, std::uint32_t i, Workspace& space) const {
@@ -156,7 +156,7 @@ struct PageOrder {
         });
     }
 
-    /// The key with the largest extent in a run, 0 to 5, the first of equals.
+    /// The key with the largest extent in a run, 0 to 5. The first of equals.
     [[nodiscard]] MIR_HD int widest(const LaneGroup& group, const LuxelPage& page, Run run,
                                     const Workspace& space) const {
         LaneGroup::PerLane<Key> low, high;

@@ -6,8 +6,8 @@
 
 namespace mir {
 
-/// Puts words that were filled for luxels in the slots of a PageOrder back into blocked order, in
-/// place: kernel for groups, a page and 32 VPLs each.
+/// Puts words of a PageOrder's slots back into blocked order, in place. Kernel for groups, a page
+/// and 32 VPLs each.
 struct PageWords {
     /// Words of a whole page and a VPL.
     static constexpr std::uint32_t most_words = LuxelPage::most_luxels / cluster_luxels;

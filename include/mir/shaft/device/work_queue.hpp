@@ -46,7 +46,7 @@ struct alignas(8) OpenPair {
     std::uint32_t vpl = 0;      ///< its place in the set
 };
 
-/// A run of luxels and a VPL with all that may hide one of them, in a pool (LeafPool): the leaves
+/// A run of luxels and a VPL with all that may hide one. It lies in a pool (LeafPool): the leaves
 /// of nodes for 32 luxels, single triangles for 256.
 struct alignas(16) ListedPair {
     OpenPair pair;            ///< of the run

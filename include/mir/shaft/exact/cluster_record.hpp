@@ -10,11 +10,11 @@
 
 namespace mir {
 
-/// Luxels of a cluster, a word of visibility, and of a block, which is eight of them.
+/// Luxels of a cluster: a word of visibility. A block is eight of them.
 inline constexpr std::uint32_t cluster_luxels = 32;
 inline constexpr std::uint32_t block_luxels = 256;  ///< of a block
 
-/// A box of which one axis leans: points are measured along it from a plane that is tilted against
+/// A box with one leaning axis. Points are measured along it from a plane that is tilted against
 /// the other two. On a sloping surface it is as thin as the surface is flat.
 struct TiltedAxis {
     static constexpr std::uint32_t none = 3;  ///< no axis leans
@@ -32,9 +32,9 @@ struct TiltedAxis {
     }
 };
 
-/// What shafts know about a cluster, a run of luxels that lie close together: a box, a tilted one
-/// and a half-space that hold all of its luxels but the empty ones. Aligned so that the device
-/// fetches it in whole words.
+/// What shafts know about a cluster, a compact run of luxels. A box, a tilted one and a
+/// half-space hold all of its nonempty luxels. Aligned so that the device fetches it in whole
+/// words.
 struct alignas(16) ClusterRecord {
     AffineRow front{0, 0, 0, 1};  ///< at least 2 sigma at every luxel, up to rounding; metres
     Vec3 low{0};                  ///< of the luxels' box grown by sigma, metres
@@ -43,8 +43,9 @@ struct alignas(16) ClusterRecord {
     TiltedAxis tilt;              ///< of the box where it leans
 };
 
-/// True when the proofs of docs/shafts.md hold for the cluster's luxels: segments to others may be
-/// cut (reach.hpp), and are then none of the shaft's. False when a coordinate is not a number.
+/// True when the proofs of docs/shaft_proofs.md hold for the cluster's luxels. Segments to others
+/// may be cut (reach.hpp), and are then none of the shaft's. False when a coordinate is not a
+/// number.
 [[nodiscard]] MIR_HD inline bool within_reach(const ClusterRecord& cluster, float reach) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(fabsf(cluster.low[axis]) <= reach) || !(fabsf(cluster.high[axis]) <= reach))
@@ -54,7 +55,7 @@ struct alignas(16) ClusterRecord {
 
 namespace detail {
 
-/// Box, sum of normals and number of the luxels of a run that are not empty.
+/// Box, sum of normals and number of the nonempty luxels of a run.
 struct ClusterSum {
     Vec3 low{0};
     Vec3 high{0};
@@ -88,15 +89,15 @@ MIR_HD inline ClusterSum sum_of_cluster(const SoaView<const Hit>& hits, std::uin
     return sum;
 }
 
-/// The direction of `v` as gradient of a row through the origin, zero when `v` is next to nothing:
-/// normals that cancel leave a rest without a meaning.
+/// The direction of `v` as gradient of a row through the origin. It is zero when `v` is next to
+/// nothing: normals that cancel leave a rest without a meaning.
 MIR_HD inline AffineRow direction_row(Vec3 v) {
     const float length = sqrtf(row_at({v.x, v.y, v.z, 0.0f}, v));
     if (!(length > 1e-4f)) return {};
     return {strict::div(v.x, length), strict::div(v.y, length), strict::div(v.z, length), 0.0f};
 }
 
-/// Smallest value of a row at the luxels of a run that are not empty; 0 if all are. Luxels that are
+/// Smallest value of a row at the luxels of a run that are not empty. 0 if all are. Luxels that are
 /// no number count only where they come first: the row then is none either.
 MIR_HD inline float least_at(AffineRow row, const SoaView<const Hit>& hits, std::uint32_t first,
                              std::uint32_t count) {
@@ -112,8 +113,8 @@ MIR_HD inline float least_at(AffineRow row, const SoaView<const Hit>& hits, std:
     return least;
 }
 
-/// Record of luxels, of which there are some, whose box does not lean. `front` is a row through the
-/// origin, `least` or more at all of them; it is moved to where records want it.
+/// Record of one or more luxels whose box does not lean. `front` is a row through the origin,
+/// `least` or more at all of them; it is moved to where records want it.
 MIR_HD inline ClusterRecord upright_record(const ClusterSum& sum, AffineRow front, float least,
                                            float sigma) {
     ClusterRecord cluster;
@@ -125,7 +126,7 @@ MIR_HD inline ClusterRecord upright_record(const ClusterSum& sum, AffineRow fron
     return cluster;
 }
 
-/// The axis that is nearest to the direction `n` leans, so that a plane of that normal is level.
+/// The axis nearest to `n` leans, so that a plane of that normal is level.
 MIR_HD inline TiltedAxis tilted_axis(AffineRow n) {
     const Vec3 size(fabsf(n.x), fabsf(n.y), fabsf(n.z));
     TiltedAxis tilt;
@@ -138,8 +139,9 @@ MIR_HD inline TiltedAxis tilted_axis(AffineRow n) {
     return tilt;
 }
 
-/// Gives a record whose box is known the axis that leans, if that makes the box thinner. `low` and
-/// `high` bound tilt.along() at its luxels. docs/shafts.md says what the other conditions are for.
+/// Gives a record with a box the axis that leans, if that helps. The box must become thinner. `low`
+/// and `high` bound tilt.along() at its luxels. docs/shaft_proofs.md says what the other conditions
+/// are for.
 MIR_HD inline void set_tilt(ClusterRecord& cluster, TiltedAxis tilt, float low, float high,
                             float sigma) {
     if (tilt.axis == TiltedAxis::none) return;

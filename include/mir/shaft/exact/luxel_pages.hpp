@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Neighbouring blocks of a tile whose luxels are put into clusters together: up to two by two. A
+/// Neighbouring blocks of a tile whose luxels are put into clusters together. Up to two by two. A
 /// slot is a place in memory, told by its blocked index; luxels change slots within a page alone.
 struct LuxelPage {
     static constexpr std::uint32_t side = 2;  ///< of a whole page, blocks

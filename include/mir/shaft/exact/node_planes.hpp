@@ -18,7 +18,7 @@ MIR_HD inline const ChildRow& plane_row(const WideNode& node, int axis, bool upp
 MIR_HD inline AxisStep adapted(const WideNode&, int /*axis*/, AxisStep step) { return step; }
 MIR_HD inline AffineRow adapted(const WideNode&, AffineRow row) { return row; }
 
-/// What numbers of planes are added to: the sum of it and a byte is a byte put among the digits of
+/// What numbers of planes are added to. The sum of it and a byte is a byte put among the digits of
 /// a float, which costs the device one operation.
 inline constexpr float plane_bias = 32768.0f;
 
@@ -47,15 +47,15 @@ MIR_HD inline PlaneWords plane_row(const QuantisedNode& node, int axis, bool upp
     return {{upper ? high[0] : low[0], upper ? high[1] : low[1]}};
 }
 
-/// Sums of biased products lose up to 2^-8 of a step, which the node's boxes have in reserve.
+/// Sums of biased products lose 2^-8 of a step, which boxes have in reserve.
 MIR_HD inline AxisStep adapted(const QuantisedNode& node, int axis, AxisStep step) {
     const float inverse = strict::mul(step.inverse, node.step(axis));
     const float base = loose::mul_sub(node.origin[axis], step.inverse, step.offset);
     return {inverse, loose::mul_sub(plane_bias, inverse, base)};
 }
 
-/// The row with a hundredth of a step of each axis added, for what sums of biased products lose
-/// beyond the reserve of the node's boxes.
+/// The row with a hundredth of a step of each axis added. Sums of biased products lose that beyond
+/// the reserve of the node's boxes.
 MIR_HD inline AffineRow adapted(const QuantisedNode& node, AffineRow row) {
     const float of_axis[3] = {row.x, row.y, row.z};
     float per_plane[3];

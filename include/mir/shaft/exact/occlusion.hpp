@@ -2,12 +2,12 @@
 #pragma once
 
 #include "mir/shaft/exact/cluster_record.hpp"
-#include "mir/shaft/exact/segment_forms.hpp"
+#include "mir/shaft/exact/shadow_planes.hpp"
 
 namespace mir {
 
-/// What one triangle does to the segments between a VPL and the points of a cluster's box, as
-/// hits_segment() computes it.
+/// What one triangle does to the segments of a VPL and a box. The box holds the points of a
+/// cluster; hits_segment() decides.
 enum class Occlusion : std::uint8_t {
     none,     ///< it hits none of them
     partial,  ///< neither is shown
@@ -23,10 +23,10 @@ struct alignas(16) Pyramid {
     float sigma;         ///< of the scene, metres
     Vec3 half;           ///< half edges: the box keeps within -+ half of local coordinates
     std::uint32_t axis;  ///< that leans: TiltedAxis
-    Vec3 slope;          ///< likewise
+    Vec3 slope;          ///< as above
 
-    /// Local coordinates: the difference from the centre, on the axis that leans from the tilted
-    /// plane through the centre.
+    /// Local coordinates: the difference from the centre. On the axis that leans it is that from
+    /// the tilted plane through the centre.
     [[nodiscard]] MIR_HD Vec3 local(Vec3 p) const {
         Vec3 d = p - centre;
         const float rise = detail::loose_dot(slope, d);
@@ -64,9 +64,9 @@ struct alignas(16) Pyramid {
     return p;
 }
 
-/// How far from 0 a bound must be for hits_segment() to say what its sign says: of the distance
-/// from the plane in units of sigma, of the edges in those of edge_margins(). docs/shafts.md
-/// derives 1.94 of the 2, 2.49 of the 2.5 for misses and 0.992 of the 1 for hits.
+/// How far from 0 a bound must be for hits_segment() to agree. The distance from the plane is in
+/// units of sigma, the edges in those of edge_margins(). docs/shaft_proofs.md derives 1.94 of the
+/// 2, 2.49 of the 2.5 for misses and 0.992 of the 1 for hits.
 struct OcclusionMargins {
     static constexpr float plane = 2.0f;      ///< of the distance from the plane
     static constexpr float edge = 2.5f;       ///< of U, V and W, to be sure of a miss
@@ -133,31 +133,31 @@ struct ApexRows {
 /// Margins of U, V and W, metres, `sigma` a multiple of the scene's.
 MIR_HD inline EdgeMargins edge_margins(const TriangleRows& rows, const Pyramid& p,
                                        const ApexRows& apex, float sigma) {
-    const float way = strict::add(p.spread, apex.depth);
+    const float reach = strict::add(p.spread, apex.depth);
     const float u = fabsf(apex.u);
     const float v = fabsf(apex.v);
-    const float varied_u = strict::mul(l1_of_gradient(rows.u), way);
-    const float varied_v = strict::mul(l1_of_gradient(rows.v), way);
+    const float varied_u = strict::mul(l1_of_gradient(rows.u), reach);
+    const float varied_v = strict::mul(l1_of_gradient(rows.v), reach);
     const float at_apex = loose::mul_add(5.0f, strict::add(u, v), 5.0f);
     return {strict::mul(sigma, loose::mul_add(4.0f, u, varied_u)),
             strict::mul(sigma, loose::mul_add(4.0f, v, varied_v)),
             strict::mul(sigma, loose::mul_add(2.0f, strict::add(varied_u, varied_v), at_apex))};
 }
 
-/// Whether all segments that cross a plane do so outside of the same edge (negative) or inside all
-/// edges (positive). S is the VPL's depth, s'(p) the distance of p beyond the plane. With
-///   U(p) = u(q) s'(p) + S u(p), V(p) = v(q) s'(p) + S v(p), W(p) = s'(p) + S - U(p) - V(p)
-/// the segment to p crosses inside when none is negative. They are affine in p, so their ranges
-/// over a box are known. Fills `forms`; inside it asks for `hit` of the margins.
+/// Whether all segments that cross a plane agree about edges. They pass outside of the same edge
+/// (negative) or inside all edges (positive). S is the VPL's depth, s'(p) the distance of p beyond
+/// the plane. With U(p) = u(q) s'(p) + S u(p), V(p) = v(q) s'(p) + S v(p), W(p) = s'(p) + S - U(p)
+/// - V(p) the segment to p crosses inside when none is negative. They are affine in p, so their
+/// ranges over a box are known. Fills `planes`; inside it asks for `hit` of the margins.
 MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
                                   const AffineForm& beyond, const ApexRows& apex,
-                                  EdgeMargins margins, float hit, SegmentForms& forms) {
+                                  EdgeMargins margins, float hit, ShadowPlanes& planes) {
     const AffineForm u = combine(apex.u, beyond, apex.depth, affine_form(rows.u, p));
     const AffineForm v = combine(apex.v, beyond, apex.depth, affine_form(rows.v, p));
     const AffineForm d{strict::add(beyond.value, apex.depth), beyond.slope};
     const AffineForm w = subtract(subtract(d, u), v);
-    forms = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), row_from_centre(w),
-             margins};
+    planes = {row_from_centre(beyond), row_from_centre(u), row_from_centre(v), row_from_centre(w),
+              margins};
     const SureSign edge_u = sure_sign(u, p.half, margins.u, hit * margins.u);
     const SureSign edge_v = sure_sign(v, p.half, margins.v, hit * margins.v);
     const SureSign edge_w = sure_sign(w, p.half, margins.w, hit * margins.w);
@@ -167,17 +167,17 @@ MIR_HD inline SureSign sure_edges(const TriangleRows& rows, const Pyramid& p,
 
 }  // namespace detail
 
-/// Tests one triangle against all segments from the pyramid's apex to its box, in about 100
-/// operations without a division. None is left out early: lanes of a device that test different
-/// triangles would wait for the one that needs them all. Partial when the apex lies within sigma of
-/// the triangle's plane.
-/// Source: Reshetov, "Faster ray packets - triangle intersection through vertex culling", 2007,
-/// turned round: affine functions of the triangle over the base in place of planes over vertices.
-/// `forms` say what is sure of single segments: where the apex is that near, misses by the plane
+/// Tests one triangle against all segments of a pyramid. They go from the apex to its box,
+/// in about 100 operations without a division. None is left out early: lanes of a device
+/// that test different triangles would wait for the one that needs them all. Partial when
+/// the apex lies within sigma of the triangle's plane. Source: Reshetov, "Faster ray
+/// packets - triangle intersection through vertex culling", 2007, turned round: affine
+/// functions of the triangle over the base instead of planes over vertices. `planes` say
+/// what is sure of single segments: where the apex is that near, misses by the plane
 /// alone.
 template <class Margins = OcclusionMargins>
 [[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p,
-                                         SegmentForms& forms) {
+                                         ShadowPlanes& planes) {
     const float s = row_at(rows.s, p.apex);
     const float depth = fabsf(s);
     const bool is_near = !(depth > p.sigma);
@@ -191,7 +191,7 @@ template <class Margins = OcclusionMargins>
     const float sigma = is_near ? INFINITY : Margins::edge * p.sigma;
     const EdgeMargins margins = detail::edge_margins(rows, p, apex, sigma);
     const detail::SureSign edges =
-        detail::sure_edges(rows, p, beyond, apex, margins, Margins::hit_share, forms);
+        detail::sure_edges(rows, p, beyond, apex, margins, Margins::hit_share, planes);
     // Sums of products that overflow have any sign.
     const bool is_bounded = margins.w <= EdgeMargins::largest;
     if (is_near) return Occlusion::partial;
@@ -202,8 +202,8 @@ template <class Margins = OcclusionMargins>
 /// The same where single segments are not asked about.
 template <class Margins = OcclusionMargins>
 [[nodiscard]] MIR_HD Occlusion occlusion(const TriangleRows& rows, const Pyramid& p) {
-    SegmentForms forms;
-    return occlusion<Margins>(rows, p, forms);
+    ShadowPlanes planes;
+    return occlusion<Margins>(rows, p, planes);
 }
 
 }  // namespace mir

@@ -7,8 +7,8 @@
 
 namespace mir {
 
-/// Sizes of runs of neighbouring luxels, from which is told whether each keeps to one surface. It
-/// decides speed alone.
+/// Sizes of runs of neighbouring luxels: whether each keeps to one surface. It decides speed
+/// alone.
 struct RunSizes {
     float count = 0.0f;     ///< runs that are no points
     float sum = 0.0f;       ///< of their diagonals, metres
@@ -21,7 +21,7 @@ struct RunSizes {
         sum += diagonal;
         inverses += 1.0f / diagonal;
     }
-    /// False when some runs reach from one surface to another: if they are few, their arithmetic
+    /// False when some runs reach from one surface to another. If they are few, their arithmetic
     /// mean is much larger than the harmonic one; if they are many, it is larger than for a square
     /// that is cut into n squares, which are 1 / sqrt(n) as wide. `diagonal` is that of the box
     /// around all runs, metres. What is no number counts as compact.

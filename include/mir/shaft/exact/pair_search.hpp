@@ -38,7 +38,7 @@ struct SearchLimits {
 
 namespace detail {
 
-/// Leaf visitor: lists what is partial, stops at what covers all and when the list is full.
+/// Leaf visitor that lists what is partial. It stops at what covers all and when the list is full.
 template <Space S>
 struct ListPartial {
     const WideBvhView<S>& bvh;
@@ -61,11 +61,12 @@ struct ListPartial {
 
 }  // namespace detail
 
-/// Whether the proofs of docs/shafts.md hold for a scene of that reach: products overflow in larger
-/// ones. Scenes too small for them have no triangles (WorldGeometry drops those without area).
+/// Whether the proofs of docs/shaft_proofs.md hold for a scene of that reach. Products overflow in
+/// larger ones. Scenes too small for them have no triangles (WorldGeometry drops those without
+/// area).
 [[nodiscard]] MIR_HD inline bool is_proved_scale(float reach) { return reach <= reach_of(1e18f); }
 
-/// Looks for the triangles that hit segments between the cluster's luxels and the VPL at `apex`,
+/// Looks for the triangles that hit segments between a cluster and a VPL. The VPL is at `apex`,
 /// metres; they are in the empty `list` if the state is `listed`. `sigma` as for the cluster, which
 /// has luxels. A list is complete only if the walk ended by itself.
 template <Space S>
@@ -84,7 +85,7 @@ template <Space S>
     return list.size == 0 ? PairState::clear : PairState::listed;
 }
 
-/// The same for a cluster that is a part of another, whose complete list is `known`. Never unknown.
+/// The same for a part of another cluster. Its complete list is `known`. Never unknown.
 template <Space S>
 [[nodiscard]] MIR_HD PairState narrow_pair(const WideBvhView<S>& bvh, const ClusterRecord& cluster,
                                            Vec3 apex, float sigma, const CandidateList& known,

@@ -5,11 +5,11 @@
 
 namespace mir {
 
-/// The hull of a VPL and the box of a cluster, which holds all segments between the VPL and the
-/// cluster's luxels, cut by the half-space in front of the cluster. A point of it at the share t of
-/// the way from the VPL lies in the box apex + t [low - apex, high - apex]. Rates are shares of the
-/// way per metre; their signs come from where the VPL lies beside the box, never from a difference
-/// that may be a signed zero. Finite for finite clusters.
+/// The hull of a VPL and a cluster's box. It holds all segments between the VPL and the cluster's
+/// luxels, cut by the half-space in front of the cluster. A point of it at the share t of the way
+/// from the VPL lies in the box apex + t [low - apex, high - apex]. Rates are shares of the way per
+/// metre; their signs come from where the VPL lies beside the box, never from a difference that may
+/// be a signed zero. Finite for finite clusters.
 struct alignas(16) Shaft {
     AffineRow front{0, 0, 0, 1};  ///< negative behind the cluster
     Vec3 apex{0};                 ///< the VPL, metres
@@ -18,7 +18,7 @@ struct alignas(16) Shaft {
     Vec3 leaves{0};  ///< t is at most leaves (plane - apex); 0 where the VPL lies beside no face
 };
 
-/// What rounding may add to a share t when planes are single precision numbers: differences,
+/// What rounding may add to a share t when planes are single precision numbers. Differences,
 /// reciprocals and products round to 5 units of 2^-24 of t in all; the rest is for underflow.
 struct FloatPlaneSlack {
     static constexpr float relative = 1.00001f;  ///< factor of t
@@ -34,8 +34,8 @@ struct ShaftRates {
     float leaves = 0.0f;
 };
 
-/// `low` and `high` are the faces of the cluster's box as seen from the VPL, metres. A face at the
-/// VPL itself or next to it counts as straddled: segments in that face never leave it.
+/// `low` and `high` are the box's faces seen from the VPL, metres. A face at the VPL itself or next
+/// to it counts as straddled: segments in that face never leave it.
 MIR_HD inline ShaftRates shaft_rates(float low, float high) {
     constexpr float least = 1e-18f;
     const bool plus = low > least;
@@ -48,7 +48,7 @@ MIR_HD inline ShaftRates shaft_rates(float low, float high) {
     return rates;
 }
 
-/// The cluster's half-space with 2 sigma to spare for rounding, or the whole space when the VPL
+/// The cluster's half-space with 2 sigma to spare for rounding. It is the whole space when the VPL
 /// lies behind it.
 MIR_HD inline AffineRow front_of(const ClusterRecord& cluster, Vec3 apex, float sigma) {
     AffineRow front = cluster.front;
@@ -63,7 +63,8 @@ struct ShaftInterval {
     float far = 1.0f;
 };
 
-/// Part of `t` in which the shaft meets the slab between two planes, given relative to the VPL.
+/// Part of `t` in which the shaft meets the slab between two planes. They are given relative to the
+/// VPL.
 MIR_HD inline ShaftInterval meet_slab(ShaftInterval t, ShaftRates rates, float low, float high) {
     t.near = larger(t.near, strict::mul(low, rates.rises));
     t.near = larger(t.near, strict::mul(high, rates.falls));
@@ -94,10 +95,10 @@ MIR_HD inline bool in_front(AffineRow front, Vec3 low, Vec3 high) {
             {x.leaves, y.leaves, z.leaves}};
 }
 
-/// False only if no segment between the VPL and a point of the cluster's box within its half-space
-/// has a point in the closed box from `low` to `high` (finite, metres). For given t the shaft's
-/// section is a box, so it meets the other if and only if six inequalities linear in t have a
-/// common solution; what is left out or rounded is on the side of true.
+/// False only if the shaft misses the closed box from `low` to `high`. No segment between the VPL
+/// and a point of the cluster's box within its half-space has a point in it (finite, metres). For
+/// given t the shaft's section is a box, so it meets the other if and only if six inequalities
+/// linear in t have a common solution; what is left out or rounded is on the side of true.
 template <class Slack = FloatPlaneSlack>
 [[nodiscard]] MIR_HD inline bool meets_box(const Shaft& s, Vec3 low, Vec3 high) {
     const Vec3 a = low - s.apex;

@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// A Shaft as the nodes of a wide hierarchy are tested against it: for each axis which of a child's
+/// A Shaft as the nodes of a wide hierarchy are tested against it. For each axis which of a child's
 /// two planes the segments reach first, and the share of the way at which the first of them passes
 /// the one and the last of them the other. One fused operation per plane, no selection per child.
 ///
@@ -16,7 +16,7 @@ namespace mir {
 /// cluster's box [l, h] lies above the VPL, t (l - q) <= X - q <= t (h - q): so t is at least the
 /// share at which the step h - q passes the child's lower plane and at most that at which l - q
 /// passes the upper one, each with 0.5 e M to spare, which is more than steps that are lengthened
-/// to the shortest one move a point. Below likewise. Where the VPL straddles the box both steps
+/// to the shortest one move a point. So below. Where the VPL straddles the box both steps
 /// give lower bounds, one for children on either side.
 struct ShaftSlabs {
     AffineRow front{0, 0, 0, 1};  ///< negative behind the cluster
@@ -48,8 +48,8 @@ MIR_HD inline void set_axis(ShaftSlabs& s, int axis, float apex, float low, floa
 
 }  // namespace detail
 
-/// Slabs of a cluster that has luxels and a VPL at `apex`, both within `reach`, that of the
-/// hierarchy; metres. `sigma` as for the cluster.
+/// Slabs of a cluster with luxels and a VPL at `apex`, metres. Both lie within `reach`, that of the
+/// hierarchy. `sigma` as for the cluster.
 [[nodiscard]] MIR_HD inline ShaftSlabs make_shaft_slabs(const ClusterRecord& cluster, Vec3 apex,
                                                         float sigma, float reach) {
     ShaftSlabs s;
@@ -146,8 +146,8 @@ MIR_HD ChildRow front_values(const Node& node, const ShaftSlabs& s) {
 
 }  // namespace detail
 
-/// Slots of a WideNode or a QuantisedNode whose boxes hold a point of a segment of the shaft within
-/// its half-space, bit k for slot k; false ones of others may be set, those of empty slots among
+/// Slots whose boxes hold a point of the shaft within its half-space. Bit k is for slot k of a
+/// WideNode or a QuantisedNode; false ones of others may be set, those of empty slots among
 /// them.
 template <class Node>
 [[nodiscard]] MIR_HD std::uint32_t met_slots(const Node& node, const ShaftSlabs& s) {

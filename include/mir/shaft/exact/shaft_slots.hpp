@@ -9,7 +9,7 @@
 
 namespace mir {
 
-/// A shaft as the eight children of a node are tested against it at once: what meets_box() decides
+/// A shaft as the eight children of a node are tested against it at once. What meets_box() decides
 /// by the signs of rates is decided here, once for the whole walk. On the host.
 class SlotShaft {
  public:
@@ -25,7 +25,7 @@ class SlotShaft {
         foremost_[2] = shaft.front.z > 0.0f ? 5 : 4;
     }
 
-    /// Bit k where meets_box() is true of the box of child k, with the same operations; what it
+    /// Bit k where meets_box() is true of the box of child k. The operations are the same; what it
     /// says of empty slots means nothing.
     template <InstructionSet Set = InstructionSet::baseline>
     [[nodiscard]] std::uint32_t met(const WideNode& node) const {

@@ -15,7 +15,7 @@ enum class WalkEnd : std::uint8_t {
 
 namespace detail {
 
-/// Slots of a node whose boxes the shaft meets, bit k for slot k; what it says of empty slots means
+/// Slots of a node whose boxes the shaft meets, bit k for slot k. What it says of empty slots means
 /// nothing.
 MIR_HD inline std::uint32_t met_slots(const WideNode& node, const Shaft& shaft) {
     std::uint32_t mask = 0;
@@ -34,7 +34,7 @@ struct WaitingSlots {
     std::uint32_t slots;
 };
 
-/// Shows the leaves among `met` to the visitor and removes them; true when it wants no more.
+/// Shows the leaves among `met` to the visitor and removes them. True when it wants no more.
 template <class Leaf>
 MIR_HD bool visit_leaves(const WideNode& node, Leaf& leaf, std::uint32_t& met) {
     for (std::uint32_t k = 0; k < WideNode::width; ++k) {
@@ -56,7 +56,7 @@ MIR_HD inline std::uint32_t pop_slot(std::uint32_t& slots) {
 
 }  // namespace detail
 
-/// Calls `leaf(first, count)` for the leaves whose boxes a shaft meets, until one call returns true
+/// Calls `leaf(first, count)` for the leaves that a shaft meets. It ends when one call returns true
 /// or more than `most_nodes` nodes would be visited. If the walk is complete, and cluster and VPL
 /// lie within reach, those leaves hold all triangles that hits_segment() accepts for some segment
 /// of the shaft. A node is on the stack only while one of its children is visited, so that the

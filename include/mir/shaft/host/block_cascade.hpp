@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Which of the 256 luxels of a block see one VPL: the cascade of docs/shafts.md in vectors of
+/// Which of the 256 luxels of a block see one VPL. The cascade of docs/shafts.md in vectors of
 /// sixteen. Bits are those of is_hidden(). Made for one pair, on the host; not initialised where it
 /// need not be.
 template <InstructionSet Set>
@@ -50,7 +50,7 @@ class BlockCascade {
         open = narrow(block_.packet[g].box, chosen) ? 0 : seen_past(chosen, g, open);
     }
 
-    /// Packets g and g + 1 below the nodes that wait: together if both have open lanes, because
+    /// Packets g and g + 1 below the nodes that wait. Together if both have open lanes, because
     /// they mostly meet the same nodes and triangles.
     void walk_pair(std::uint32_t g, std::uint32_t& first, std::uint32_t& second) {
         const BlockRecords::Cluster& pair = block_.pair[g / 2];
@@ -101,8 +101,8 @@ class BlockCascade {
         return open;
     }
 
-    /// Packets from `g` on, which are a cluster, below the nodes that wait, after the triangles
-    /// that blocked the packets before.
+    /// Asks a cluster of packets, from `g` on, below the nodes that wait. The triangles that
+    /// blocked the packets before come first.
     template <std::uint32_t Packets>
     [[nodiscard]] std::uint32_t walk(const BlockRecords::Cluster& cluster, std::uint32_t g,
                                      std::uint32_t open) {

@@ -10,7 +10,7 @@
 
 namespace mir {
 
-/// What the cascade of the host knows about the 256 luxels of a block: their positions in packets
+/// What the cascade of the host knows about the 256 luxels of a block. Their positions in packets
 /// of sixteen, and records of the block and of its packets. Made once per block, for all VPLs.
 struct BlockRecords {
     static constexpr std::uint32_t packets = BlockMask::packets;  ///< of a block, 16 luxels each

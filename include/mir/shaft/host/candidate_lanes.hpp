@@ -9,7 +9,7 @@
 
 namespace mir::detail {
 
-/// The box of a cluster as triangles are tested against it: it keeps within centre -+ half, metres.
+/// The box of a cluster as triangles are tested against it. It keeps within centre -+ half, metres.
 struct ClusterBox {
     Vec3 centre{0};
     Vec3 half{0};
@@ -40,9 +40,9 @@ inline AffineRow subtract_rows(AffineRow f, AffineRow g, AffineRow h) {
     return {rest(f.x, g.x, h.x), rest(f.y, g.y, h.y), rest(f.z, g.z, h.z), rest(f.w, g.w, h.w)};
 }
 
-/// Sixteen triangles, made ready for one VPL: the affine functions s', U, V and W of
-/// occlusion.hpp, once for all clusters that are asked about. Left uninitialised, because there are
-/// many for each pair and most are not used.
+/// Sixteen triangles, made ready for one VPL. The affine functions s', U, V and W of occlusion.hpp,
+/// once for all clusters that are asked about. Left uninitialised, because there are many for each
+/// pair and most are not used.
 struct CandidateLanes {
     LaneRows beyond;  ///< s': distance beyond the plane as seen from the VPL, metres
     LaneRows u;       ///< U, V, W: not negative where the segment crosses inside
@@ -59,10 +59,10 @@ struct CandidateLanes {
     }
 };
 
-/// Margin of U, V and W of lanes for misses, in units of sigma (1 + |u| + |v| at the apex +
-/// gradients times lengths): docs/shafts.md derives 4.2.
+/// Margin of U, V and W of lanes for misses. In units of sigma (1 + |u| + |v| at the apex +
+/// gradients times lengths): docs/shaft_proofs.md derives 4.2.
 inline constexpr float lane_margin = 4.5f;
-/// Share of it that hits need: docs/shafts.md derives 2.9 of 4.5.
+/// Share of it that hits need: docs/shaft_proofs.md derives 2.9 of 4.5.
 inline constexpr float lane_hit_share = 3.0f / 4.5f;
 
 /// Makes sixteen triangles ready. No point of a cluster that will be asked about is farther from

@@ -14,7 +14,7 @@ struct ClusterRun {
 /// Runs of this size are split no more: the smallest that anything decides at once.
 inline constexpr std::size_t smallest_cluster = 16;
 
-/// Elements of the first part of a run: the largest 16 2^k below its size, so that every aligned
+/// Elements of the first part of a run. The largest 16 2^k below its size, so that every aligned
 /// run of that many luxels is one part of the recursion.
 inline std::size_t first_part(std::size_t count) {
     std::size_t part = smallest_cluster;

@@ -25,7 +25,7 @@ struct LaneChoice {
     std::uint32_t lanes[capacity];
 };
 
-/// What a search knows of the segments of a pair: those that any triangle hits are hit by one of
+/// What a search knows of the segments of a pair. Those that any triangle hits are hit by one of
 /// the chosen lanes of the list or by one below a node that waits. Uninitialised beyond the sizes.
 struct LaneSearch {
     CandidateLanes batch[LaneChoice::capacity];
@@ -36,7 +36,7 @@ struct LaneSearch {
     [[nodiscard]] bool finds_nothing() const { return batches == 0 && waiting.size() == 0; }
 };
 
-/// Walks the shaft of a cluster through the hierarchy: from the root until no node waits or the
+/// Walks the shaft of a cluster through the hierarchy. From the root until no node waits or the
 /// limits are reached. What is then left is handed on, none of the work is lost.
 template <InstructionSet Set = InstructionSet::baseline>
 class LaneSearcher {

@@ -13,12 +13,12 @@
 
 namespace mir {
 
-/// The luxels of a page on the host, if wanted in an order in which packets and blocks lie close
-/// together, and masks of who of them sees some VPLs: these come in that order and leave in blocked
-/// order. It decides speed, never bits. The planes of the tile must outlive it. For one thread.
+/// The luxels of one page, optionally sorted, with masks of VPLs they see. Sorting makes packets
+/// compact. Masks are written in sorted order and read in blocked order. The order decides speed,
+/// never bits. The planes of the tile must outlive it. For one thread.
 class PageClusters {
  public:
-    static constexpr std::uint32_t most_vpls = 16;  ///< of which masks are kept
+    static constexpr std::uint32_t most_vpls = 16;  ///< whose masks are kept
 
     /// Of a page of `tile`, whose planes are in blocked order. They are copied by sort() alone.
     PageClusters(const SoaView<const Hit>& tile, const LuxelPage& page)
@@ -60,7 +60,7 @@ class PageClusters {
         is_ordered_ = true;
     }
 
-    /// The 256 luxels of cluster `c` in their order: of the page's block `c` unless sorted. Valid
+    /// The 256 luxels of cluster `c` in their order. Of the page's block `c` unless sorted. Valid
     /// until sort(), and while this object stays where it is.
     [[nodiscard]] SoaView<const Hit> hits(std::uint32_t c) const {
         if (!is_ordered_) return {tile_.planes + page_.slot(c * BlockMask::luxels), tile_.stride};
@@ -74,7 +74,7 @@ class PageClusters {
     /// Forgets all masks: nobody sees any VPL. To be called before set(), unless masks of all
     /// clusters and VPLs are set.
     void clear() { std::fill(masks_.begin(), masks_.begin() + count_ / width, PacketMasks{}); }
-    /// Notes who of cluster `c` sees VPL `k` < most_vpls.
+    /// Notes which luxels of cluster `c` see VPL `k` < most_vpls.
     void set(std::uint32_t c, std::uint32_t k, const BlockMask& mask) {
         for (std::uint32_t g = 0; g < BlockMask::packets; ++g)
             masks_[c * BlockMask::packets + g][k] = static_cast<std::uint16_t>(mask.packet[g]);
@@ -104,7 +104,7 @@ class PageClusters {
         }
     }
 
-    /// After restore(): who of block `b` of the page sees VPL `k`.
+    /// After restore(): which luxels of block `b` of the page see VPL `k`.
     [[nodiscard]] BlockMask get(std::uint32_t b, std::uint32_t k) const {
         BlockMask mask;
         for (std::uint32_t g = 0; g < BlockMask::packets; ++g)
@@ -137,7 +137,7 @@ class PageClusters {
 
     [[nodiscard]] Hit in_slot(std::uint32_t k) const { return tile_.load(page_.slot(k)); }
 
-    /// Lists the slots of luxels that are not empty, and puts the others last; returns how many are
+    /// Lists the slots of luxels that are not empty, and puts the others last. Returns how many are
     /// listed.
     [[nodiscard]] std::uint32_t list_luxels(detail::PageNumbers& used) {
         std::uint32_t used_count = 0;

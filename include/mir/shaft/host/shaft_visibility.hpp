@@ -6,7 +6,7 @@
 
 namespace mir {
 
-/// Answers from a wide bounding volume hierarchy in host memory, segment by segment, for packets,
+/// Answers from a wide bounding volume hierarchy in host memory. Segment by segment, for packets,
 /// and for blocks of luxels by shafts. Model of BlockVisibility. All faces give the bits of
 /// hits_segment() asked of every triangle. A shaft is decided by whole triangles, so where some are
 /// masked blocks are asked by packets. The hierarchy must outlive it. Thread-safe.
@@ -29,7 +29,7 @@ struct ShaftVisibility {
     /// bit when they change places.
     [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b, mask); }
 
-    /// As PacketVisibility says, bit k being visible(origin, point k); by the widest registers of
+    /// As PacketVisibility says, bit k being visible(origin, point k). By the widest registers of
     /// the processor.
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const {
@@ -42,7 +42,7 @@ struct ShaftVisibility {
         return {BlockRecords(luxels, bvh.reach, sigma_of_reach(bvh.reach)), set};
     }
 
-    /// Not inlined: it is compiled for each instruction set once, and not again for every caller.
+    /// Not inlined: compiled once for each instruction set, not for every caller.
     [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& seen) const {
         run_with(b.instructions, [&](auto set) {
             if (mask.exists())

@@ -7,7 +7,7 @@
 
 namespace mir::validation::detail {
 
-/// Calls visit(wi, solid_angle) for the cells of a grid over the sphere whose poles are `axis` and
+/// Calls visit(wi, solid_angle) for the cells of a grid over the sphere. Its poles are `axis` and
 /// -axis. Rings widen geometrically from 1e-5 rad on, so that a lobe of any width around `axis` is
 /// resolved; `rings` x `sectors` cells whose solid angles add up to 4 pi less the innermost cap.
 template <class Visit>

@@ -30,7 +30,7 @@ struct Replay {
     }
 };
 
-/// Mean radiance of the quarters of an image, and of all of it, channel by channel, over seeds.
+/// Mean radiance of an image and of its quarters, by channel, over seeds.
 class QuarterMeans {
  public:
     void add(const Image<Rgb>& image) {
@@ -94,7 +94,7 @@ class QuarterMeans {
     std::array<std::array<Moments, 3>, 5> moments_;
 };
 
-/// What the records of many seeds bring to the image of a scene of known light.
+/// What the records of many seeds bring to an image of known light.
 class ImageLight {
  public:
     ImageLight(const KnownLight& room, Bounces bounces) : room_(room), bounces_(bounces) {}

@@ -30,11 +30,10 @@ class Moments {
     double squares_ = 0.0;
 };
 
-/// How many standard deviations a normal variable would have to be off to be as unlikely as the
-/// mean of `m` is if `expected` is right: Student's t, made normal by Wallace, "Bounds on normal
-/// approximations to Student's and the chi-square distributions", Ann. Math. Statist. 30, 1959.
-/// `rounding` is an error of the mean that is no noise; it is added to the standard error. NaN when
-/// the mean is.
+/// By how many standard deviations the mean of `m` misses `expected`, as a normal variable. It is
+/// as unlikely as Student's t, made normal by Wallace, "Bounds on normal approximations to
+/// Student's and the chi-square distributions", Ann. Math. Statist. 30, 1959. `rounding` is an
+/// error of the mean that is no noise; it is added to the standard error. NaN when the mean is.
 inline double deviation(const Moments& m, double expected, double rounding) {
     const double difference = m.mean() - expected;
     if (difference == 0.0) return 0.0;

@@ -39,7 +39,7 @@ struct ShadedPlace {
     [[nodiscard]] bool is_below_horizon() const { return cos_luxel() < -1e-6 || cos_vpl() < -1e-6; }
 };
 
-/// Luxel and VPL on all sides of each other, a tenth of a millimetre to a kilometre apart.
+/// Luxel and VPL on all sides of each other, 0.1 mm to 1 km apart.
 inline ShadedPlace random_shaded_place(Random& random) {
     ShadedPlace at;
     at.hit = {{0.1f, 0.2f, -0.3f}, direction(random)};
@@ -52,7 +52,7 @@ inline ShadedPlace random_shaded_place(Random& random) {
     return at;
 }
 
-/// Largest difference of a channel, of its larger value; 0 of equal ones, NaN of NaN.
+/// Largest difference of a channel, of its larger value. 0 of equal ones, NaN of NaN.
 inline double relative_difference(Rgb a, Rgb b) {
     double worst = 0.0;
     for (const auto& [x, y] : {std::pair{a.r, b.r}, {a.g, b.g}, {a.b, b.b}})

@@ -38,8 +38,8 @@ static_assert(ShortRayCaster<EmbreeRayCaster>);
 /// owner; the handles it gives out may be used from any thread.
 class EmbreeScene {
  public:
-    /// Builds the acceleration structure, on the threads of the task library, in at most
-    /// `max_bytes` of memory.
+    /// Builds the acceleration structure in at most `max_bytes` of memory. The threads are those of
+    /// the task library.
     /// @throws Error(device) with Embree's words when it reports a failure, the memory bound
     ///         included; when triangles are masked and Embree was built without filter functions.
     ///         Error(invalid_input) when a coordinate is beyond 1.8e18 m, where Embree ends the

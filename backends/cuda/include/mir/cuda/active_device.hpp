@@ -5,8 +5,8 @@
 
 namespace mir::cuda {
 
-/// Makes a device the calling thread's current one and gives the thread its former device back at
-/// the end: several backends, and a host program's own CUDA code, live side by side.
+/// Makes a device the calling thread's current one, and restores the former at the end. Several
+/// backends, and a host program's own CUDA code, can so live side by side.
 class ActiveDevice {
  public:
     /// @throws Error(no_device) when the device cannot be used.
@@ -26,7 +26,7 @@ class ActiveDevice {
     int former_ = 0;
 };
 
-/// The same where nothing may throw: runs `release` with the device current if it can be, and
+/// The same where nothing may throw. Runs `release` with the device current if it can be, and
 /// forgets failures, which the next checked call reports.
 template <class Release>
 void release_on(int ordinal, const Release& release) noexcept {

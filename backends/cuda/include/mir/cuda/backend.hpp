@@ -12,7 +12,7 @@
 
 namespace mir::cuda {
 
-/// A GPU as a Backend: a handle, cheap to copy, whose copies share memory that was given back.
+/// A GPU as a Backend: a handle that is cheap to copy. Copies share memory that was given back.
 /// Several may live in one process, for one GPU or many, in one thread or many: each call makes its
 /// GPU the thread's current one and puts the former back. Thread-safe; a queue belongs to one
 /// thread at a time.
@@ -44,9 +44,9 @@ class Backend {
         const ActiveDevice creates_the_context(device_);
     }
 
-    /// The same backend with all its work in the caller's stream of that GPU, behind what is there
-    /// already. One stream keeps one order: copies no longer run beside kernels. The stream must
-    /// outlive what the backend hands out.
+    /// The same backend with all its work in the caller's stream of that GPU. It comes behind what
+    /// is there already. One stream keeps one order: copies no longer run beside kernels. The
+    /// stream must outlive what the backend hands out.
     [[nodiscard]] Backend on(cudaStream_t stream) const {
         Backend other = *this;
         other.stream_ = stream;

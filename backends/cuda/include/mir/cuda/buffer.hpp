@@ -7,7 +7,7 @@
 
 namespace mir::cuda {
 
-/// Elements in the memory of a GPU; not defined until something is copied or computed there.
+/// Elements in the memory of a GPU. Not defined until something is copied or computed there.
 /// Move-only. It must not end before the work that uses it has: end the queues first.
 template <class T>
 class Buffer {

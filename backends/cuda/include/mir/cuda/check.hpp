@@ -9,7 +9,7 @@
 
 namespace mir::cuda {
 
-/// True for failures after which CUDA refuses all further work of this process: only a new process
+/// True for failures after which CUDA refuses all further work of this process. Only a new process
 /// can use the GPU again. What runs on the CPU is not touched.
 [[nodiscard]] inline bool ends_all_work(cudaError_t status) {
     switch (status) {
@@ -87,7 +87,8 @@ inline const char* reason_and_remedy(cudaError_t status) {
 
 }  // namespace detail
 
-/// What to tell about a failed call: "`doing` failed", CUDA's name for it, likely reason, remedy.
+/// Message of a failed call: "`doing` failed", CUDA's name for it, likely reason, remedy. "`doing`
+/// failed", CUDA's name for it, likely reason, remedy.
 [[nodiscard]] inline std::string failure_sentence(cudaError_t status, const std::string& doing) {
     return doing + " failed (CUDA says " + cudaGetErrorName(status) + ": " +
            cudaGetErrorString(status) + "; " + detail::reason_and_remedy(status);

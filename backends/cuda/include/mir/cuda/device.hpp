@@ -90,7 +90,7 @@ inline Device describe(int ordinal) {
 
 }  // namespace detail
 
-/// All GPUs that this process sees, usable or not, in the order of their ordinals; at least one.
+/// All GPUs that this process sees, usable or not, in the order of their ordinals. At least one.
 /// Callable from any thread.
 /// @throws Error(no_device) when there is no driver, a driver too old, or no GPU.
 [[nodiscard]] inline std::vector<Device> devices() {

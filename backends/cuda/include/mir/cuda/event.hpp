@@ -41,7 +41,7 @@ class Event {
     /// CUDA's handle, owned by this object.
     [[nodiscard]] cudaEvent_t handle() const { return event_; }
 
-    /// Seconds that the GPU's clock counted between two events of one device, to about half a
+    /// Seconds between two events of one device by the GPU's clock. Exact to about half a
     /// microsecond; waits until both have passed.
     /// @throws Error(device) when the work before them failed.
     friend double seconds_between(const Event& from, const Event& to) {

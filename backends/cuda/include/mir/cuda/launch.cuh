@@ -15,14 +15,14 @@ namespace mir::cuda {
 
 namespace detail {
 
-/// Threads of a block: a 16x16 block of luxels, because the blocked index of a luxel is the global
-/// index of its thread.
+/// Threads of a block: a 16x16 block of luxels. The blocked index of a luxel is the global index of
+/// its thread.
 inline constexpr std::uint32_t threads_per_block = BlockedLayout::block_size;
 
 /// Bytes of fast memory that a block may have without asking for more.
 inline constexpr std::size_t workspace_bytes = 48 * 1024;
 
-/// Warps of a block that runs groups of lanes: few, because a block keeps its place until its
+/// Warps of a block that runs groups of lanes. Few, because a block keeps its place until its
 /// slowest warp is done, and no more than there is room for.
 template <class Kernel>
 inline constexpr std::uint32_t groups_per_block = static_cast<std::uint32_t>(
@@ -46,8 +46,8 @@ constexpr void check_kernel() {
                   "arguments; put data into a buffer");
 }
 
-/// Blocks that a multiprocessor is to hold at least, for which the compiler has to do with fewer
-/// registers: as the kernel says in `resident_blocks`. 0: as the compiler likes.
+/// Least number of blocks that a multiprocessor is to hold, from the kernel's `resident_blocks`.
+/// The compiler then has to do with fewer registers. 0: as the compiler likes.
 template <class Kernel>
 inline constexpr std::uint32_t resident_blocks = 0;
 template <class Kernel>
@@ -93,7 +93,7 @@ __global__ void __launch_bounds__(threads_of_groups<Kernel>, resident_blocks<Ker
     __shared__ typename Kernel::Workspace spaces[groups_per_block<Kernel>];
     const std::uint32_t warp = threadIdx.x / LaneGroup::width;
     const std::uint32_t i = blockIdx.x * groups_per_block<Kernel> + warp;
-    // Where the compiler knows how to make the address anew it does so in every loop, which costs
+    // Where the compiler knows how to recompute the address it does so in every loop, which costs
     // more than the register. It still has to know that the address is of shared memory.
     void* own = spaces + warp;
     asm volatile("" : "+l"(own));
@@ -101,8 +101,8 @@ __global__ void __launch_bounds__(threads_of_groups<Kernel>, resident_blocks<Ker
     if (i < n) kernel(LaneGroup{}, i, *static_cast<typename Kernel::Workspace*>(own));
 }
 
-/// Refuses a kernel whose arguments have other sizes for the device's compiler than for the host's:
-/// they do not agree about members that are [[no_unique_address]], and such a kernel would read its
+/// Refuses a kernel whose argument sizes differ between the device's and the host's compiler. They
+/// do not agree about members that are [[no_unique_address]], and such a kernel would read its
 /// arguments at the wrong places. Members that move within the same size go unseen. Asks nothing
 /// before CUDA 12.4, which knew no answer.
 template <class... Arguments>

@@ -22,7 +22,7 @@ enum class MemoryKind {
     pinned   ///< host memory that the GPU copies from and to without the CPU
 };
 
-/// Asked before each allocation, with its kind and its bytes; false refuses it as if there were no
+/// Asked before each allocation, with its kind and its bytes. False refuses it as if there were no
 /// memory left. Lets a program bound what mir takes, and tests make any allocation fail. Called
 /// from the thread that allocates, one call at a time; must not allocate from the same backend.
 using AllocationHook = std::function<bool(MemoryKind kind, std::size_t bytes)>;

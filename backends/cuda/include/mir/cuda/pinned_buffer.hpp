@@ -8,7 +8,7 @@
 
 namespace mir::cuda {
 
-/// Elements in pinned host memory, from which copies run beside kernels; copies from other memory
+/// Elements in pinned host memory, from which copies run beside kernels. Copies from other memory
 /// hold the caller up. Not defined until written. Move-only.
 template <class T>
 class PinnedBuffer {
@@ -36,9 +36,9 @@ class PinnedBuffer {
     std::size_t size_ = 0;
 };
 
-/// Standard allocator of pinned memory, so that a BlockedGBuffer goes to the GPU without a stop on
-/// the way: `BlockedGBuffer<Params, PinnedAllocator<std::uint32_t>>`. Backend::pinned() makes one.
-/// Keeps the memory's source alive. Thread-safe.
+/// Standard allocator of pinned memory. A BlockedGBuffer then goes to the GPU without a stop:
+/// `BlockedGBuffer<Params, PinnedAllocator<std::uint32_t>>`. Backend::pinned() makes one. Keeps the
+/// memory's source alive. Thread-safe.
 template <class T>
 class PinnedAllocator {
  public:
@@ -54,7 +54,7 @@ class PinnedAllocator {
     [[nodiscard]] T* allocate(std::size_t count) {
         return static_cast<T*>(memory_->take(MemoryKind::pinned, bytes_of(count)));
     }
-    /// Gives back what allocate() of the same count returned; no queue may still copy from or to
+    /// Gives back what allocate() of the same count returned. No queue may still copy from or to
     /// it.
     void deallocate(T* elements, std::size_t count) noexcept {
         memory_->give_back(MemoryKind::pinned, elements, bytes_of(count));

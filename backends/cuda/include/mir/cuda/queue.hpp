@@ -9,10 +9,10 @@
 
 namespace mir::cuda {
 
-/// Work of one device in the order in which it is given: a CUDA stream, its own or the caller's.
-/// Own streams do not wait for the legacy default stream. Everything returns before it is done,
-/// except copies from and to host memory that is not pinned. The end waits for the work. Move-only;
-/// one thread at a time.
+/// Work of one device in order: a CUDA stream, its own or the caller's. Own streams do not wait
+/// for the legacy default stream. Everything returns before it is done, except copies from and
+/// to host memory that is not pinned. The end waits for the work. Move-only; one thread at a
+/// time.
 class Queue {
  public:
     /// @throws Error(device), Error(no_device)
@@ -70,22 +70,22 @@ class Queue {
               "clearing memory of the GPU");
     }
 
-    /// Calls kernel(i) on the device, once for each i in [0, n); 256 neighbouring i are one thread
+    /// Calls kernel(i) on the device, once for each i in [0, n). 256 neighbouring i are one thread
     /// block. Defined in mir/cuda/launch.cuh, for files that nvcc compiles.
     /// @throws Error(device) when the kernel cannot be started.
     template <class Kernel>
     void for_each(std::uint32_t n, const Kernel& kernel);
 
-    /// Bit i % 32 of words[(i / 32) columns + j] becomes kernel(kernel.row(i), j); each word is
+    /// Bit i % 32 of words[(i / 32) columns + j] becomes kernel(kernel.row(i), j). Each word is
     /// written once. Defined in mir/cuda/launch.cuh, for files that nvcc compiles.
     /// @throws Error(invalid_argument) unless rows is a multiple of 32; Error(device)
     template <class Kernel>
     void fill_bits(std::uint32_t rows, std::uint32_t columns, const Kernel& kernel,
                    std::uint32_t* words);
 
-    /// Calls kernel(group, i, space) on the device, once for each i in [0, n), by a warp each, with
-    /// a Kernel::Workspace in shared memory. Defined in mir/cuda/launch.cuh, for files that nvcc
-    /// compiles.
+    /// Calls kernel(group, i, space) on the device, once for each i in [0, n). A warp makes each
+    /// call, with a Kernel::Workspace in shared memory. Defined in mir/cuda/launch.cuh, for files
+    /// that nvcc compiles.
     /// @throws Error(device) when the kernel cannot be started.
     template <class Kernel>
     void for_each_group(std::uint32_t n, const Kernel& kernel);

@@ -44,7 +44,7 @@ inline std::size_t sum_scratch(std::uint32_t n) {
     return bytes;
 }
 
-/// CUB takes any error that was not read for its own, so what others left is read first.
+/// Reads what errors others left first, because CUB takes them for its own.
 inline void forget_errors_of_others() { static_cast<void>(cudaGetLastError()); }
 
 /// Copies what CUB left at the second place.

@@ -18,8 +18,8 @@ inline OriginRows origin_rows(const TriangleRows& rows, Vec3 origin) {
     return {row_at(rows.u, origin), row_at(rows.v, origin), row_at(rows.s, origin)};
 }
 
-/// Lanes whose segments cross a triangle, and lanes that may do so though they pass outside of an
-/// edge, a bit each.
+/// Lanes that cross a triangle, and lanes that may do so outside of an edge. A bit
+/// each.
 struct LaneHits {
     std::uint32_t hit = 0;
     std::uint32_t doubtful = 0;

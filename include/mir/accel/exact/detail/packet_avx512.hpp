@@ -51,7 +51,7 @@ MIR_AVX512 [[gnu::always_inline]] inline __m512 row_at_512(const AffineRow& row,
                          _mm512_set1_ps(row.w));
 }
 
-/// A triangle as segments from one point see it: row_at() there, the same in all lanes.
+/// A triangle seen from one point: row_at() there, the same in all lanes.
 struct Origin512 {
     __m512 u;
     __m512 v;
@@ -111,9 +111,9 @@ MIR_AVX512 inline LaneHits sort_lanes_by_avx512(const TriangleRows& rows, Vec3 o
     return all;
 }
 
-/// Lanes whose segments meet a box of which `near` and `far` are the corners where they enter and
-/// leave; if `Mixed`, that differs between lanes. `inverse` and `offset` are those of PacketSlabs;
-/// fused, as loose::mul_sub() may be.
+/// Lanes whose segments meet a box. They enter at its corner `near` and leave at
+/// `far`. `inverse` and `offset` are those of PacketSlabs; fused, as loose::mul_sub()
+/// may be.
 template <bool Mixed>
 MIR_AVX512 inline std::uint32_t meet_by_avx512(const LaneFloats* inverse, const LaneFloats* offset,
                                                Vec3 near, Vec3 far) {

@@ -15,7 +15,7 @@ struct RowsAtEnds {
     float s_to = 0.0f;
 };
 
-/// Where a segment crosses a triangle's plane, all multiplied by d: U and V are the barycentric
+/// Where a segment crosses a triangle's plane, all multiplied by d. U and V are the barycentric
 /// coordinates u and v times d. They change sign, and nothing else, when the ends change places.
 struct PlaneCrossing {
     float d = 0.0f;
@@ -35,7 +35,7 @@ MIR_HD inline float lesser(float a, float b) {
 #endif
 }
 
-/// U, V and W of a crossing, turned so that they are not negative inside of the edges.
+/// U, V and W of a crossing, turned to be nonnegative inside of the edges.
 struct EdgeDepths {
     float u_or_v = 0.0f;  ///< the smaller one of U and V
     float w = 0.0f;       ///< no number if U or V is none

@@ -20,9 +20,9 @@
 // negative for u and v, and u + v <= 1.
 //
 // So there is a piece of the segment, thin by the plane, in which all three edges are kept by these
-// margins: that is what is asked, with 16, 12, 12 and 12 G + 8 e in place of 12.2, 7, 7 and
+// margins: that is what is asked, with 16, 12, 12 and 12 G + 8 e instead of 12.2, 7, 7 and
 // 7 G + 2 e. Not each edge by itself: pieces that keep one each may lie far apart where the
-// segment leans. m is taken where the computed s is 0, which is X but for 12.2 e m / |d| of the
+// segment leans. m is taken where the computed s is 0, which is X except for 12.2 e m / |d| of the
 // way; it changes by less than a sixteenth if |d| > 200 e |m_p - m_q|. U rounds by 2 e d m g_u, and
 // W by twice that and by 4 e d.
 //
@@ -34,8 +34,8 @@
 
 namespace mir::detail {
 
-/// How far outside of an edge a segment may be to be looked at once more: its U, V or W is
-/// not below -(steep (g_u + g_v) + flat).
+/// How far outside of an edge a segment may be to be tested again. Its U, V or W is not below
+/// -(steep (g_u + g_v) + flat).
 struct EdgeDoubt {
     float steep = 0.0f;  ///< metres squared
     float flat = 0.0f;   ///< metres
@@ -46,19 +46,19 @@ struct EdgeDoubt {
     }
 };
 
-/// Of segments whose ends have no coordinate larger than `size` and differ by no more than `span`
-/// in a coordinate, metres. With 16 e m G |p - q| for the plane, (12 e m G + 8 e) |d| for the edges
-/// and |d| <= 1.74 |p - q|, which is less than 37 e m G |p - q| + 14 e |p - q|.
+/// Doubt of segments up to `size`, metres, from the origin on each axis. Their ends differ by no
+/// more than `span` in a coordinate, metres. With 16 e m G |p - q| for the plane, (12 e m G + 8 e)
+/// |d| for the edges and |d| <= 1.74 |p - q|, which is less than 37 e m G |p - q| + 14 e |p - q|.
 MIR_HD inline EdgeDoubt edge_doubt(float size, float span) {
-    const float way = strict::add(span, strict::mul(0x1p-20f, size));
-    return {strict::mul(strict::mul(40.0f * 0x1p-24f, way), size), strict::mul(0x1p-20f, way)};
+    const float reach = strict::add(span, strict::mul(0x1p-20f, size));
+    return {strict::mul(strict::mul(40.0f * 0x1p-24f, reach), size), strict::mul(0x1p-20f, reach)};
 }
 
 MIR_HD inline EdgeDoubt edge_doubt(Vec3 from, Vec3 to) {
     return edge_doubt(larger(max_abs(from), max_abs(to)), max_abs(to - from));
 }
 
-/// An edge along the thin piece of a segment that lies in the plane: its barycentric coordinate is
+/// An edge along the thin piece of a segment that lies in the plane. Its barycentric coordinate is
 /// `middle` where the piece crosses the plane and changes by `slope` to the end of the piece.
 struct EdgeAlong {
     float middle = 0.0f;
@@ -74,7 +74,7 @@ struct EdgeAlong {
     }
 };
 
-/// The thin piece of a segment by a triangle's plane, and the three edges along it.
+/// The thin piece of a segment by a triangle's plane, and its three edges.
 struct ThinPiece {
     EdgeAlong u;
     EdgeAlong v;
@@ -88,7 +88,7 @@ struct ThinPiece {
                EdgeAlong::meet(u, w) && EdgeAlong::meet(v, w);
     }
 
-    /// Such a place, the nearest to the middle, from -1 at the one end of the piece to 1.
+    /// Such a place, the nearest to the middle. It runs from -1 at the one end of the piece to 1.
     [[nodiscard]] MIR_HD float place() const {
         float first = -1.0f;
         float last = 1.0f;

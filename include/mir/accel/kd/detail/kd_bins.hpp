@@ -40,7 +40,7 @@ struct KdGrid {
                 all_lanes(static_cast<float>(bins))),
           scale(all_lanes(1.0f) / width) {}
 
-    /// Few enough that counting, not sweeping bins, takes the time; enough that the exact search
+    /// Few enough that counting, not sweeping bins, takes the time. Enough that the exact search
     /// looks at a small part.
     static int bins_for(std::size_t fragments) {
         if (fragments <= 256) return 32;
@@ -94,7 +94,7 @@ struct KdBins {
     }
 };
 
-/// The bins around the cheapest border, where the exact search takes place: on either side the next
+/// The bins around the cheapest border, where the exact search takes place. On either side the next
 /// one in which something begins or ends, since between two such places costs are affine.
 struct KdBorder {
     int axis = 0;
@@ -142,7 +142,8 @@ inline KdBorder best_border(const KdBins& bins, const KdGrid& grid, const KdCost
     return border;
 }
 
-/// Appends the keys of all begins (last bit set) and ends in the bins around a border.
+/// Appends the keys of all begins and ends in the bins around a border. The last bit of a begin is
+/// set.
 inline void collect_events(std::span<const KdFragment> fragments, const KdGrid& grid,
                            const KdBorder& border, RawArray<std::int32_t>& keys) {
     std::size_t n = keys.size();

@@ -32,7 +32,7 @@ inline void cut_polygon(const KdPolygon& from, KdPolygon& to, int axis, float at
     to.count = n;
 }
 
-/// Cuts a triangle to the faces of a cell that its fragment touches; the others are implied. The
+/// Cuts a triangle to the faces of a cell that its fragment touches. The others are implied. The
 /// result is in one of two polygons.
 inline const KdPolygon& cut_to_cell(const ClipTriangle& triangle, const KdFragment& fragment,
                                     const KdCell& cell, KdPolygon (&polygons)[2]) {
@@ -76,7 +76,7 @@ struct KdExtent {
     }
 };
 
-/// Boxes of the two parts of a polygon: where x <= low_side and where x >= high_side.
+/// Boxes of the two parts of a polygon. Where x <= low_side and where x >= high_side.
 inline void extents_of_parts(const KdPolygon& polygon, int axis, float low_side, float high_side,
                              KdExtent& left, KdExtent& right) {
     if (polygon.count == 0) return;
@@ -90,13 +90,13 @@ inline void extents_of_parts(const KdPolygon& polygon, int axis, float low_side,
         const Float4 here = load_lanes(polygon.corner[i]);
         const Float4 x = all_lanes(polygon.corner[i][axis]);
         const Float4 step = here - before;
-        const Float4 way = x - x_before;
+        const Float4 run = x - x_before;
         const Int4 left_here = x <= left_end;
         const Int4 right_here = x >= right_end;
         left.add(here, left_here);
         right.add(here, right_here);
-        left.add(before + step * ((left_end - x_before) / way), left_here ^ left_before);
-        right.add(before + step * ((right_end - x_before) / way), right_here ^ right_before);
+        left.add(before + step * ((left_end - x_before) / run), left_here ^ left_before);
+        right.add(before + step * ((right_end - x_before) / run), right_here ^ right_before);
         before = here;
         x_before = x;
         left_before = left_here;

@@ -41,7 +41,7 @@ struct KdCell {
     Float4 high = {0, 0, 0, 0};
 };
 
-/// A triangle as clipping needs it: the corners of its accept triangle, and in the fourth
+/// A triangle as clipping needs it. The corners of its accept triangle, and in the fourth
 /// components, by axis, the distance that boxes around its parts have to grow.
 struct alignas(16) ClipTriangle {
     Vec4 a;

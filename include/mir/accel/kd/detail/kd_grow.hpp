@@ -26,8 +26,8 @@ inline KdSubtree grow_subtree(const KdOpenNode& node, KdGrower& grower) {
     return subtree;
 }
 
-/// Grows the subtrees of all open nodes, the largest first, so that no thread is left with a large
-/// one at the end. In the order of `open`, whose fragments are given up.
+/// Grows the subtrees of all open nodes, the largest first. No thread is left with a large one at
+/// the end. In the order of `open`, whose fragments are given up.
 template <Executor E>
 std::vector<KdGrown> grow_subtrees(std::vector<KdOpenNode>& open, KdGrowerPool& pool,
                                    const KdTreeOptions& options, E& executor) {

@@ -63,7 +63,7 @@ struct KdChunk {
         for (const KdRun run : runs) collect_events(run, grid, border, events);
     }
 
-    /// Writes both sides of the node's plane to `results`, those below to the begin of this
+    /// Writes both sides of the node's plane to `results`. Those below go to the begin of this
     /// chunk's room and those above to its end.
     void deal(const KdWideNode& cut, const ClipTriangle* triangles, KdFragment* results,
               KdScratch& scratch) {

@@ -17,7 +17,7 @@ enum class KdCutKind {
     empty_above   ///< all fragments below
 };
 
-/// A plane and what it costs in the surface area heuristic, in units of one triangle test.
+/// A plane and its cost (surface area heuristic), in units of a triangle test.
 struct KdSplit {
     KdCutKind kind = KdCutKind::none;
     int axis = 0;
@@ -25,7 +25,7 @@ struct KdSplit {
     float cost = 0.0f;
 };
 
-/// Surface area heuristic in one cell (MacDonald and Booth 1990): a plane with N_l triangles below
+/// Surface area heuristic in one cell (MacDonald and Booth 1990). A plane with N_l triangles below
 /// and N_r above costs N_l A_l / A + N_r A_r / A. Areas are affine in the plane's place, and are
 /// computed relative to the cell's widest extent, so nothing overflows at any scale.
 struct KdCost {
@@ -98,7 +98,7 @@ struct KdCandidates {
     }
 };
 
-/// No plane at all when the best one does not lie inside of the cell, which rounding may cause.
+/// No plane when the best one lies outside of the cell, by rounding.
 inline KdSplit only_inside(const KdSplit& split, const KdCell& cell) {
     const bool inside = split.at > cell.low[split.axis] && split.at < cell.high[split.axis];
     return inside ? split : KdSplit{};

@@ -62,7 +62,7 @@ inline float half_area(const KdCell& cell, float scale) {
     return half_area(LaneBox{cell.low, cell.high}, scale);
 }
 
-/// Adds what visiting a node costs a line that meets the root: its share of the area.
+/// Adds what visiting a node costs a line that meets the root. Its share of the area.
 inline void add_visit(KdTally& tally, const KdPlan& plan, const KdCell& cell, float triangles) {
     tally.cost += static_cast<double>(half_area(cell, plan.area_scale) * triangles);
 }

@@ -20,7 +20,7 @@ struct LaneBox {
     void add(const LaneBox& other) { add(other.low, other.high); }
 };
 
-/// Half the surface of a box that is not empty, with lengths multiplied by `scale` so that nothing
+/// Half the surface of a nonempty box. Lengths are multiplied by `scale` so that nothing
 /// overflows.
 inline float half_area(const LaneBox& box, float scale) {
     const Float4 w = (box.high - box.low) * all_lanes(scale);

@@ -46,7 +46,7 @@ inline Float4 floats_of(Int4 bits) {
 /// Zero in the spare lane.
 inline Float4 axes_only(Float4 v) { return floats_of(bits_of(v) & Int4{-1, -1, -1, 0}); }
 
-/// The last bit of every number cleared: a rounding towards zero by at most one unit.
+/// Clears the last bit of every number: rounding towards zero by one unit at most.
 inline Float4 even_lanes(Float4 v) { return floats_of(bits_of(v) & -2); }
 
 /// Even integers in the order of numbers whose last bit is zero.

@@ -11,7 +11,7 @@
 
 namespace mir::detail {
 
-/// Growing array whose new elements are not written: page by page first touched by whoever fills
+/// Growing array whose new elements are not written. Page by page first touched by whoever fills
 /// them. For plain values only.
 template <class T>
 class RawArray {

@@ -16,7 +16,7 @@ struct BinaryNode {
     std::uint32_t left = 0;   ///< child, or the triangle of a leaf
     std::uint32_t right = 0;  ///< child; nothing in a leaf
     std::uint32_t count = 0;  ///< leaves below; 1 in a leaf
-    /// Most nodes on a way down to what fits into a leaf of the wide tree; 0 when all of it does.
+    /// Most nodes down to what fits into a leaf of the wide tree. 0 when all of it does.
     std::uint32_t height = 0;
 };
 

@@ -51,8 +51,8 @@ struct ClusterPlan {
     /// References for which to keep memory.
     [[nodiscard]] std::uint32_t room() const { return std::max(references, 1u); }
 
-    /// Whether a round may look for the nearest clusters, see above, when there are no more than
-    /// that many, which is at least 2.
+    /// Whether a round may look for the nearest of at most that many clusters. They are at least 2;
+    /// see above.
     [[nodiscard]] bool may_search(std::uint32_t rounds, std::uint32_t clusters) const {
         return rounds + 1 + ceil_log2(clusters - 1) <= 3 * max_depth;
     }
@@ -61,7 +61,7 @@ struct ClusterPlan {
 /// 1 / length, but finite.
 inline float finite_inverse(float length) { return smaller(1.0f / length, 0x1p120f); }
 
-/// Nodes of the binary tree are counted in 32 bits, and a triangle is split once on average at
+/// Checks that 32 bits count the binary tree's nodes. A triangle is split once on average at
 /// most.
 /// @throws Error(limit_exceeded)
 inline void check_triangle_count(std::size_t triangles, const WideBvhOptions& options) {

@@ -12,9 +12,9 @@
 
 namespace mir::detail {
 
-/// The segments from one origin to the points of a packet, as the eight children of a node are
-/// tested against all of them at once. A child that it refuses no segment meets; whoever walks for
-/// long asks each segment about the others only.
+/// The segments from one origin to the points of a packet, tested together. A node's eight children
+/// are tested against all of them at once. A child that it refuses no segment meets; whoever walks
+/// for long asks each segment about the others only.
 ///
 /// Why no child is refused that a segment needs. Let the segment go d along an axis and hold X, of
 /// the share t, which lies in the child's box by 14 e M (wide_traverse.hpp, whose bounds of
@@ -22,7 +22,7 @@ namespace mir::detail {
 /// between the steps to the lowest and the highest of them. The share at which the highest passes
 /// the lower plane is no later than t, and that at which the lowest passes the upper one no
 /// earlier: each belongs to a segment that goes farther, or less far, while X keeps 0.5 e M to
-/// spare. Below likewise. Where points lie on both sides, both are bounds from below, one for
+/// spare. So below. Where points lie on both sides, both are bounds from below, one for
 /// children on either side.
 class PacketHull {
  public:
@@ -35,7 +35,7 @@ class PacketHull {
             set(axis, origin[axis], ends_of(coordinates[axis], active), shortest);
     }
 
-    /// Bit k: segments may meet the box of child k; what it says of empty slots means nothing.
+    /// Bit k: segments may meet the box of child k. What it says of empty slots means nothing.
     template <InstructionSet Set>
     [[nodiscard]] std::uint32_t met(const WideNode& node) const {
         const auto& planes = node.planes;

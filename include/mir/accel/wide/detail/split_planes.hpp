@@ -14,7 +14,7 @@ struct SplitPlane {
     [[nodiscard]] MIR_HD bool exists() const { return axis >= 0; }
 };
 
-/// The planes between cells of Morton's curve through a scene: all triangles are cut at the same
+/// The planes between cells of Morton's curve through a scene. All triangles are cut at the same
 /// ones, so that their parts lie in the same boxes.
 struct SplitPlanes {
     static constexpr std::uint32_t cells = 1u << 21;  ///< per axis, as fine_morton_code()
@@ -23,7 +23,7 @@ struct SplitPlanes {
     double cell = 0.0;   ///< metres
     double scale = 0.0;  ///< 1 / cell; 0 if the scene has no extent
 
-    /// The coarsest that cuts the box, the one across its longest side if there are several.
+    /// The coarsest plane that cuts the box, of several that across its longest side.
     [[nodiscard]] MIR_HD SplitPlane coarsest_in(const PartBox& box) const {
         SplitPlane best;
         std::uint32_t best_bits = 0;
@@ -58,7 +58,7 @@ struct SplitPlanes {
     }
 };
 
-/// Of a scene that begins at `low` and is that wide along its longest axis, metres.
+/// Planes of a scene from `low` on, with this longest extent, metres.
 inline SplitPlanes split_planes(Vec3 low, float widest) {
     const double cell = static_cast<double>(widest) / SplitPlanes::cells;
     return {Double3(low), cell, cell > 0.0 ? 1.0 / cell : 0.0};

@@ -86,8 +86,8 @@ struct PartPair {
     PartBox above;
 };
 
-/// Adds the end `p` of the edge from p to q to the sides where it lies, and to both the point where
-/// the edge passes the plane.
+/// Adds the end `p` of the edge from p to q to its sides. Both get the point where the edge passes
+/// the plane.
 MIR_HD inline void add_edge(PartPair& pair, Double3 p, Double3 q, int axis, double at) {
     if (p[axis] <= at) pair.below.add(p);
     if (p[axis] >= at) pair.above.add(p);
@@ -99,9 +99,9 @@ MIR_HD inline void add_edge(PartPair& pair, Double3 p, Double3 q, int axis, doub
     pair.above.add(x);
 }
 
-/// Cuts a part of the accept triangle `t` by the plane at `at`, which lies inside its box. Source:
-/// Stich, Friedrich and Dietrich, "Spatial splits in bounding volume hierarchies", High Performance
-/// Graphics 2009.
+/// Cuts a part of the accept triangle `t` by a plane. The plane at `at` lies inside the part's box.
+/// Source: Stich, Friedrich and Dietrich, "Spatial splits in bounding volume hierarchies", High
+/// Performance Graphics 2009.
 MIR_HD inline PartPair cut_part(const AcceptTriangle& t, const PartBox& part, int axis, double at) {
     PartPair pair;
     add_edge(pair, t.a, t.b, axis, at);

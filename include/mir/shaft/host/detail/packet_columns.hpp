@@ -13,7 +13,7 @@ namespace mir::detail {
 
 static_assert(BlockMask::packets == lane_count);
 
-/// The luxels of a block, a packet per lane: those at the same place of all packets side by side.
+/// The luxels of a block, a packet per lane. Those at the same place of all packets side by side.
 /// What packets come to is found for sixteen of them at once, and what blocks come to from that.
 class PacketColumns {
  public:
@@ -57,7 +57,7 @@ class PacketColumns {
         return sums;
     }
 
-    /// Least value of a row for each packet at its luxels; infinite where all are empty.
+    /// Least value of a row for each packet at its luxels. Infinite where all are empty.
     [[nodiscard]] LaneFloats least_at(const LaneRows& rows) const {
         LaneFloats least = all_of(infinity)[0];
         for (const Column& c : column_)

@@ -16,9 +16,9 @@ using PageCoordinates = std::array<std::array<float, LuxelPage::most_luxels>, 3>
 /// Numbers of luxels of a page.
 using PageNumbers = std::array<std::uint16_t, LuxelPage::most_luxels>;
 
-/// Splits luxels of a page at medians, as cluster_order() does, into aligned runs of sixteen: of
-/// up to three cuts, by each coordinate along which they reach at least a quarter as far as along
-/// the widest, the one that leaves the smallest boxes. They are sorted by each coordinate once, and
+/// Splits luxels of a page at medians, as cluster_order() does, into aligned runs of sixteen. Of up
+/// to three cuts, by each coordinate along which they reach at least a quarter as far as along the
+/// widest, the one that leaves the smallest boxes. They are sorted by each coordinate once, and
 /// every cut keeps all three orders: so the next one finds its medians there, and the ends of what
 /// it would leave close to the ends of a run. Wald and Havran build kd-trees that way ("On building
 /// fast kd-trees for ray tracing, and on doing that in O(N log N)", 2006). A function of the luxels
@@ -42,7 +42,7 @@ class PageSplitter {
     static constexpr std::uint32_t radix = 256;
     static constexpr float infinity = std::numeric_limits<float>::infinity();
 
-    /// By the place along the axis in 2^16 steps of the page's extent: what lies closer together
+    /// By the place along the axis in 2^16 steps of the page's extent. What lies closer together
     /// keeps its order.
     void sort(std::size_t axis, std::uint32_t count) {
         const PageNumbers steps = steps_of(coordinates_[axis], count);

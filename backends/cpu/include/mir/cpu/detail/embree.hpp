@@ -19,7 +19,7 @@
 
 namespace mir::cpu::detail {
 
-/// Embree 4 lets a geometry mask start at 1, Embree 3 at all bits: both ends are always set.
+/// Embree 4 lets a geometry mask start at 1, Embree 3 at all bits. Both ends are always set.
 inline constexpr unsigned all_rays = 0xFFFFFFFFu;
 
 #if MIR_EMBREE_MAJOR == 4

@@ -7,8 +7,8 @@
 
 namespace mir::cpu::detail {
 
-/// Rejects the hits of a packet, or of a single ray, at which the triangle is not there. Embree
-/// goes on behind them. The same for closest hits and for occlusion.
+/// Rejects hits, of a packet or a single ray, where the triangle is not there. Embree goes on
+/// behind them. The same for closest hits and for occlusion.
 inline void reject_holes(const RTCFilterFunctionNArguments* args) {
     const auto& mask = *static_cast<const AlphaMaskView<Space::host>*>(args->geometryUserPtr);
     for (unsigned k = 0; k < args->N; ++k) {

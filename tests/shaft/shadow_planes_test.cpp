@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shaft/exact/segment_forms.hpp"
+#include "mir/shaft/exact/shadow_planes.hpp"
 
 #include "shaft/occlusion_draws.hpp"
 #include "support/catch.hpp"
 
-// What forms say of single segments is judged by hits_segment() itself.
+// What planes say of single segments is judged by hits_segment() itself.
 
 namespace {
 
-using mir::SegmentForms;
+using mir::ShadowPlanes;
 using mir::Vec3;
 
 struct Answers {
@@ -29,11 +29,12 @@ Answers answers(int draws, float share, bool lean = false) {
             lean ? mirtest::leaning_draw(random, scale) : mirtest::occlusion_draw(random, scale);
         const float sigma = mirtest::float_sigma(scale);
         const mir::Pyramid pyramid = mir::make_pyramid(d.cluster, d.apex, sigma);
-        SegmentForms forms;
-        if (occlusion(d.rows, pyramid, forms) != mir::Occlusion::partial) continue;
-        forms.margins = {share * forms.margins.u, share * forms.margins.v, share * forms.margins.w};
-        const mir::SureForms sure = in_margins(forms, share * mir::OcclusionMargins::plane * sigma,
-                                               mir::OcclusionMargins::hit_share);
+        ShadowPlanes planes;
+        if (occlusion(d.rows, pyramid, planes) != mir::Occlusion::partial) continue;
+        planes.margins = {share * planes.margins.u, share * planes.margins.v,
+                          share * planes.margins.w};
+        const mir::SurePlanes sure = in_margins(
+            planes, share * mir::OcclusionMargins::plane * sigma, mir::OcclusionMargins::hit_share);
         for (int k = 0; k < 8; ++k) {
             const Vec3 p = mirtest::random_leaning_luxel(random, d.cluster);
             const float value = sure.at(pyramid.local(p));
@@ -52,7 +53,7 @@ Answers answers(int draws, float share, bool lean = false) {
 
 }  // namespace
 
-TEST_CASE("What forms say of a segment surely is so") {
+TEST_CASE("What planes say of a segment surely is so") {
     const Answers found = answers(600000, 1.0f, GENERATE(false, true));
     INFO(found.asked << " asked, " << found.hit << " hit, " << found.missed << " missed");
     CHECK(found.hit > 10000);
@@ -61,7 +62,7 @@ TEST_CASE("What forms say of a segment surely is so") {
     CHECK(found.wrong_misses == 0);
 }
 
-TEST_CASE("Forms with next to no margins say wrong things") {
+TEST_CASE("Planes with next to no margins say wrong things") {
     const Answers found = answers(200000, 1e-6f);
     CHECK(found.wrong_hits > 20);
     CHECK(found.wrong_misses > 100);
@@ -75,9 +76,9 @@ TEST_CASE("Nothing is sure of a triangle in whose plane the apex lies, nor of wh
     cluster.luxels = 1;
     const auto says_something = [&](Vec3 apex, Vec3 end) {
         const mir::Pyramid pyramid = mir::make_pyramid(cluster, apex, 1e-6f);
-        SegmentForms forms;
-        REQUIRE(occlusion(rows, pyramid, forms) == mir::Occlusion::partial);
-        const float value = in_margins(forms, 2e-6f, mir::OcclusionMargins::hit_share).at(end);
+        ShadowPlanes planes;
+        REQUIRE(occlusion(rows, pyramid, planes) == mir::Occlusion::partial);
+        const float value = in_margins(planes, 2e-6f, mir::OcclusionMargins::hit_share).at(end);
         return value > 1.0f || value < -1.0f;
     };
     CHECK_FALSE(says_something({0.5f, -3.0f, 0.0f}, Vec3(0)));
