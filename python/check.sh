@@ -24,16 +24,25 @@ quiet() {
 }
 : >"$log"
 
-# Packages by their names in python/requirements.txt, and those of neighbours.
+# fetch LIST: the packages that it names lie in $wheels, or are downloaded to there.
+fetch() {
+    got=$wheels/$(basename "$1").complete
+    [ -z "$(find "$got" -newer python/requirements.txt -newer "$1" 2>/dev/null)" ] || return 0
+    python3 -m pip download --disable-pip-version-check --only-binary :all: -r "$1" -d "$wheels" \
+        >>"$log" 2>&1 && touch "$got"
+}
+
 list=python/requirements.txt
-[ "$kind" != extended ] || list=python/requirements-extended.txt
-if [ -z "$(find "$wheels/complete" -newer python/requirements.txt -newer "$list" 2>/dev/null)" ]; then
-    if ! python3 -m pip download --disable-pip-version-check --only-binary :all: -r "$list" \
-        -d "$wheels" >>"$log" 2>&1; then
-        say "skipped: PyPI cannot be reached, or lacks a package of $list (see $log)"
-        exit 0
+if ! fetch "$list"; then
+    say "skipped: PyPI cannot be reached, or lacks a package of $list (see $log)"
+    exit 0
+fi
+if [ "$kind" = extended ]; then
+    if fetch python/requirements-extended.txt; then
+        list=python/requirements-extended.txt
+    else
+        say "packages of neighbours cannot be downloaded (see $log); their tests are skipped"
     fi
-    touch "$wheels/complete"
 fi
 
 # environment FOLDER PACKAGE...: a virtual environment that holds these and what they need.

