@@ -22,6 +22,7 @@ mir_packages() {
     esac
     case ${MIR_WANT:-render} in
     check) echo "git clang libclang-rt-dev libstb-dev clang-format clang-tidy python3 python3-pip" \
+        "python3-venv python3-dev" \
         "doxygen" ;;
     esac
 }

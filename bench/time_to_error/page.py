@@ -12,7 +12,8 @@ def introduction(metric, levels):
     return ["# Error against time", "",
             f"CPU seconds, user and system of the whole process, until the scaled relMSE{worst} is "
             f"{', '.join(f'{level:g}' for level in levels)}: interpolated in log-log between the "
-            "pictures of a configuration. ≤: its quickest picture is already better. Slope: "
+            "pictures of a configuration. ≤: its quickest picture is already better. Not told: the "
+            "references are too noisy; `--reference-paths` takes more of theirs. Slope: "
             "exponent of the error as a power of the seconds over the last two pictures. The best "
             "of a group is chosen afterwards, level by level. Whole pictures and their indirect "
             "light come of the same renders, so the seconds of indirect light include the direct.",
@@ -25,7 +26,8 @@ def write(path, results, left_out, metric, levels):
     for (scene, layer), (rows, own_error) in results.items():
         lines += [f"## {heading(scene, layer)}", "",
                   f"{rows[0].width} × {rows[0].height} pixels. The references' own scaled relMSE "
-                  f"is {own_error:.2g} each, which the estimate leaves out.", ""]
+                  f"is {own_error:.2g} each, which the estimate leaves out; errors below "
+                  f"{smallest_error(own_error):.2g} they do not tell.", ""]
         found = tables.curves_of(rows, metric)
         lines += [*tables.level_table(found, levels, smallest_error(own_error)), ""]
     if left_out:
@@ -35,5 +37,10 @@ def write(path, results, left_out, metric, levels):
 
 
 def smallest_error(own_error):
-    """Below this an estimate is noise of the references."""
-    return max(own_error / 100.0, 1e-12)
+    """Below this the references' noise decides what is measured.
+
+    In the product of two differences it averages out, but for noise of the mean, a hundredth or
+    less. The scale, the mean of both, is noisy too: relative variances v make the error of a
+    perfect picture 1.5 v^2, to second order, which is above the square of their mean.
+    """
+    return max(own_error / 100.0, 1.5 * own_error ** 2, 1e-12)

@@ -94,17 +94,23 @@ def best_of_groups(found, level, smallest):
     return {group: best.get(group) for group, size in sizes.items() if size > 1}
 
 
+def cell_of(points, level, smallest):
+    if level < smallest:
+        return "not told"
+    longest = max(p.seconds for p in points)
+    return seconds_text(curves.seconds_to(points, level, smallest), longest)
+
+
 def level_table(found, levels, smallest):
     """Seconds to each level, a row for each configuration and for the best of each group."""
     lines = ["| Configuration | " + " | ".join(f"{level:g}" for level in levels) + " | slope |",
              "|---|" + "---|" * (len(levels) + 1)]
     for name, (points, _) in found.items():
-        longest = max(p.seconds for p in points)
-        cells = [seconds_text(curves.seconds_to(points, level, smallest), longest)
-                 for level in levels]
+        cells = [cell_of(points, level, smallest) for level in levels]
         lines.append(marked_line(name, cells, curves.slope(points)))
     best = [best_of_groups(found, level, smallest) for level in levels]
     for group in best[0]:
-        cells = [best_text(b[group]) for b in best]
+        cells = ["not told" if level < smallest else best_text(b[group])
+                 for level, b in zip(levels, best)]
         lines.append(marked_line(f"best of {group}", cells, None))
     return lines

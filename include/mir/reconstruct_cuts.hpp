@@ -63,7 +63,7 @@ class CutGather {
     }
 
     static Rgb light_of(const blocks::GroupRadiance* sums, LuxelIndex luxel) {
-        const std::uint32_t i = blocks::InterleavedBlock<F>::swapped(luxel);
+        const std::uint32_t i = blocks::InterleavedBlock<F>::place_here(luxel);
         const blocks::GroupRadiance& sum = sums[i / blocks::group_size];
         const std::uint32_t k = i % blocks::group_size;
         return {sum.r[k], sum.g[k], sum.b[k]};

@@ -12,6 +12,7 @@
 #include "runtime/vpl_light.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace mir {
 namespace {
@@ -173,6 +174,17 @@ void develop(RenderFrame& frame) {
     take_layers(frame.develop(), job.settings.removed_layer, job.result, job.executor);
 }
 
+/// Places VPLs and puts them into the result, as they come from the sampler.
+SampledVpls sample_into_result(RenderFrame& frame, float bound) {
+    RenderJob& job = frame.job();
+    const auto stage = job.clock.measure(&StageSeconds::sampling);
+    SampledVpls sampled = sample_vpls(frame, bound);
+    job.result.vpls = aggregate(sampled.records);
+    job.clock.reassign(sampled.records.bootstrap_seconds, &StageSeconds::sampling,
+                       &StageSeconds::bootstrap);
+    return sampled;
+}
+
 /// Goes on from VPLs that lie in the result.
 RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float bound) {
     RenderJob& job = frame.job();
@@ -220,17 +232,18 @@ float choose_bound(RenderFrame& frame) {
 }
 
 RenderResult render_vpls(RenderFrame& frame) {
-    RenderJob& job = frame.job();
     const float bound = choose_bound(frame);
-    SampledVpls sampled;
-    {
-        const auto stage = job.clock.measure(&StageSeconds::sampling);
-        sampled = sample_vpls(frame, bound);
-        job.result.vpls = aggregate(sampled.records);
-        job.clock.reassign(sampled.records.bootstrap_seconds, &StageSeconds::sampling,
-                           &StageSeconds::bootstrap);
+    return render_from(frame, sample_into_result(frame, bound), bound);
+}
+
+VplList placed_vpls(RenderFrame& frame, float bound) {
+    RenderJob& job = frame.job();
+    const SampledVpls sampled = sample_into_result(frame, bound);
+    if (must_normalise(job.settings, sampled.normalisation)) {
+        const ImageBands bands(frame, job.result.vpls.size());
+        static_cast<void>(normalise_vpls(frame, bands, bound, sampled.records));
     }
-    return render_from(frame, sampled, bound);
+    return std::move(job.result.vpls);
 }
 
 RenderResult render_vpls(RenderFrame& frame, const SampledVpls& sampled, float bound) {

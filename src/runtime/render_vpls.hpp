@@ -18,4 +18,8 @@ namespace mir {
 /// The same by VPLs that were sampled under `bound`, of choose_bound().
 [[nodiscard]] RenderResult render_vpls(RenderFrame& frame, const SampledVpls& sampled, float bound);
 
+/// Places VPLs and makes their intensities, as render_vpls() does, without a picture. `bound` is of
+/// choose_bound(). To be called once for a frame, and nothing else.
+[[nodiscard]] VplList placed_vpls(RenderFrame& frame, float bound);
+
 }  // namespace mir

@@ -54,6 +54,10 @@ const LightTable& VplFrame::lights() const { return parts_->job.lights; }
 AnyRayCaster VplFrame::ray_caster() const { return parts_->frame->rays().ray_caster(); }
 AnyVisibility VplFrame::visibility() const { return parts_->frame->rays().visibility(); }
 float VplFrame::bound() const { return parts_->bound; }
+VplList VplFrame::place_vpls() {
+    parts_->job.clock.follow_this_thread();
+    return placed_vpls(*parts_->frame, parts_->bound);
+}
 AnyExecutor& VplFrame::executor() { return parts_->job.executor; }
 
 RenderResult render_vpls(VplFrame& frame, const SampledVpls& sampled) {

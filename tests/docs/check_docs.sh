@@ -116,7 +116,7 @@ check_links() {
 check_paths() {
     for page in $(pages); do
         # shellcheck disable=SC2016
-        grep -oE '`(include|src|backends|tools|tests|bench|examples|cmake|docs)/[^` ]*`' "$page" |
+        grep -oE '`(include|src|backends|tools|tests|bench|examples|cmake|python|docs)/[^` ]*`' "$page" |
             tr -d '`' | sort -u | while read -r path; do
                 [ -e "$path" ] || complain "$page names $path, which does not exist"
             done
@@ -188,7 +188,7 @@ check_names() {
 # Names in backquotes that look like those of code, with an underscore or a capital inside, occur in
 # the tree. Not those of options, nor of what other programs call so.
 check_words() {
-    set -- include src backends tools tests bench examples cmake docs/snippets CMakeLists.txt
+    set -- include src backends tools tests bench examples cmake python docs/snippets CMakeLists.txt
     { grep -rhI . "$@" && find "$@"; } | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$work/known"
     printf '%s\n' CornellBox libPyImath map_Ks map_Pr | sort -u - "$work/known" >"$work/all"
     for page in $(pages); do
@@ -314,7 +314,8 @@ check_silence() {
 
 # The first two lines of a file of code name the licence.
 check_licence() {
-    find include src backends tools tests bench examples cmake docs CMakeLists.txt .ci ./*.sh -type f \
+    find include src backends tools tests bench examples cmake python docs CMakeLists.txt .ci ./*.sh \
+        -type f \
         \( -name '*.[ch]pp' -o -name '*.cu' -o -name '*.cuh' -o -name '*.py' -o -name '*.sh' \
         -o -name '*.cmake' -o -name CMakeLists.txt -o -path '.ci/run' \) >"$work/code"
     [ "$(wc -l <"$work/code")" -gt 100 ] || complain "no code is found"

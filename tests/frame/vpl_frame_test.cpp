@@ -44,6 +44,22 @@ TEST_CASE("A frame with VPLs of the caller's is the picture by the same sampler 
     CHECK(found.warnings == wanted.warnings);
 }
 
+TEST_CASE("The VPLs that a frame places are those of the picture by its settings") {
+    const mir::Scene scene = mir::builtin::make("sphere");
+    mir::RenderSettings s = light_paths();
+    for (const auto sampler : {mir::SamplerKind::instant_radiosity, mir::SamplerKind::metropolis}) {
+        s.sampler = sampler;
+        const mir::VplList placed = mir::VplFrame(scene, s).place_vpls();
+        const mir::VplList wanted = mirtest::render(scene, s).vpls;
+        REQUIRE(placed.size() == wanted.size());
+        bool same = true;
+        for (std::uint32_t i = 0; i < placed.size(); ++i)
+            same = same && placed.vpls()[i].position == wanted.vpls()[i].position &&
+                   placed.vpls()[i].intensity == wanted.vpls()[i].intensity;
+        CHECK(same);
+    }
+}
+
 TEST_CASE("A frame refuses settings that no renderer takes, and schedulers that are not there") {
     const mir::Scene scene = mir::builtin::make("sphere");
     mir::RenderSettings s = light_paths();

@@ -14,7 +14,7 @@ function(library output folder build)
     endforeach()
     configure_arguments(arguments ${folder} ${build} "" -D MIR_BUILD_TOOLS=OFF -D MIR_INSTALL=OFF
         -D MIR_BUILD_TESTS=OFF -D MIR_BUILD_EXAMPLES=OFF -D MIR_WITH_CPU=OFF -D MIR_WITH_IO=OFF
-        -D CMAKE_BUILD_TYPE=None -D CMAKE_CXX_FLAGS=-g1)
+        -D CMAKE_BUILD_TYPE=None -D CMAKE_CXX_FLAGS=-g1 -D CMAKE_DISABLE_FIND_PACKAGE_Doxygen=ON)
     run(ignored ${arguments})
     run(ignored ${CMAKE_COMMAND} --build ${build} --target mir_scenes)
     file(GLOB_RECURSE archive ${build}/libmir_scenes.a)

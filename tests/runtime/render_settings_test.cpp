@@ -26,6 +26,7 @@ TEST_CASE("pairs of a pass are counted without overflow") {
     s.image = {16384, 16384};
     s.luxels_per_pixel = 64;
     s.vpls = 4'000'000;
+    s.sum = mir::LightSum::all;
     CHECK(mir::pairs(s) == 16384.0 * 16384.0 * 64.0 * 4e6);
 }
 

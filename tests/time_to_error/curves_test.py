@@ -65,6 +65,13 @@ class Tables(unittest.TestCase):
         cells = tables.level_table(found, (0.1, 0.01, 0.001), TINY)[2].split(" | ")
         self.assertEqual(cells[:4], ["| plain", "≤ 1", "2", "not reached in 2 s"])
 
+    def test_what_the_references_do_not_tell_is_not_told(self):
+        found = tables.curves_of([row(1, 1.0, 0.05), row(2, 2.0, 0.001, "b")], "relmse_trimmed")
+        lines = tables.level_table(found, (0.1, 0.01), page.smallest_error(0.2))
+        self.assertTrue(all(line.split(" | ")[2] == "not told" for line in lines[2:]))
+        self.assertAlmostEqual(page.smallest_error(0.2), 0.06)
+        self.assertAlmostEqual(page.smallest_error(0.001), 1e-5)
+
     def test_the_best_of_a_group_is_named_level_by_level(self):
         rows = [row(1, 1.0, 0.1, "a"), row(2, 9.0, 0.01, "a"), row(1, 2.0, 0.1, "b"),
                 row(2, 4.0, 0.01, "b"), row(1, 0.1, 0.001, "c", group="other")]

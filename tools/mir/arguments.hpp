@@ -10,6 +10,9 @@ namespace mirtool {
 /// Declares the arguments of `mir render` except for the scene. What is given goes to `options`.
 void add_render(CLI::App& app, RenderOptions& options);
 
+/// Declares those of them that say what the picture is, and not where it goes.
+void add_picture(CLI::App& app, RenderOptions& options);
+
 /// Declares those of them that say how light is found.
 void add_light(CLI::App& app, mir::RenderSettings& settings);
 

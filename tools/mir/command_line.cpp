@@ -2,11 +2,11 @@
 #include "command_line.hpp"
 
 #include "arguments.hpp"
+#include "complaint.hpp"
 #include "exit_code.hpp"
 #include "manual/help.hpp"
 #include "mir/runtime/all_renderers.hpp"
 #include "mir/version.hpp"
-#include "nearest.hpp"
 #include "option_types.hpp"
 #include "text.hpp"
 
@@ -17,29 +17,10 @@
 namespace mirtool {
 namespace {
 
-/// The word to complain about: an option rather than the value behind it.
-std::string worst_of(const std::vector<std::string>& strangers) {
-    for (const std::string& word : strangers)
-        if (word.starts_with('-')) return word;
-    return strangers.back();
-}
-
 int complain(const CLI::App& app, const CLI::ParseError& e) {
-    const CLI::App* used = &app;
-    for (const CLI::App* sub : app.get_subcommands()) used = sub;
-    // What no command knows may stand before the command that is used.
-    const std::vector<std::string> strangers = app.remaining(true);
-    const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr;
-    std::cerr << "mir: "
-              << shown(unknown ? "unknown argument '" + worst_of(strangers) + "'" : e.what());
-    std::vector<std::string> known;
-    for (const CLI::Option* option : used->get_options())
-        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    for (const CLI::App* sub : used->get_subcommands({})) known.push_back(sub->get_name());
-    for (const std::string& word : strangers)
-        if (const auto guess = nearest(word.substr(0, word.find('=')), known))
-            std::cerr << "; did you mean " << *guess << "?";
-    std::cerr << "\nmir: see 'mir" << (used == &app ? "" : " " + used->get_name()) << " --help'\n";
+    const CLI::App& used = used_command(app);
+    std::cerr << "mir: " << shown(complaint(app, e)) << "\nmir: see 'mir"
+              << (&used == &app ? "" : " " + used.get_name()) << " --help'\n";
     return exit_usage;
 }
 

@@ -40,14 +40,18 @@ mir::Environment read_environment(const EnvironmentOptions& o, const mir::Limits
 
 }  // namespace
 
+void put_environment(SceneAndReport& loaded, const EnvironmentOptions& environment,
+                     const mir::Limits& limits) {
+    mir::put_around(loaded.scene, read_environment(environment, limits), loaded.report);
+}
+
 SceneAndReport load_scene(const std::string& name, const mir::Limits& limits,
                           const EnvironmentOptions& environment) {
     try {
         SceneAndReport loaded = name.starts_with(builtin_prefix)
                                     ? load_builtin(name.substr(builtin_prefix.size()))
                                     : load_file(name, limits);
-        if (!environment.file.empty())
-            mir::put_around(loaded.scene, read_environment(environment, limits), loaded.report);
+        if (!environment.file.empty()) put_environment(loaded, environment, limits);
         return loaded;
     } catch (const mir::Error& e) {
         // Whatever a scene does wrong is the input's fault here, not that of the command line.

@@ -21,6 +21,11 @@ struct SceneAndReport {
 SceneAndReport load_scene(const std::string& name, const mir::Limits& limits = {},
                           const EnvironmentOptions& environment = {});
 
+/// Puts light from a file around a scene.
+/// @throws mir::Error for a file that cannot be read or holds no light.
+void put_environment(SceneAndReport& loaded, const EnvironmentOptions& environment,
+                     const mir::Limits& limits);
+
 /// The name without folder and extension, for default output names.
 std::string stem_of(const std::string& name);
 

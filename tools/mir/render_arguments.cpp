@@ -58,15 +58,20 @@ void add_output(CLI::App& app, RenderOptions& o) {
                    "chosen for the picture)")
         ->check(between(-100, 100, "-100 to 100"))
         ->type_name("EV");
+    app.add_flag("--record-seconds", o.record_seconds,
+                 "Store the render time in the EXR (its bytes then differ every time)");
+    app.add_flag("--json", o.json, "Print statistics as JSON on stdout");
+    app.add_flag("-q,--quiet", o.quiet, "No progress, remarks or summary");
+}
+
+/// Layers beside the picture.
+void add_layers(CLI::App& app, RenderOptions& o) {
+    begin_group(app, "Output");
     add_words(app, "--aov", o.layers, layer_names,
               "Layers of the EXR beside the picture, separated by commas: albedo, normal, "
               "position, depth, direct, indirect, emission, or all of these; bounces and removed, "
               "which take time; or none (default: albedo, normal and depth, which denoisers use)")
         ->each([&o](const std::string& name) { o.no_layers |= name == "none"; });
-    app.add_flag("--record-seconds", o.record_seconds,
-                 "Store the render time in the EXR (its bytes then differ every time)");
-    app.add_flag("--json", o.json, "Print statistics as JSON on stdout");
-    app.add_flag("-q,--quiet", o.quiet, "No progress, remarks or summary");
 }
 
 /// Files that show how a picture came about.
@@ -155,6 +160,11 @@ void add_passes(CLI::App& app, PassOptions& p) {
                    "Start no further pass once the relative error, from the spread of the passes, "
                    "is so small; 0.01 is one percent")
         ->check(between(1e-6, 1, "0.000001 to 1"));
+}
+
+/// What of the passes is kept in files while they go on.
+void add_kept_passes(CLI::App& app, PassOptions& p) {
+    begin_group(app, "Time and machine");
     app.add_option("--save-every", p.save_every,
                    "Write the picture of the passes so far every so many seconds (default 10)")
         ->check(between(0, 3.2e7, "0 to 32000000"))
@@ -200,14 +210,20 @@ void add_execution(CLI::App& app, RenderOptions& o) {
 
 }  // namespace
 
-void add_render(CLI::App& app, RenderOptions& options) {
-    add_output(app, options);
-    add_report(app, options);
+void add_picture(CLI::App& app, RenderOptions& options) {
     add_image(app, options);
+    add_layers(app, options);
     add_scene_parts(app, options);
     add_light(app, options.settings);
     add_passes(app, options.passes);
     add_execution(app, options);
+}
+
+void add_render(CLI::App& app, RenderOptions& options) {
+    add_output(app, options);
+    add_report(app, options);
+    add_picture(app, options);
+    add_kept_passes(app, options.passes);
 }
 
 }  // namespace mirtool

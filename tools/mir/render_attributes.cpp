@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "render_attributes.hpp"
 
+#include "mir/film/filter.hpp"
 #include "mir/version.hpp"
-#include "render_output.hpp"
+#include "render_facts.hpp"
 
 #include <algorithm>
 

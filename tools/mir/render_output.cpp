@@ -27,21 +27,6 @@ void compress_with(unsigned threads) {
 
 }  // namespace
 
-const char* sampler_name(const mir::RenderSettings& s) {
-    if (s.integrator == mir::Integrator::path) return "path";
-    if (s.integrator == mir::Integrator::micro) return "micro";
-    if (s.sampler == mir::SamplerKind::metropolis) return "mir";
-    if (s.sampler == mir::SamplerKind::bidirectional) return "bir";
-    if (s.vpl_roulette) return "roulette";
-    return s.termination == mir::Termination::roulette ? "ir" : "keller";
-}
-
-double contributions_per_second(const mir::RenderStatistics& s) {
-    const mir::StageSeconds& t = s.seconds;
-    const double seconds = t.visibility + t.response + t.reconstruction;
-    return seconds > 0.0 ? static_cast<double>(s.contributions) / seconds : 0.0;
-}
-
 std::uint64_t peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

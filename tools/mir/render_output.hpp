@@ -30,12 +30,6 @@ mir::PreviewLook preview_look(const RenderOptions& options, const mir::Image<mir
 void write_outputs(const OutputPaths& paths, const mir::RenderResult& result,
                    const RenderOptions& options);
 
-/// What --sampler calls the sampler of a render; the integrator where there is none.
-const char* sampler_name(const mir::RenderSettings& settings);
-
-/// Contributions per second of everything that pairs of luxels and VPLs cost.
-double contributions_per_second(const mir::RenderStatistics& statistics);
-
 /// Largest resident set of the process so far.
 std::uint64_t peak_memory_bytes();
 

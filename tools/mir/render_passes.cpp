@@ -11,16 +11,7 @@ namespace {
 
 constexpr double default_save_every = 10.0;
 
-mir::PassGoal goal_of(const PassOptions& o) {
-    const bool open = o.seconds || o.relative_error;
-    mir::PassGoal goal;
-    goal.passes = o.passes.value_or(open ? mir::max_passes : 1);
-    if (o.seconds) goal.seconds = *o.seconds;
-    if (o.relative_error) goal.relative_error = *o.relative_error;
-    return goal;
-}
-
-/// Tells when so many seconds have passed since the last time. Or since it was made.
+/// Tells when so many seconds have passed since the last time, or since it was made.
 class Alarm {
  public:
     explicit Alarm(double seconds) : period_(seconds) {}
@@ -55,14 +46,6 @@ mir::RenderResult render_once(const mir::Renderer& renderer, const mir::Scene& s
 }
 
 }  // namespace
-
-void check(const PassOptions& options) {
-    const mir::PassGoal goal = goal_of(options);
-    goal.validate();
-    mir::expects(!options.save_every || goal.passes > 1,
-                 "--save-every was given for a single pass (there is nothing to write before its "
-                 "end); add --passes, --time or --target-error, or leave it out");
-}
 
 mir::RenderResult render_passes(const mir::Renderer& renderer, const mir::Scene& scene,
                                 const RenderOptions& o, const OutputPaths& paths,

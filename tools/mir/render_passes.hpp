@@ -4,12 +4,10 @@
 #include "convergence.hpp"
 #include "mir/runtime/renderer.hpp"
 #include "options.hpp"
+#include "pass_goal_of.hpp"
 #include "render_output.hpp"
 
 namespace mirtool {
-
-/// @throws mir::Error(invalid_argument) for options that contradict each other.
-void check(const PassOptions& options);
 
 /// Renders passes until their goal is reached or `monitor` is cancelled. In between writes the
 /// picture of those done from time to time. An interrupted picture is not complete. `convergence`

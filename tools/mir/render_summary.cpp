@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "render_facts.hpp"
 #include "render_output.hpp"
 
 #include <cmath>

@@ -23,8 +23,9 @@ class BackendResponse {
     /// Of the backend.
     using Queue = typename B::Queue;
 
-    /// For bands of an image of `luxels` and a set of `vpls` VPLs. `partial_sums` of 32 bytes may
-    /// be kept of pairs of block and VPL; at least those of one row of blocks and 32 VPLs are.
+    /// For bands of up to `luxels` as wide as those, and a set of `vpls` VPLs. `partial_sums` of 32
+    /// bytes may be kept of pairs of block and VPL; at least those of one row of blocks and 32 VPLs
+    /// are.
     BackendResponse(const B& backend, Extent luxels, std::uint32_t vpls,
                     std::uint32_t partial_sums = 1u << 21)
         : backend_(backend),
@@ -80,7 +81,7 @@ class BackendResponse {
                   const F& shading, const Part& part, ImageResponse* rows);
 
     B backend_;
-    std::uint32_t width_;  ///< of the image, luxels
+    std::uint32_t width_;  ///< luxels
     std::uint32_t vpls_;
     Chunk chunk_;
     typename B::template Buffer<ImageResponse> partial_;
@@ -98,8 +99,8 @@ std::vector<ImageResponse> BackendResponse<B>::rows(Queue& queue, const G& gbuff
             "a response was given visibility of other luxels or VPLs (it would be of nothing); "
             "give that of this band");
     expects(n == vpls_ && grid.image.width == width_,
-            "a response was given luxels or VPLs of another image (it would be of nothing); give "
-            "the bands of one image");
+            "a response was given luxels of another width or other VPLs (it would be of nothing); "
+            "give those it was made for");
     std::vector<ImageResponse> sums(std::size_t{detail::block_rows(gbuffer.extent().height)} * n);
     auto there = backend_.template buffer<ImageResponse>(sums.size());
     const WaitAtEnd wait(queue);

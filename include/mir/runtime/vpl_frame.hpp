@@ -20,8 +20,8 @@ namespace mir {
 class VplFrame {
  public:
     /// Checks settings and scene, builds what rays go through and chooses the bound. The scene must
-    /// outlive it; `monitor` may be null, else it must too. Settings of samplers, backend and
-    /// integrator mean nothing.
+    /// outlive it; `monitor` may be null, else it must too. Settings of backend and
+    /// integrator mean nothing, those of samplers only to place_vpls().
     /// @throws Error as Renderer::render(); Error(unsupported) for a scheduler that the processor
     ///         has not.
     VplFrame(const Scene& scene, const RenderSettings& settings, Monitor* monitor = nullptr);
@@ -41,6 +41,10 @@ class VplFrame {
     [[nodiscard]] float bound() const;
     /// The threads of the settings, stopped by the monitor.
     [[nodiscard]] AnyExecutor& executor();
+    /// The VPLs of the sampler that the settings name, with the intensities that they have in a
+    /// picture. To be called once, and not before render_vpls().
+    /// @throws Error as Renderer::render().
+    [[nodiscard]] VplList place_vpls();
 
  private:
     struct Parts;

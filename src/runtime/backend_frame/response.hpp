@@ -15,7 +15,7 @@ std::vector<ImageResponse> BackendFrame<M, B>::row_responses(const FrameBand& ba
                                                              float bound) {
     const Band& here = of(band);
     UploadedVpls<M> there(machine_, vpls);
-    BackendResponse<M> sums(machine_, job_.rays.grid.luxels(), vpls.size());
+    BackendResponse<M> sums(machine_, band.extent(), vpls.size());
     const WaitAtEnd wait(queue_);
     there.send(queue_);
     return sums.rows(queue_, here.gbuffer, there.view(), *here.visibility, VplShading<B>{bound});

@@ -2,6 +2,7 @@
 #include "mir/compare/comparable.hpp"
 #include "mir/film/filter.hpp"
 #include "mir/io/html_page.hpp"
+#include "render_facts.hpp"
 #include "render_output.hpp"
 #include "report/sections.hpp"
 #include "text.hpp"

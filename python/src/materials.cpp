@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "arrays.hpp"
+#include "errors.hpp"
+#include "scene.hpp"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <cmath>
+#include <optional>
+
+namespace nb = nanobind;
+
+namespace mirpy {
+namespace {
+
+mir::Rgb rgb_of(nb::handle value, const char* place) {
+    const std::vector<double> c = numbers_of(value, place, 3);
+    return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+}
+
+void check_share(float value, const char* place) {
+    if (!(value >= 0.0f && value <= 1.0f)) throw ArgumentError(place, "give a number of 0 to 1");
+}
+
+mir::Rgb reflectance_of(nb::handle value) {
+    const mir::Rgb color = rgb_of(value, "base_color");
+    for (const float c : {color.r, color.g, color.b}) check_share(c, "base_color");
+    return color;
+}
+
+mir::Rgb emission_of(nb::handle value) {
+    const mir::Rgb light = rgb_of(value, "emission");
+    if (light.r < 0.0f || light.g < 0.0f || light.b < 0.0f)
+        throw ArgumentError("emission", "light is negative; give three numbers from 0 up");
+    return light;
+}
+
+mir::Wrap wrap_of(const std::string& name) {
+    if (name == "repeat") return mir::Wrap::repeat;
+    if (name == "clamp") return mir::Wrap::clamp;
+    if (name == "mirror") return mir::Wrap::mirror;
+    throw ArgumentError("wrap", "'" + name + "' is unknown; choose one of clamp|mirror|repeat");
+}
+
+using ImageIndex = std::optional<std::uint32_t>;
+
+/// How the images of one material are looked up.
+struct Lookup {
+    std::size_t images;
+    mir::Wrap wrap;
+    bool nearest;
+
+    [[nodiscard]] mir::Texture texture(const ImageIndex& image, const char* place) const {
+        mir::Texture t;
+        if (!image) return t;
+        if (*image >= images)
+            throw ArgumentError(place, "there is no image " + std::to_string(*image) +
+                                           "; give what add_image() returned");
+        t.image = *image;
+        t.wrap_u = t.wrap_v = wrap;
+        t.nearest = nearest;
+        return t;
+    }
+};
+
+std::uint32_t add_material(PyScene& self, const std::string& name, nb::handle base_color,
+                           float metallic, float roughness, float specular, float ior,
+                           nb::handle emission, bool emits_from_both_sides,
+                           std::uint16_t light_group, float alpha_cutoff,
+                           const ImageIndex& base_color_image,
+                           const ImageIndex& metallic_roughness_image,
+                           const ImageIndex& normal_image, const ImageIndex& emission_image,
+                           float normal_scale, const std::string& wrap, bool nearest) {
+    mir::Material m;
+    m.name = name;
+    m.base_color = reflectance_of(base_color);
+    check_share(m.metallic = metallic, "metallic");
+    check_share(m.roughness = roughness, "roughness");
+    check_share(m.specular = specular, "specular");
+    if (!(ior >= 1.0f) || std::isinf(ior)) throw ArgumentError("ior", "give a number from 1 up");
+    m.ior = ior;
+    m.emission = emission_of(emission);
+    m.emits_from_both_sides = emits_from_both_sides;
+    m.light_group = light_group;
+    check_share(m.alpha_cutoff = alpha_cutoff, "alpha_cutoff");
+    const Lookup lookup{self.scene().images.size(), wrap_of(wrap), nearest};
+    m.textures.base_color = lookup.texture(base_color_image, "base_color_image");
+    m.textures.metallic_roughness =
+        lookup.texture(metallic_roughness_image, "metallic_roughness_image");
+    m.textures.normal = lookup.texture(normal_image, "normal_image");
+    m.textures.emission = lookup.texture(emission_image, "emission_image");
+    m.textures.normal_scale = normal_scale;
+    return self.edit().add(std::move(m));
+}
+
+std::uint32_t add_image(PyScene& self, nb::handle pixels, const std::string& name) {
+    const auto bytes = byte_array(pixels, "pixels", {any_size, any_size, any_size});
+    const std::size_t channels = bytes.shape(2);
+    if (channels != 3 && channels != 4)
+        throw ArgumentError(
+            "pixels", "it has " + std::to_string(channels) + " channels; give 3, or 4 with alpha");
+    constexpr std::size_t most = 65536;
+    for (const std::size_t side : {bytes.shape(0), bytes.shape(1)})
+        if (side < 1 || side > most)
+            throw ArgumentError("pixels",
+                                "a side has " + std::to_string(side) + " pixels; give 1 to 65536");
+    mir::TextureImage image;
+    image.name = name;
+    image.height = static_cast<std::uint32_t>(bytes.shape(0));
+    image.width = static_cast<std::uint32_t>(bytes.shape(1));
+    image.texels.reserve(bytes.shape(0) * bytes.shape(1));
+    const auto* at = static_cast<const std::uint8_t*>(bytes.data());
+    for (std::size_t i = 0; i < bytes.shape(0) * bytes.shape(1); ++i, at += channels)
+        image.texels.push_back(at[0] | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 |
+                               (channels == 4 ? std::uint32_t{at[3]} : 0xFFu) << 24);
+    mir::Scene& scene = self.edit();
+    scene.images.push_back(std::move(image));
+    return static_cast<std::uint32_t>(scene.images.size() - 1);
+}
+
+}  // namespace
+
+void bind_materials(nb::class_<PyScene>& scene) {
+    const auto black = nb::make_tuple(0.0, 0.0, 0.0);
+    const auto grey = nb::make_tuple(0.8, 0.8, 0.8);
+    scene
+        .def("add_material", add_material, nb::kw_only(), nb::arg("name") = "",
+             nb::arg("base_color") = grey, nb::arg("metallic") = 0.0f, nb::arg("roughness") = 1.0f,
+             nb::arg("specular") = 1.0f, nb::arg("ior") = 1.5f, nb::arg("emission") = black,
+             nb::arg("emits_from_both_sides") = false, nb::arg("light_group") = 0,
+             nb::arg("alpha_cutoff") = 0.0f, nb::arg("base_color_image") = nb::none(),
+             nb::arg("metallic_roughness_image") = nb::none(), nb::arg("normal_image") = nb::none(),
+             nb::arg("emission_image") = nb::none(), nb::arg("normal_scale") = 1.0f,
+             nb::arg("wrap") = "repeat", nb::arg("nearest") = false,
+             "Adds a material in glTF's metallic-roughness parameters; returns its index.\n\n"
+             "base_color: three of 0..1, linear Rec. 709. metallic, roughness, specular: 0..1;\n"
+             "specular=0 with metallic=0 is purely Lambertian. emission: radiance of the front,\n"
+             "W m^-2 sr^-1. Images are what add_image() returned; they multiply.")
+        .def("add_image", add_image, nb::arg("pixels").none(), nb::arg("name") = "",
+             "Adds a picture for textures; returns its index.\n\n"
+             "pixels: (height, width, 3 or 4) of uint8, the top row first; sRGB where a colour\n"
+             "is meant, linear alpha.");
+}
+
+}  // namespace mirpy

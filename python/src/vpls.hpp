@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/data/vpl_list.hpp"
+
+#include <nanobind/nanobind.h>
+
+#include <limits>
+#include <vector>
+
+namespace mirpy {
+
+/// VPLs as Python holds them.
+struct PyVpls {
+    std::vector<mir::Vpl> vpls;
+    mir::VplList list;  ///< what they are made of; empty for those from arrays
+    float bound = std::numeric_limits<float>::max();  ///< largest geometry term, m^-2
+
+    [[nodiscard]] mir::VplSpan<mir::Space::host> span() const { return mir::span_of(vpls); }
+};
+
+/// VPLs of a list, with all their light.
+PyVpls vpls_of(mir::VplList list, float bound);
+
+/// Declares the class Vpls.
+void bind_vpls(nanobind::module_& m);
+
+}  // namespace mirpy
