@@ -5,7 +5,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 
 run(said ${PROGRAM} --version)
 expect("${said}" "no Embree")
-set(render ${PROGRAM} render builtin:sphere --width 24 --vpls 16)
+set(render ${PROGRAM} render builtin:sphere --width 24 --vpls 16 --surfels 512)
 foreach(integrator IN ITEMS vpl path micro)
     run(said ${render} --integrator ${integrator} -o ${SCRATCH}/${integrator}.exr)
 endforeach()
