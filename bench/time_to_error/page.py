@@ -12,8 +12,8 @@ def introduction(metric, levels):
     return ["# Error against time", "",
             f"CPU seconds, user and system of the whole process, until the scaled relMSE{worst} is "
             f"{', '.join(f'{level:g}' for level in levels)}: interpolated in log-log between the "
-            "pictures of a configuration. ≤: its quickest picture is already better. Not told: the "
-            "references are too noisy; `--reference-paths` takes more of theirs. Slope: "
+            "pictures of a configuration. ≤: its quickest picture is already better. Not told: "
+            "the references are too noisy; more `--reference-paths` help. Slope: "
             "exponent of the error as a power of the seconds over the last two pictures. The best "
             "of a group is chosen afterwards, level by level. Whole pictures and their indirect "
             "light come of the same renders, so the seconds of indirect light include the direct.",
