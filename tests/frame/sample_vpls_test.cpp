@@ -53,7 +53,9 @@ class SamplingFrame final : public mir::RenderFrame {
     mir::BandPtr trace(mir::Extent, mir::Extent, std::uint32_t) override { return never(nullptr); }
     mir::BandPtr trace(const mir::ProbeRays&) override { return never(nullptr); }
     void find_visible(mir::FrameBand&, mir::VplSpan<mir::Space::host>) override { never(0); }
-    mir::ResponsePtr response(mir::Extent, std::uint32_t, float) override { return never(nullptr); }
+    std::vector<mir::ImageResponse> row_responses(const mir::FrameBand&, Vpls, float) override {
+        return never(std::vector<mir::ImageResponse>{});
+    }
     mir::LayerPtr black(const mir::FrameBand&) override { return never(nullptr); }
     mir::LayerPtr direct(const mir::FrameBand&, mir::DirectSamples) override {
         return never(nullptr);
@@ -68,7 +70,9 @@ class SamplingFrame final : public mir::RenderFrame {
     std::vector<double> row_luminances(const mir::FrameLayer&) override {
         return never(std::vector<double>{});
     }
-    void put(const mir::FrameBand&, std::vector<mir::LayerPtr>) override { never(0); }
+    void put(const mir::FrameBand&, std::vector<mir::LayerPtr>, mir::FilmSeam*) override {
+        never(0);
+    }
     std::vector<mir::Image<mir::Rgb>> develop() override {
         return never(std::vector<mir::Image<mir::Rgb>>{});
     }
