@@ -36,7 +36,8 @@ void add_sampler(CLI::App& app, mir::RenderSettings& s) {
                s.vpl_roulette = found->second.vpl_roulette;
            },
            "How VPLs are placed: mir, where they matter to the image, by Metropolis sampling "
-           "(default but with --sum cuts); bir, where they matter, by paths from both ends; ir, "
+           "(default, except with --sum cuts); bir, where they matter, by paths from both ends; "
+           "ir, "
            "wherever light goes "
            "(instant radiosity, default with --sum cuts); roulette, the same, kept by what they "
            "give to the image; keller, "
