@@ -41,8 +41,9 @@ void keep_statistics(RenderJob& job, const SampledVpls& sampled) {
         to_string(by_sampler ? NormalisationPolicy::none : job.settings.normalisation_policy());
     s.vpls = job.result.vpls.size();
     s.luxels = job.rays.grid.luxels().area();
-    s.contributions =
-        saturating_mul(s.luxels, std::min<std::uint64_t>(s.vpls, job.settings.gathered_vpls()));
+    const std::uint64_t gathered =
+        job.settings.wants_cuts() ? std::min<std::uint64_t>(s.vpls, job.settings.picks) : s.vpls;
+    s.contributions = saturating_mul(s.luxels, gathered);
 }
 
 bool must_normalise(const RenderSettings& settings, Normalisation normalisation) {

@@ -36,6 +36,7 @@ Brighter(S, double) -> Brighter<S>;
 mir::RenderSettings box_settings(SamplerKind sampler, std::uint32_t vpls) {
     mir::RenderSettings s = small_settings(side, vpls);
     s.sampler = sampler;
+    s.sum = mir::LightSum::all;
     s.direct_samples = 1;
     s.max_bounce = BounceMeans::last_bounce;
     s.bound = {mir::BoundPolicy::Kind::fixed, 14.0f};
