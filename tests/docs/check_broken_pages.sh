@@ -30,7 +30,8 @@ try columns accepted docs/limits.md "$long"
 for page in README.md docs/limits.md docs/decisions/README.md examples/one/README.md; do
     try columns refused "$page" "${long}x"
 done
-try columns accepted docs/limits.md "${long% }…"
+try columns accepted docs/limits.md "${long%ds }…"
+try columns refused docs/limits.md "${long% }…"
 try columns accepted docs/limits.md "| $long |"
 try columns accepted docs/limits.md "    $long"
 try columns accepted docs/limits.md "$(printf '```sh\n%sx\n```' "$long")"

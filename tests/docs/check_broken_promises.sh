@@ -9,7 +9,7 @@ here=$(cd -- "$(dirname -- "$0")" && pwd)
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 mkdir "$copy/docs"
-ln -s "$root/tests" "$root/tools" "$copy"
+ln -s "$root/tests" "$root/tools" "$root/python" "$copy"
 
 # try SED: whether the page that SED changes is refused.
 try() {
