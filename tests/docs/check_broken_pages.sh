@@ -5,10 +5,12 @@
 # to leave tables, code and names alone.
 set -eu
 
+root=$(cd -- "$1" && pwd)
 here=$(cd -- "$(dirname -- "$0")" && pwd)
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 mkdir -p "$copy/docs/decisions" "$copy/examples/one"
+for folder in backends cmake include src tools; do cp -R "$root/$folder" "$copy"; done
 echo '# Page' | tee "$copy/README.md" "$copy/docs/limits.md" "$copy/docs/decisions/README.md" \
     >"$copy/examples/one/README.md"
 
