@@ -3,18 +3,9 @@
 
 #include "mir/runtime/result.hpp"
 #include "support/catch.hpp"
-
-#include <cstring>
+#include "support/same_images.hpp"
 
 namespace mirtest {
-
-/// True when two images are equal in every bit.
-template <class T>
-bool same_bits(const mir::Image<T>& a, const mir::Image<T>& b) {
-    return a.extent() == b.extent() &&
-           (a.pixels().empty() ||
-            std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0);
-}
 
 /// Checks that all images, VPLs and sums of two renders are equal in every bit.
 inline void check_same(const mir::RenderResult& a, const mir::RenderResult& b) {

@@ -3,10 +3,10 @@
 
 #include "mir/runtime/all_renderers.hpp"
 #include "mir/scenes.hpp"
+#include "support/same_images.hpp"
 
 #include <array>
 #include <cmath>
-#include <cstring>
 
 namespace mirtest {
 
@@ -58,13 +58,6 @@ inline double mean_luminance(const mir::Image<mir::Rgb>& image) {
     double sum = 0.0;
     for (const mir::Rgb& p : image.pixels()) sum += static_cast<double>(luminance(p));
     return sum / static_cast<double>(image.pixels().size());
-}
-
-/// True when two pictures are equal in every bit.
-inline bool same_bits(const mir::Image<mir::Rgb>& a, const mir::Image<mir::Rgb>& b) {
-    return a.extent() == b.extent() &&
-           (a.pixels().empty() ||
-            std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0);
 }
 
 /// Root mean square difference over the root mean square of `a`.

@@ -3,9 +3,9 @@
 
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/renderer.hpp"
+#include "support/same_images.hpp"
 
 #include <chrono>
-#include <cstring>
 #include <span>
 #include <thread>
 #include <vector>
@@ -88,13 +88,5 @@ class NoiseRenderer : public mir::Renderer {
         return s;
     }
 };
-
-/// True when two pictures are equal in every bit.
-template <class T>
-bool same_bits(const mir::Image<T>& a, const mir::Image<T>& b) {
-    return a.extent() == b.extent() &&
-           (a.pixels().empty() ||
-            std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0);
-}
 
 }  // namespace mirtest

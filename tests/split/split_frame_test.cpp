@@ -26,8 +26,8 @@ using Frames = std::vector<std::unique_ptr<RenderFrame>>;
 
 /// A scene, and frames of a job over it. Their loops run on the threads that split frames make.
 struct Picture {
-    explicit Picture(const RenderSettings& wanted, mir::Monitor* monitor = nullptr)
-        : settings(wanted),
+    explicit Picture(RenderSettings wanted, mir::Monitor* monitor = nullptr)
+        : settings(std::move(wanted)),
           job({scene, geometry, mir::AnyExecutor(executor), monitor, clock}, settings) {}
 
     [[nodiscard]] std::unique_ptr<RenderFrame> frame() {

@@ -125,7 +125,7 @@ TEST_CASE("compare prints metrics for programs") {
     CHECK(m.at("rmse").get<double>() == Approx(std::sqrt(mse)));
     CHECK(m.at("relmse").get<double>() == Approx(mse / 0.26));
     CHECK(m.at("relmse_epsilon") == 0.01);
-    const json scaled = m.at("scaled_relmse");
+    const json& scaled = m.at("scaled_relmse");
     const double light = 0.25 * 1.01;
     CHECK(scaled.at("mean").get<double>() == Approx(mse / light));
     // One of 384 pixels is the worst 0.5 %.

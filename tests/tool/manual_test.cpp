@@ -37,8 +37,8 @@ struct Bash {
 
     Bash() {
         std::ofstream(folder / "mir.bash") << manual("bash");
-        std::ofstream(folder / "room.glb");
-        std::ofstream(folder / "room of mine.glb");
+        for (const char* scene : {"room.glb", "room of mine.glb"})
+            std::ofstream(folder / scene) << "a scene";
     }
 
     /// What bash offers for the last of these words, as bash splits a line.

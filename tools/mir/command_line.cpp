@@ -42,6 +42,7 @@ struct CommandLine {
     CommandLine();
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
+    ~CommandLine() = default;
 
     /// The options of the command that was given.
     [[nodiscard]] Command given() const;
@@ -140,11 +141,6 @@ Command CommandLine::given() const {
 }
 
 }  // namespace
-
-void add_allow_outside(CLI::App& app, mir::Limits& limits) {
-    app.add_flag("--allow-outside", limits.allow_outside,
-                 "The scene may name files outside of its folder; for scenes that you trust");
-}
 
 Parsed parse(int argc, char** argv) {
     CommandLine line;

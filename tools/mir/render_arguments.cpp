@@ -210,6 +210,11 @@ void add_execution(CLI::App& app, RenderOptions& o) {
 
 }  // namespace
 
+void add_allow_outside(CLI::App& app, mir::Limits& limits) {
+    app.add_flag("--allow-outside", limits.allow_outside,
+                 "The scene may name files outside of its folder; for scenes that you trust");
+}
+
 void add_picture(CLI::App& app, RenderOptions& options) {
     add_image(app, options);
     add_layers(app, options);

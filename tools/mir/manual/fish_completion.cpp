@@ -47,7 +47,8 @@ std::string fish_completion(const CommandFacts& program) {
     text += "complete -c mir -f\n" + fish_options(program, before);
     for (const CommandFacts& command : program.commands) {
         const std::string name = command.own_name();
-        text += before + " -a " + name + " -d " + fish_quoted(command.words) + "\n";
+        text.append(before).append(" -a ").append(name).append(" -d ");
+        text.append(fish_quoted(command.words)).append("\n");
         const std::string when = "complete -c mir -n '__fish_seen_subcommand_from " + name + "'";
         text += fish_options(command, when);
         if (!command.places.empty()) text += when + fish_value(command.places.front()) + "\n";
