@@ -70,7 +70,7 @@ check_files() {
 }
 
 cd -- "$root"
-cp -RL ./*.md ./*.sh CMakeLists.txt LICENSE .ci backends bench cmake docs examples include src tests \
+cp -RL ./*.md ./*.sh CMakeLists.txt LICENSE .ci backends bench cmake docs examples include pyproject.toml python src tests \
     tools "$copy"
 patches=0
 for file in tests/recipes/*.patch; do

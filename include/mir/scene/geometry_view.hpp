@@ -109,7 +109,7 @@ struct GeometryView {
     [[nodiscard]] MIR_HD SurfacePoint surface_point(std::uint32_t triangle, Vec2 barycentrics,
                                                     Vec3 direction, float distance) const;
     [[nodiscard]] MIR_HD Vec3 shift_off_edges(std::uint32_t triangle, Vec2 barycentrics,
-                                              float offset) const;
+                                              float margin) const;
     MIR_HD void set_texture_frame(SurfacePoint& p) const;
 };
 
