@@ -70,8 +70,8 @@ check_files() {
 }
 
 cd -- "$root"
-cp -RL ./*.md ./*.sh CMakeLists.txt LICENSE .ci backends bench cmake docs examples include pyproject.toml python src tests \
-    tools "$copy"
+cp -RL ./*.md ./*.sh CMakeLists.txt LICENSE pyproject.toml .ci backends bench cmake docs examples \
+    include python src tests tools "$copy"
 patches=0
 for file in tests/recipes/*.patch; do
     name=$(basename "$file" .patch)

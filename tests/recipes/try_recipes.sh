@@ -14,8 +14,8 @@ fresh() {
     rm -rf "$work/tree"
     mkdir -p "$work/tree/docs" "$work/tree/tests"
     cd -- "$work/tree"
-    for entry in .ci backends bench cmake examples include src tools; do ln -s "$root/$entry" .; done
-    for entry in CMakeLists.txt LICENSE "$root"/*.md "$root"/*.sh; do
+    for entry in .ci backends bench cmake examples include python src tools; do ln -s "$root/$entry" .; done
+    for entry in CMakeLists.txt LICENSE pyproject.toml "$root"/*.md "$root"/*.sh; do
         ln -s "$root/$(basename "$entry")" .
     done
     for entry in "$root"/docs/*; do ln -s "$entry" docs; done
