@@ -28,9 +28,8 @@ cache=${XDG_CACHE_HOME:-$HOME/.cache}/mir
 base=$cache/$codename.tar
 mkdir -p "$cache/archives/partial"
 if [ ! -f "$base" ]; then
-    mirror=${MIR_DEBIAN_MIRROR:-http://deb.debian.org/debian}
-    mmdebstrap --quiet --variant=minbase "$codename" "$base.part" "$mirror" ||
-        skip "mmdebstrap could not make a system from $mirror"
+    mmdebstrap --quiet --variant=minbase "$codename" "$base.part" ||
+        skip "mmdebstrap could not make a system of $codename"
     mv "$base.part" "$base"
 fi
 
