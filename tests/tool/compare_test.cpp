@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/version.hpp"
-#include "tool/exr_file.hpp"
-#include "tool/mir_program.hpp"
+#include "tool/compared_pictures.hpp"
 
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfOutputFile.h>
@@ -13,23 +12,10 @@
 #include <thread>
 
 using namespace mirtest;
+using namespace mirtest::compared;
 using nlohmann::json;
 
 namespace {
-
-using Picture = mir::Image<mir::Rgb>;
-
-constexpr mir::Extent size{24, 16};
-
-Picture plain(float light) { return Picture(size, mir::Rgb{light, light, light}); }
-
-/// Writes a picture, and its half as layer "half".
-std::string store(const std::filesystem::path& path, const Picture& picture) {
-    Picture half = picture;
-    for (mir::Rgb& pixel : half.pixels()) pixel = pixel * 0.5f;
-    mir::write_exr(path, picture.extent(), {{"", &picture}, {"half", &half}});
-    return path.string();
-}
 
 /// Writes a picture with what mir never writes: numbers that are none.
 std::string store_unchecked(const std::filesystem::path& path, Picture picture) {
@@ -45,30 +31,6 @@ std::string store_unchecked(const std::filesystem::path& path, Picture picture) 
     file.setFrameBuffer(buffer);
     file.writePixels(static_cast<int>(picture.height()));
     return path.string();
-}
-
-/// Two pictures in a folder of their own: b is 0.5 everywhere, a is 0.6 but for one pixel.
-struct Pictures {
-    TemporaryFolder folder{"compare"};
-    std::string a;
-    std::string b;
-
-    Pictures() {
-        Picture image = plain(0.6f);
-        image(5, 7).g = 2.5f;
-        a = store(folder / "a.exr", image);
-        b = store(folder / "b.exr", plain(0.5f));
-    }
-};
-
-Outcome compare(const Words& arguments) { return run_mir(Words{"compare"} + arguments); }
-
-json metrics(const Words& arguments) {
-    const Outcome outcome = compare(arguments + Words{"--json"});
-    INFO(outcome.err);
-    REQUIRE(outcome.exit_code == 0);
-    CHECK(outcome.err.empty());
-    return json::parse(outcome.out);
 }
 
 std::set<std::string> keys_of(const json& object) {
@@ -181,36 +143,6 @@ TEST_CASE("compare reads the layer asked for, and options reach the metrics") {
     CHECK(dark.at("exposure") == -5.0);
     CHECK(dark.at("ldr_flip").get<double>() < usual.at("ldr_flip").get<double>());
     CHECK(dark.at("flip") == usual.at("flip"));
-}
-
-TEST_CASE("a second reference takes part in the scaled relMSE alone") {
-    const Pictures p;
-    const std::string second = store(p.folder / "second.exr", plain(0.7f));
-    const json one = metrics({p.a, p.b});
-    const json two = metrics({p.a, p.b, "--second-reference", second});
-    CHECK(two.at("second_reference") == second);
-    for (const char* key : {"mse", "relmse", "mae", "flip", "mean_radiance"})
-        CHECK(two.at(key) == one.at(key));
-    CHECK(two.at("scaled_relmse").at("trimmed").get<double>() ==
-          Approx(0.1 * -0.1 / (0.36 * 1.01)));
-    const json half = metrics({p.a, p.b, "--second-reference", second, "--layer", "half"});
-    CHECK(half.at("scaled_relmse").at("trimmed").get<double>() ==
-          Approx(two.at("scaled_relmse").at("trimmed").get<double>()));
-    const Outcome people = compare({p.a, p.b, "--second-reference", second});
-    CHECK(has(people.out, second));
-    CHECK(has(people.out, "noise of the references left out"));
-}
-
-TEST_CASE("a second reference is held to what the first is") {
-    const Pictures p;
-    const auto with = [&](const std::string& file) {
-        return Words{p.a, p.b, "--second-reference", file};
-    };
-    check_failure(compare(with("no.exr")), 3, "no.exr");
-    const std::string small = store(p.folder / "small.exr", Picture({3, 2}));
-    check_failure(compare(with(small)), 3, "small.exr has 3x2");
-    const std::string second = store(p.folder / "second.exr", plain(0.7f));
-    check_failure(compare(with(second) + Words{"--error", second}), 2, "would replace");
 }
 
 TEST_CASE("a limit that is passed gives code 1, is named, and leaves the results complete") {
