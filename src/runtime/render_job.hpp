@@ -40,7 +40,8 @@ struct RenderJob {
           }()),
           surfaces(surfaces_of(scene)),
           rays{scene.cameras[settings.camera],
-               luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits),
+               luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits,
+                          settings.only_luxel),
                settings.seed},
           result{{}, {}, {}, {}, {}, Guides::unwritten(settings.image), {}, {}, {}} {}
     RenderJob(const RenderJob&) = delete;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The alpha of pictures: what of a pixel is surface, through the filter of the beauty.
+#include "images/black_box.hpp"
 #include "images/support.hpp"
 #include "mir/runtime/pass_sums.hpp"
 #include "support/catch.hpp"
-#include "support/test_sky.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,23 +16,6 @@ using mir::RenderSettings;
 using mir::Rgb;
 
 namespace {
-
-/// A box that reflects nothing under a sky of radiance 1 from all around: a pixel shows what of it
-/// is no surface.
-mir::Scene black_box() {
-    mir::Scene scene = mir::builtin::make("cornell-box");
-    for (mir::Material& m : scene.materials) {
-        m.emission = {};
-        m.base_color = {};
-        m.textures = {};
-        m.metallic = 0.0f;
-        m.specular = 0.0f;
-    }
-    scene.environment = constant_sky({1, 1, 1});
-    // Back and aside, so that slanted edges cross pixels.
-    scene.cameras[0].position += 1.5f * scene.cameras[0].back + 0.7f * scene.cameras[0].up;
-    return scene;
-}
 
 RenderSettings settings_for(Integrator integrator, mir::FilterKind filter) {
     RenderSettings s = small_settings(24, 16);

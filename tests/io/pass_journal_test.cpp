@@ -103,6 +103,7 @@ TEST_CASE("a journal belongs to its scene and settings") {
           Change([](mir::RenderSettings& s) { s.vsl.enabled = true; }),
           Change([](mir::RenderSettings& s) { s.vsl.scale = 0.5f; }),
           Change([](mir::RenderSettings& s) { s.removed_layer = true; }),
+          Change([](mir::RenderSettings& s) { s.only_luxel.x = 0.25f; }),
           Change([](mir::RenderSettings& s) { s.bounce_layers = true; }),
           Change([](mir::RenderSettings& s) { s.path.samples = 3; }),
           Change([](mir::RenderSettings& s) { s.micro.gather.threshold = 0.5f; }),

@@ -24,18 +24,18 @@ inline constexpr std::uint32_t max_luxels_per_pixel = 64;
 class PixelPattern {
  public:
     /// Cells nx, ny >= 1 of a pixel, nx * ny <= max_luxels_per_pixel. `pixel` is the pixel's raster
-    /// index.
-    MIR_HD PixelPattern(std::uint32_t nx, std::uint32_t ny, std::uint64_t pixel, std::uint64_t seed)
-        : nx_(nx), ny_(ny), random_(seed, Stream::luxel, pixel) {
+    /// index. A luxel that has the pixel alone lies at `only`, in (0, 1)^2.
+    MIR_HD PixelPattern(std::uint32_t nx, std::uint32_t ny, std::uint64_t pixel, std::uint64_t seed,
+                        Vec2 only = {0.5f, 0.5f})
+        : nx_(nx), ny_(ny), only_(only), random_(seed, Stream::luxel, pixel) {
         Random draws = random_;
         shuffle(column_order_, nx, draws);
         shuffle(row_order_, ny, draws);
     }
 
-    /// Position of the luxel of cell (cx, cy), in (0, 1)^2 of the pixel. It is the centre when the
-    /// pixel has one luxel.
+    /// Position of the luxel of cell (cx, cy), in (0, 1)^2 of the pixel.
     [[nodiscard]] MIR_HD Vec2 operator()(std::uint32_t cx, std::uint32_t cy) const {
-        if (nx_ * ny_ == 1) return {0.5f, 0.5f};
+        if (nx_ * ny_ == 1) return only_;
         // Even, so that both numbers come from one block of random bits.
         const std::uint32_t dimension = first_jitter + 2 * (cy * nx_ + cx);
         return {inside(cx * ny_ + row_order_.place[cy], random_.at(dimension)),
@@ -70,6 +70,7 @@ class PixelPattern {
 
     std::uint32_t nx_;
     std::uint32_t ny_;
+    Vec2 only_;
     Random random_;
     Order column_order_;
     Order row_order_;
@@ -81,6 +82,7 @@ struct LuxelGrid {
     Extent pixels;                  ///< size of the image
     std::uint32_t per_pixel_x = 1;  ///< luxels of a pixel side by side, at least 1
     std::uint32_t per_pixel_y = 1;  ///< luxels of a pixel one below the other, at least 1
+    Vec2 only{0.5f, 0.5f};          ///< place of luxels that have their pixel alone, (0, 1)^2
 
     /// Luxels of a pixel, at most max_luxels_per_pixel.
     [[nodiscard]] MIR_HD constexpr std::uint32_t per_pixel() const {
@@ -95,12 +97,12 @@ struct LuxelGrid {
     /// The luxels of pixel (px, py).
     [[nodiscard]] MIR_HD PixelPattern pattern(std::uint32_t px, std::uint32_t py,
                                               std::uint64_t seed) const {
-        return {per_pixel_x, per_pixel_y, std::uint64_t{py} * pixels.width + px, seed};
+        return {per_pixel_x, per_pixel_y, std::uint64_t{py} * pixels.width + px, seed, only};
     }
 
-    /// Position of luxel (x, y) in pixels from the image's top left corner. It is the pixel's
-    /// centre for one luxel per pixel, else multi-jittered inside the pixel. A pure function of (x,
-    /// y, seed), safe from any thread.
+    /// Position of luxel (x, y) in pixels from the image's top left corner. It is `only` for one
+    /// luxel per pixel, else multi-jittered inside the pixel. A pure function of (x, y, seed), safe
+    /// from any thread.
     [[nodiscard]] MIR_HD Vec2 position(std::uint32_t x, std::uint32_t y, std::uint64_t seed) const {
         const std::uint32_t px = x / per_pixel_x, py = y / per_pixel_y;
         const Vec2 offset = pattern(px, py, seed)(x % per_pixel_x, y % per_pixel_y);
@@ -120,11 +122,15 @@ struct LuxelGrid {
 };
 
 /// Cuts each pixel of an image into `luxels_per_pixel` (1 to 64) cells. They are as nearly square
-/// as the number's factors allow: 16 gives 4 x 4, 8 gives 2 x 4, a prime n gives 1 x n.
-/// @throws Error(invalid_argument) for an empty image or a number out of range, and
+/// as the number's factors allow: 16 gives 4 x 4, 8 gives 2 x 4, a prime n gives 1 x n. One luxel
+/// lies at `only`.
+/// @throws Error(invalid_argument) for an empty image, a number or place out of range, and
 ///         Error(limit_exceeded) when the image passes `limits`.
 inline LuxelGrid luxel_grid(Extent pixels, std::uint32_t luxels_per_pixel,
-                            const Limits& limits = {}) {
+                            const Limits& limits = {}, Vec2 only = {0.5f, 0.5f}) {
+    expects(only.x > 0.0f && only.x < 1.0f && only.y > 0.0f && only.y < 1.0f,
+            "the place of a pixel's only luxel lies outside of the pixel (no ray would be its); "
+            "give both coordinates between 0 and 1");
     expects(pixels.width > 0 && pixels.height > 0,
             "an image of zero pixels was asked for (there is nothing to compute); give both a "
             "width and a height");
@@ -142,7 +148,7 @@ inline LuxelGrid luxel_grid(Extent pixels, std::uint32_t luxels_per_pixel,
     expects(std::uint64_t{pixels.width} * nx <= most && std::uint64_t{pixels.height} * ny <= most,
             "the luxels of this image cannot be numbered (one side has more than 2^32 - 1); ask "
             "for fewer luxels per pixel");
-    return {pixels, nx, ny};
+    return {pixels, nx, ny, only};
 }
 
 }  // namespace mir

@@ -25,7 +25,9 @@ class TapTable {
 
     /// @throws Error(invalid_argument) for a filter that is too narrow, too wide or has no lobes.
     TapTable(const LuxelGrid& grid, const Filter& filter)
-        : filter_(filter), reach_(checked_reach(filter)), centred_(grid.per_pixel() == 1) {
+        : filter_(filter),
+          reach_(checked_reach(filter)),
+          centred_(grid.per_pixel() == 1 && grid.only == Vec2(0.5f, 0.5f)) {
         // The zeros of a filter may lie on the pixels around.
         while (centred_ && reach_ > 0 && filter.along(static_cast<float>(reach_)) == 0.0f) --reach_;
         columns_ = grid.per_pixel_x;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/film/moved_luxel.hpp"
 #include "mir/runtime/pass_goal.hpp"
 #include "mir/runtime/pass_seed.hpp"
 #include "mir/runtime/pass_sums.hpp"
@@ -15,11 +16,11 @@
 namespace mir {
 
 /// A picture that gets better pass by pass. Each pass is a whole render with random numbers of
-/// its own (pass_seed()): other luxels where a pixel has several, other VPLs, other light
-/// samples; the picture is the mean. Its variance falls as one over the number of passes; the
-/// spheres of virtual spherical lights shrink from pass to pass (vsl_radius_share()). Each pass
-/// builds everything again, the acceleration structure and the G-buffer too. One thread at a
-/// time.
+/// its own (pass_seed()): other luxels, other VPLs, other light samples; the picture is the
+/// mean. Where a pixel has one luxel, that moves evenly through it (moved_luxel()). Its variance
+/// falls as one over the number of passes; the spheres of virtual spherical lights shrink from pass
+/// to pass (vsl_radius_share()). Each pass builds everything again, the acceleration structure and
+/// the G-buffer too. One thread at a time.
 class ProgressiveRender {
  public:
     /// Starts the clock of the goal. `renderer`, `scene` and `monitor`, which may be null, must
@@ -32,6 +33,7 @@ class ProgressiveRender {
           settings_(std::move(settings)),
           seed_(settings_.seed),
           vsl_scale_(settings_.vsl.scale),
+          only_luxel_(settings_.only_luxel),
           goal_(goal),
           monitor_(monitor),
           sums_(std::move(done)) {
@@ -50,6 +52,7 @@ class ProgressiveRender {
             monitor_->begin_pass(sums_.passes());
         }
         settings_.seed = pass_seed(seed_, sums_.passes());
+        settings_.only_luxel = moved_luxel(only_luxel_, sums_.passes());
         settings_.vsl.scale = vsl_scale_ * static_cast<float>(vsl_radius_share(sums_.passes()));
         sums_.add(renderer_.render(scene_, settings_, monitor_));
         look_at_goal();
@@ -76,6 +79,7 @@ class ProgressiveRender {
     RenderSettings settings_;
     std::uint64_t seed_;
     float vsl_scale_;
+    Vec2 only_luxel_;
     PassGoal goal_;
     Monitor* monitor_;
     PassSums sums_;

@@ -108,7 +108,7 @@ inline void LuxelColumns::weigh(std::vector<double>& planes, std::size_t cell,
 }
 
 inline void LuxelColumns::place(std::uint32_t row) {
-    // Luxels at pixel centres have the same weights in every row.
+    // Luxels alone in their pixels have the same weights in every row.
     if (grid_.per_pixel() == 1 && !patterns_.empty()) return;
     choose_patterns(row / grid_.per_pixel_y);
     const std::uint32_t cy = row % grid_.per_pixel_y;
