@@ -6,6 +6,7 @@
 #include "mir/core/monitor.hpp"
 #include "mir/cuts/gather_cut.hpp"
 #include "mir/cuts/interleaved_block.hpp"
+#include "mir/cuts/pick_spread.hpp"
 #include "mir/data/image.hpp"
 #include "mir/shading/check_bound.hpp"
 
@@ -26,14 +27,15 @@ template <class G, class V, class F, class P>
 class CutGather {
  public:
     CutGather(const G& gbuffer, const VplTree& tree, const V& visibility, const F& shading,
-              const P& policy, const CutPlace& place, Image<Rgb>& image)
+              const P& policy, const CutPlace& place, Image<Rgb>& image, Image<float>* variance)
         : gbuffer_(gbuffer),
           tree_(tree),
           visibility_(visibility),
           shading_(shading),
           policy_(policy),
           place_(place),
-          image_(image) {}
+          image_(image),
+          variance_(variance) {}
 
     /// Gathers the light of one block and returns how many picks it asked for.
     template <InstructionSet Set>
@@ -47,11 +49,23 @@ class CutGather {
         const Tile area = BlockedLayout::of(tile).block_area(tile, b.block);
         CutPicks picks(numbers_of(tile.x + area.x, tile.y + area.y), cut.size());
         blocks::GroupRadiance sums[blocks::groups_per_block];
-        gather_cut<Set>(block, tree_, cut, picks, visibility_, shading_, sums);
-        for (std::uint32_t y = 0; y < area.height; ++y)
-            for (std::uint32_t x = 0; x < area.width; ++x)
-                image_(tile.x + area.x + x, tile.y + area.y + y) =
-                    light_of(sums, BlockedLayout::inside(x, y));
+        const auto gather = [&](auto& spread) {
+            gather_cut<Set>(block, tree_, cut, picks, visibility_, shading_, sums, spread);
+        };
+        const Tile here{tile.x + area.x, tile.y + area.y, area.width, area.height};
+        if (variance_ == nullptr) {
+            NoSpread none;
+            gather(none);
+        } else {
+            PickSpread<Set, F> spread(block, shading_);
+            gather(spread);
+            each_luxel(here, [&](std::uint32_t x, std::uint32_t y, std::uint32_t place) {
+                (*variance_)(x, y) = spread.variance(place);
+            });
+        }
+        each_luxel(here, [&](std::uint32_t x, std::uint32_t y, std::uint32_t place) {
+            image_(x, y) = light_of(sums, place);
+        });
         return std::uint64_t{area.width} * area.height * cut.size();
     }
 
@@ -62,8 +76,16 @@ class CutGather {
                 std::uint64_t{(place_.first_row + y) / side} << 32 | x / side};
     }
 
-    static Rgb light_of(const blocks::GroupRadiance* sums, LuxelIndex luxel) {
-        const std::uint32_t i = blocks::InterleavedBlock<F>::place_here(luxel);
+    /// Calls use(x, y, place in the interleaved block) for the luxels of a block.
+    template <class Use>
+    static void each_luxel(const Tile& area, const Use& use) {
+        for (std::uint32_t y = 0; y < area.height; ++y)
+            for (std::uint32_t x = 0; x < area.width; ++x)
+                use(area.x + x, area.y + y,
+                    blocks::InterleavedBlock<F>::place_here(BlockedLayout::inside(x, y)));
+    }
+
+    static Rgb light_of(const blocks::GroupRadiance* sums, std::uint32_t i) {
         const blocks::GroupRadiance& sum = sums[i / blocks::group_size];
         const std::uint32_t k = i % blocks::group_size;
         return {sum.r[k], sum.g[k], sum.b[k]};
@@ -76,6 +98,7 @@ class CutGather {
     const P& policy_;
     CutPlace place_;
     Image<Rgb>& image_;
+    Image<float>* variance_;
 };
 
 }  // namespace detail
@@ -85,8 +108,9 @@ class CutGather {
 /// picked by its weight. The mean over seeds is the image of reconstruct() with all VPLs of the
 /// tree, for any policy; sixteen neighbours pick other VPLs, so that what is left is noise that
 /// averages out. Emission is not included. `monitor` may be null; it counts pairs of luxel and
-/// picked VPL. The same bytes for any number of threads, any tiles of whole blocks and any
-/// `instructions`.
+/// picked VPL. `variance` may be null; else it becomes an image of the estimated variances of the
+/// luxels' luminances over seeds (PickSpread), which the light does not depend on. The same bytes
+/// for any number of threads, any tiles of whole blocks and any `instructions`.
 /// @throws Error(invalid_argument) when the shading has a bound that is none (check_bound()), or
 ///         bands begin within a block; Error(cancelled).
 /// Source: Yuksel, "Stochastic Lightcuts", HPG 2019; docs/method.md, 14.
@@ -94,18 +118,20 @@ template <TiledGBuffer G, PacketVisibility V, Shading F, CutPolicy<F> P, Executo
 Image<Rgb> reconstruct_cuts(const G& gbuffer, const VplTree& tree, const V& visibility,
                             const F& shading, const P& policy, const CutPlace& place, E& executor,
                             Monitor* monitor = nullptr,
-                            InstructionSet instructions = best_instruction_set()) {
+                            InstructionSet instructions = best_instruction_set(),
+                            Image<float>* variance = nullptr) {
     check_shading(shading);
     expects(place.first_row % BlockedLayout::side == 0,
             "a band of luxels for cuts begins within a block (its picks would differ from those of "
             "the whole image); begin at a multiple of 16 rows");
     Image<Rgb> image(gbuffer.extent());
+    if (variance != nullptr) *variance = Image<float>(gbuffer.extent());
     if (tree.size() == 0) return image;
     std::vector<blocks::Block> all;
     for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t)
         blocks::append_blocks(all, t, gbuffer.tiles()[t]);
     const detail::CutGather<G, V, F, P> gather(gbuffer, tree, visibility, shading, policy, place,
-                                               image);
+                                               image, variance);
     executor.for_each(all.size(), [&](std::size_t i) {
         if (monitor != nullptr) monitor->check();
         std::uint64_t picked = 0;

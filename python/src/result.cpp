@@ -23,7 +23,8 @@ namespace nb = nanobind;
 namespace mirpy {
 namespace {
 
-std::optional<NumpyArray<float>> or_none(mir::Image<mir::Rgb>& image, nb::handle owner) {
+template <class T>
+std::optional<NumpyArray<float>> or_none(mir::Image<T>& image, nb::handle owner) {
     if (image.pixels().empty()) return std::nullopt;
     return view_of(image, owner);
 }
@@ -132,6 +133,11 @@ void bind_layers(nb::class_<PyResult>& type) {
         [](nb::handle self) { return or_none(nb::cast<PyResult&>(self).result.removed, self); },
         "(h, w, 3): what the bound removed, as the VPLs tell it; with aov=\"removed\" alone, else "
         "None.");
+    type.def_prop_ro(
+        "pick_error",
+        [](nb::handle self) { return or_none(nb::cast<PyResult&>(self).result.pick_error, self); },
+        "(h, w): standard error of the luminance of `indirect` from gathering few VPLs of many; "
+        "with aov=\"pick_error\" alone, else None.");
 }
 
 std::string shown(const PyResult& self) {

@@ -71,7 +71,7 @@ class FrameFeatures {
         {FrameFeature::residual, by_vpls && s.compensate > 0},
         {FrameFeature::spheres, by_vpls && s.vsl.enabled},
         {FrameFeature::lobes, by_vpls && s.glossy.enabled},
-        {FrameFeature::cuts, by_vpls && s.sum == LightSum::cuts}};
+        {FrameFeature::cuts, by_vpls && (s.sum == LightSum::cuts || s.pick_error_layer)}};
     for (const auto& [feature, is_wanted] : wanted)
         if (is_wanted && !features.has(feature)) return reason_without(feature);
     return "";

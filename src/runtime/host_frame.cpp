@@ -16,6 +16,7 @@
 #include "runtime/film_layers.hpp"
 #include "runtime/host_band.hpp"
 #include "runtime/luxel_coverage.hpp"
+#include "runtime/pick_variance.hpp"
 #include "runtime/residual_light.hpp"
 #include "runtime/sample_vpls.hpp"
 
@@ -80,12 +81,7 @@ class HostFrame final : public RenderFrame {
     [[nodiscard]] LayerPtr light(const FrameBand& band, Vpls vpls, VplKernel kernel,
                                  Monitor* monitor) override;
     [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
-                                         Monitor* monitor) override {
-        return host_layer(reconstruct_cuts(HostBand<B>::of(band).gbuffer, tree, rays().visibility(),
-                                           VplShading<B>{bound}, DeviationCut{job_.settings.picks},
-                                           {job_.settings.seed, band.first_row}, job_.executor,
-                                           monitor));
-    }
+                                         FrameLayer* variance, Monitor* monitor) override;
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 
@@ -130,6 +126,18 @@ class HostFrame final : public RenderFrame {
     std::vector<VplLobe<B>> lobes_;
     std::optional<Film> film_;
 };
+
+template <Bsdf B>
+LayerPtr HostFrame<B>::light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
+                                     FrameLayer* variance, Monitor* monitor) {
+    Image<float> more;
+    LayerPtr light = host_layer(reconstruct_cuts(
+        HostBand<B>::of(band).gbuffer, tree, rays().visibility(), VplShading<B>{bound},
+        DeviationCut{job_.settings.picks}, {job_.settings.seed, band.first_row}, job_.executor,
+        monitor, best_instruction_set(), variance != nullptr ? &more : nullptr));
+    if (variance != nullptr) add_errors(HostLayer::of(*variance), more, job_.executor);
+    return light;
+}
 
 template <Bsdf B>
 LayerPtr HostFrame<B>::emission(const FrameBand& band) {

@@ -115,10 +115,13 @@ class RenderFrame {
     /// `monitor`, which may be null, counts pairs of luxel and VPL.
     [[nodiscard]] virtual LayerPtr light(const FrameBand& band, VplSpan<Space::host> vpls,
                                          VplKernel kernel, Monitor* monitor) = 0;
-    /// Light of the VPLs of a tree by cuts of RenderSettings::picks, under `bound`.
+    /// Light of the VPLs of a tree by cuts of RenderSettings::picks, under `bound`. `variance` may
+    /// be null. Else its standard errors, roots of its gray values, grow by those of the light: so
+    /// much they grow at most, and do where picks of several trees err together.
     /// @throws Error(unsupported) of frames without FrameFeature::cuts.
     [[nodiscard]] virtual LayerPtr light_by_cuts(const FrameBand& /*band*/, const VplTree& /*tree*/,
-                                                 float /*bound*/, Monitor* /*monitor*/) {
+                                                 float /*bound*/, FrameLayer* /*variance*/,
+                                                 Monitor* /*monitor*/) {
         throw without(FrameFeature::cuts);
     }
     /// sum += layer.

@@ -8,6 +8,7 @@
 #include "runtime/film_layers.hpp"
 #include "runtime/missing_light.hpp"
 #include "runtime/normalisation_pass.hpp"
+#include "runtime/pick_variance.hpp"
 #include "runtime/sample_vpls.hpp"
 #include "runtime/vpl_light.hpp"
 
@@ -141,9 +142,10 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
         made.layers.push_back(by.emission(band));
         made.layers.push_back(by.coverage(band));
     }
+    LayerPtr variance = job.settings.pick_error_layer ? by.black(band) : nullptr;
     {
         const auto stage = job.clock.measure(&StageSeconds::reconstruction);
-        light.append_layers(by, band, job.monitor, made.layers);
+        light.append_layers(by, band, variance.get(), job.monitor, made.layers);
     }
     {
         const auto stage = job.clock.measure(&StageSeconds::light_budget);
@@ -155,6 +157,7 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
         made.residual = by.row_luminances(*by.add_residual(band, bound, made.layers));
     }
     if (job.settings.removed_layer) made.layers.push_back(std::move(removed));
+    if (variance != nullptr) made.layers.push_back(std::move(variance));
     return made;
 }
 
@@ -172,7 +175,13 @@ void add_means(RenderJob& job, const FrameBand& band, const BandLight& made) {
 void develop(RenderFrame& frame) {
     RenderJob& job = frame.job();
     const auto stage = job.clock.measure(&StageSeconds::film);
-    take_layers(frame.develop(), job.settings.removed_layer, job.result, job.executor);
+    std::vector<Image<Rgb>> layers = frame.develop();
+    if (job.settings.pick_error_layer) {
+        const double share = variance_share(job.settings.filter, job.rays.grid);
+        job.result.pick_error = pick_errors(layers.back(), share, job.executor);
+        layers.pop_back();
+    }
+    take_layers(std::move(layers), job.settings.removed_layer, job.result, job.executor);
 }
 
 /// Places VPLs and puts them into the result, as they come from the sampler.
@@ -202,7 +211,7 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
     keep_radii(frame);
     keep_lobes(frame, sampled.records, normalises);
     const VplLight light(s, bound, vpls, job.executor);
-    check_picture(s, std::size_t{first_bounce_layer} + light.bounces() + (s.removed_layer ? 1 : 0));
+    check_picture(s, std::size_t{first_bounce_layer} + light.bounces() + extra_layers(s));
     measure_what_is_missing(frame, bound);
     job.begin_bands(bands.count());
     frame.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {

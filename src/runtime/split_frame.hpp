@@ -56,8 +56,8 @@ class SplitFrame final : public RenderFrame {
         return first().light(band, vpls, kernel, monitor);
     }
     [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
-                                         Monitor* monitor) override {
-        return first().light_by_cuts(band, tree, bound, monitor);
+                                         FrameLayer* variance, Monitor* monitor) override {
+        return first().light_by_cuts(band, tree, bound, variance, monitor);
     }
     void add(FrameLayer& sum, const FrameLayer& layer) override { first().add(sum, layer); }
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vpl_light.hpp"
 
+#include "mir/core/limits.hpp"
+
 namespace mir {
 namespace {
 
@@ -24,20 +26,21 @@ VplLight::VplLight(const RenderSettings& settings, float bound, const VplList& v
         for (std::uint8_t b = 1; b <= vpls.max_bounce(); ++b) bounces_.push_back(vpls.bounce(b));
     }
     if (settings.sum != LightSum::cuts) return;
+    check_limit(VplTree::bytes_for(vpls.size()), settings.limits.vpl_tree_bytes, "vpl_tree_bytes");
     if (layers_ == 0) trees_.emplace_back(vpls.span(), executor);
     for (const std::vector<Vpl>& bounce : bounces_) trees_.emplace_back(span_of(bounce), executor);
 }
 
-void VplLight::append_layers(RenderFrame& frame, const FrameBand& band, Monitor* monitor,
-                             std::vector<LayerPtr>& layers) const {
+void VplLight::append_layers(RenderFrame& frame, const FrameBand& band, FrameLayer* variance,
+                             Monitor* monitor, std::vector<LayerPtr>& layers) const {
     if (layers_ == 0) {
-        layers.push_back(light(frame, band, 0, monitor));
+        layers.push_back(light(frame, band, 0, variance, monitor));
         return;
     }
     const std::size_t sum = layers.size();
     layers.push_back(frame.black(band));
     for (std::size_t i = 0; i < bounces_.size(); ++i) {
-        layers.push_back(light(frame, band, i, monitor));
+        layers.push_back(light(frame, band, i, variance, monitor));
         frame.add(*layers[sum], *layers.back());
     }
     while (layers.size() <= sum + layers_) layers.push_back(frame.black(band));
@@ -45,8 +48,9 @@ void VplLight::append_layers(RenderFrame& frame, const FrameBand& band, Monitor*
 
 /// Of all VPLs, or of those of one bounce where there are layers of these.
 LayerPtr VplLight::light(RenderFrame& frame, const FrameBand& band, std::size_t list,
-                         Monitor* monitor) const {
-    if (!trees_.empty()) return frame.light_by_cuts(band, trees_[list], lit_.bound, monitor);
+                         FrameLayer* variance, Monitor* monitor) const {
+    if (!trees_.empty())
+        return frame.light_by_cuts(band, trees_[list], lit_.bound, variance, monitor);
     return frame.light(band, layers_ == 0 ? vpls_.span() : span_of(bounces_[list]), lit_, monitor);
 }
 

@@ -20,10 +20,10 @@ class VplLight {
     /// Bounces that get a layer of their own.
     [[nodiscard]] std::size_t bounces() const { return layers_; }
 
-    /// Appends the light of all VPLs and that of each bounce, W m^-2 sr^-1. `monitor` may be
-    /// null.
-    void append_layers(RenderFrame& frame, const FrameBand& band, Monitor* monitor,
-                       std::vector<LayerPtr>& layers) const;
+    /// Appends the light of all VPLs and that of each bounce, W m^-2 sr^-1. `variance` is null or
+    /// black, and becomes that of cuts (RenderFrame::light_by_cuts()). `monitor` may be null.
+    void append_layers(RenderFrame& frame, const FrameBand& band, FrameLayer* variance,
+                       Monitor* monitor, std::vector<LayerPtr>& layers) const;
 
     /// The light that the bound keeps from the image.
     [[nodiscard]] LayerPtr removed(RenderFrame& frame, const FrameBand& band) const {
@@ -32,7 +32,7 @@ class VplLight {
 
  private:
     [[nodiscard]] LayerPtr light(RenderFrame& frame, const FrameBand& band, std::size_t list,
-                                 Monitor* monitor) const;
+                                 FrameLayer* variance, Monitor* monitor) const;
 
     const VplList& vpls_;
     VplKernel lit_;

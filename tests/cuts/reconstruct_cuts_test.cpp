@@ -2,9 +2,8 @@
 #include "mir/reconstruct_cuts.hpp"
 
 #include "conformance/brute_force.hpp"
-#include "conformance/stage.hpp"
+#include "cuts/cut_stage.hpp"
 #include "cuts/cut_suite.hpp"
-#include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/cuts/deviation_cut.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/contribution.hpp"
@@ -17,38 +16,13 @@
 #include <algorithm>
 #include <vector>
 
+using mirtest::bounded;
+using mirtest::full_sum;
+using mirtest::gather;
+using mirtest::KdStage;
+using mirtest::tree_of;
+
 namespace {
-
-template <mir::Bsdf B>
-using KdStage = mirtest::Stage<B, mir::KdTreeScene>;
-
-template <mir::Bsdf B>
-mir::VplShading<B> bounded() {
-    mir::VplShading<B> shading;
-    shading.bound = 20.0f;
-    return shading;
-}
-
-template <class Stage>
-mir::VplTree tree_of(const Stage& stage) {
-    mir::InlineExecutor executor;
-    return {stage.vpls(), executor};
-}
-
-template <class B, class Policy>
-mir::Image<mir::Rgb> gather(const KdStage<B>& stage, const mir::VplTree& tree, const Policy& policy,
-                            std::uint64_t seed) {
-    mir::InlineExecutor executor;
-    return reconstruct_cuts(stage.gbuffer(), tree, stage.visibility(), bounded<B>(), policy, {seed},
-                            executor);
-}
-
-template <class B>
-mir::Image<mir::Rgb> full_sum(const KdStage<B>& stage, const mir::VplTree& tree) {
-    mir::InlineExecutor executor;
-    return reconstruct(mir::sched::CpuBlocks{executor}, stage.gbuffer(), tree.leaves(),
-                       stage.visibility(), bounded<B>());
-}
 
 /// p-values, one a luxel with light, of "the mean over seeds is the full sum".
 template <class Picture>

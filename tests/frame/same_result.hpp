@@ -15,6 +15,7 @@ inline void check_same(const mir::RenderResult& a, const mir::RenderResult& b) {
     CHECK(same_bits(a.indirect, b.indirect));
     CHECK(same_bits(a.removed, b.removed));
     CHECK(same_bits(a.coverage, b.coverage));
+    CHECK(same_bits(a.pick_error, b.pick_error));
     REQUIRE(a.bounces.size() == b.bounces.size());
     for (std::size_t i = 0; i < a.bounces.size(); ++i) CHECK(same_bits(a.bounces[i], b.bounces[i]));
     CHECK(same_bits(a.guides.albedo, b.guides.albedo));

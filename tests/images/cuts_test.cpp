@@ -4,6 +4,7 @@
 // as many VPLs for all luxels, the same bits however the work is cut.
 #include "bounce_means.hpp"
 #include "however_cut.hpp"
+#include "mir/cuts/vpl_tree.hpp"
 #include "support/catch.hpp"
 
 using namespace mirtest;
@@ -118,6 +119,18 @@ TEST_CASE("cuts say what they did") {
     CHECK(monitor.planned_contributions == r.statistics.contributions);
     CHECK(monitor.contributions <= monitor.planned_contributions);
     CHECK(monitor.contributions > 0);
+}
+
+TEST_CASE("a tree that memory has no room for is refused before it is made") {
+    mir::RenderSettings s = cuts(500, 20);
+    s.limits.vpl_tree_bytes = mir::VplTree::bytes_for(100);
+    try {
+        render(mir::builtin::make("cornell-box"), s);
+        FAIL("it was made");
+    } catch (const mir::Error& e) {
+        CHECK(e.code() == mir::ErrorCode::limit_exceeded);
+        CHECK(std::string(e.what()).find("Limits::vpl_tree_bytes") != std::string::npos);
+    }
 }
 
 TEST_CASE("settings that do not go with cuts are refused") {

@@ -92,10 +92,12 @@ TEST_CASE("a journal belongs to its scene and settings") {
                   "another scene");
     using Change = void (*)(mir::RenderSettings&);
     for (const Change change :
-         {Change([](mir::RenderSettings& s) { s.seed = 6; }), Change([](mir::RenderSettings& s) {
+         {Change([](mir::RenderSettings& s) { s.seed = 6; }),
+          Change([](mir::RenderSettings& s) {
               s.image = {2, 3};
           }),
-          Change([](mir::RenderSettings& s) { s.vpls = 255; }), Change([](mir::RenderSettings& s) {
+          Change([](mir::RenderSettings& s) { s.vpls = 255; }),
+          Change([](mir::RenderSettings& s) {
               s.bound = {mir::BoundPolicy::Kind::fixed, 0.5f};
           }),
           Change([](mir::RenderSettings& s) { s.filter.half_width = 1.5f; }),
@@ -103,7 +105,9 @@ TEST_CASE("a journal belongs to its scene and settings") {
           Change([](mir::RenderSettings& s) { s.vsl.enabled = true; }),
           Change([](mir::RenderSettings& s) { s.vsl.scale = 0.5f; }),
           Change([](mir::RenderSettings& s) { s.removed_layer = true; }),
+          Change([](mir::RenderSettings& s) { s.pick_error_layer = true; }),
           Change([](mir::RenderSettings& s) { s.only_luxel.x = 0.25f; }),
+          Change([](mir::RenderSettings& s) { s.picks = 64; }),
           Change([](mir::RenderSettings& s) { s.bounce_layers = true; }),
           Change([](mir::RenderSettings& s) { s.path.samples = 3; }),
           Change([](mir::RenderSettings& s) { s.micro.gather.threshold = 0.5f; }),

@@ -138,6 +138,7 @@ TEST_CASE("Frames of the host share spheres, lobes, light that is traced back, a
     SECTION("cuts") {
         s.sum = mir::LightSum::cuts;
         s.picks = 4;
+        s.pick_error_layer = true;
     }
     check_same(drawn(s, 2), drawn_by_one(s));
 }

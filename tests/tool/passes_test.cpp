@@ -173,6 +173,26 @@ TEST_CASE("a render that was killed again and again resumes to the same bytes, a
     CHECK((file_bytes(folder / "a.exr") == file_bytes(folder / "whole.exr")));
 }
 
+TEST_CASE("passes with cuts go on from a journal to the same bytes, their luxels and errors too") {
+    const TemporaryFolder folder("passes_cuts");
+    const auto cuts_of = [](const char* picks) {
+        return Words{"--sum", "cuts",     "--sampler", "ir",    "--picks",
+                     picks,   "--luxels", "1",         "--aov", "indirect,pick_error"};
+    };
+    const Words cuts = cuts_of("4");
+    rendered(folder / "whole.exr", cuts + Words{"--passes", "4"});
+    rendered(folder / "a.exr", cuts + Words{"--passes", "2", "--resume"});
+    rendered(folder / "a.exr", cuts + Words{"--passes", "3", "--resume", "--threads", "1"});
+    rendered(folder / "a.exr", cuts + Words{"--passes", "4", "--resume", "--tile", "16"});
+    CHECK((file_bytes(folder / "a.exr") == file_bytes(folder / "whole.exr")));
+    CHECK((file_bytes(folder / "a.png") == file_bytes(folder / "whole.png")));
+    CHECK(layers_of(folder / "a.exr") == std::set<std::string>{"", "indirect", "pick_error"});
+    // Other picks are another render.
+    check_failure(
+        run_mir(small_render(folder / "a.exr") + cuts_of("5") + Words{"--passes", "5", "--resume"}),
+        2, "a.exr.journal: the passes in it cannot be continued");
+}
+
 TEST_CASE("after Ctrl-C a render resumes without losing a pass") {
     const TemporaryFolder folder("passes_resume_interrupt");
     const std::filesystem::path journal = folder / "a.exr.journal";

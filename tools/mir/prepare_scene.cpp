@@ -101,6 +101,7 @@ ChosenView prepare_scene(RenderOptions& o, SceneAndReport& loaded) {
     };
     o.settings.bounce_layers = wants("bounces");
     o.settings.removed_layer = wants("removed");
+    o.settings.pick_error_layer = wants("pick_error");
     mir::check_scene(loaded.scene, o.settings);
     return view;
 }

@@ -7,9 +7,9 @@
 namespace mirtool {
 namespace {
 
-const std::vector<std::string> layer_names{"albedo",  "normal",   "position", "depth",
-                                           "direct",  "indirect", "emission", "bounces",
-                                           "removed", "all",      "none"};
+const std::vector<std::string> layer_names{"albedo",  "normal",     "position", "depth",
+                                           "direct",  "indirect",   "emission", "bounces",
+                                           "removed", "pick_error", "all",      "none"};
 
 /// Reads "WIDTHxHEIGHT" or "SIDE".
 mir::Extent read_tile(const std::string& text) {
@@ -70,7 +70,8 @@ void add_layers(CLI::App& app, RenderOptions& o) {
     add_words(app, "--aov", o.layers, layer_names,
               "Layers of the EXR beside the picture, separated by commas: albedo, normal, "
               "position, depth, direct, indirect, emission, or all of these; bounces and removed, "
-              "which take time; or none (default: albedo, normal and depth, which denoisers use)")
+              "which take time; pick_error, with cuts; or none (default: albedo, normal and depth, "
+              "which denoisers use)")
         ->each([&o](const std::string& name) { o.no_layers |= name == "none"; });
 }
 

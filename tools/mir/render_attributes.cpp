@@ -75,6 +75,9 @@ std::vector<mir::ExrLayer> layers_of(const mir::RenderResult& r, const RenderOpt
     if (wants(o, "indirect")) layers.push_back({"indirect", &r.indirect});
     if (wants(o, "emission")) layers.push_back({"emission", &r.emission});
     if (names(o, "removed")) layers.push_back({"removed", &r.removed});
+    if (names(o, "pick_error"))
+        layers.push_back(
+            {"pick_error", &r.pick_error, ExrPrecision::single, mir::ExrScalar::luminance});
     for (std::size_t i = 0; i < r.bounces.size(); ++i)
         layers.push_back({"bounce" + std::to_string(i + 1), &r.bounces[i]});
     return layers;

@@ -10,6 +10,7 @@ struct Limits {
     std::uint64_t triangles = 200'000'000;         ///< after instancing
     std::uint64_t vertices = 400'000'000;          ///< after instancing
     std::uint64_t vpls = 4'000'000;                ///< geometric VPLs of one set
+    std::uint64_t vpl_tree_bytes = 4ull << 30;     ///< of the trees over one set, while they grow
     std::uint64_t surfels = 16'000'000;            ///< discs of one scene
     std::uint64_t surfel_link_bytes = 4ull << 30;  ///< of the rays between discs
     std::uint64_t pixels = 1ull << 28;             ///< of one image

@@ -3,6 +3,7 @@
 
 #include "mir/concepts/executor.hpp"
 #include "mir/core/error.hpp"
+#include "mir/core/limits.hpp"
 #include "mir/cuts/detail/halve_vpls.hpp"
 #include "mir/cuts/detail/high_product.hpp"
 #include "mir/cuts/vpl_bounds.hpp"
@@ -26,6 +27,13 @@ namespace mir {
 /// "Stochastic Lightcuts", HPG 2019 (one pick a node).
 class VplTree {
  public:
+    /// Estimates the bytes that the tree of so many VPLs takes while it grows.
+    [[nodiscard]] static constexpr std::uint64_t bytes_for(std::uint64_t vpls) {
+        constexpr std::uint64_t each = sizeof(VplIndex) + sizeof(Vpl) + sizeof(std::uint64_t) +
+                                       2 * sizeof(VplBounds) + sizeof(detail::VplKey);
+        return saturating_mul(vpls, each);
+    }
+
     /// Copies the VPLs. Spread over `executor`.
     /// @throws Error(invalid_argument) for an intensity, place or normal that is not finite.
     template <Executor E>

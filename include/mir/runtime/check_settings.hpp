@@ -79,6 +79,9 @@ inline void check_glossy(const RenderSettings& s) {
 inline void check_cuts(const RenderSettings& s) {
     expects(s.picks >= 1 && s.picks <= 65536,
             "VPLs that a luxel picks must be 1 to 65536; 128 are usual");
+    expects(!s.pick_error_layer || (s.integrator == Integrator::vpl && s.wants_cuts()),
+            "luxels gather all VPLs and pick none (there is no error of picks to show); leave the "
+            "layer pick_error out or use --sum cuts");
     if (s.sum != LightSum::cuts) return;
     expects(s.integrator == Integrator::vpl,
             "only VPLs are cut (there are none); leave --sum out or use --integrator vpl");
@@ -117,7 +120,7 @@ inline void check_image(const RenderSettings& s) {
     check_limit(s.image.area(), s.limits.pixels, "pixels");
     expects(s.luxels_per_pixel >= 1 && s.luxels_per_pixel <= max_luxels_per_pixel,
             "luxels per pixel must be 1 to 64");
-    check_picture(s, first_bounce_layer + (s.removed_layer ? 1u : 0u));
+    check_picture(s, first_bounce_layer + extra_layers(s));
 }
 
 /// Numbers of VPLs, of paths and of samples.

@@ -3,6 +3,7 @@
 
 #include "mir/runtime/add_up_layers.hpp"
 #include "mir/runtime/check_scene.hpp"
+#include "mir/runtime/error_sum.hpp"
 #include "mir/runtime/layer_sum.hpp"
 #include "mir/runtime/luminance_spread.hpp"
 #include "mir/runtime/pass_statistics.hpp"
@@ -57,7 +58,7 @@ class PassSums {
     static void transfer(Self& self, Archive& archive) {
         archive(self.statistics_, self.remarks_, self.position_, self.depth_, self.spread_,
                 self.direct_, self.emission_, self.indirect_, self.removed_, self.coverage_,
-                self.albedo_, self.normal_, self.bounces_);
+                self.pick_error_, self.albedo_, self.normal_, self.bounces_);
     }
 
  private:
@@ -72,7 +73,7 @@ class PassSums {
             return layer.pixels().empty() || layer.extent() == size;
         };
         expects(fits && pass.guides.normal.extent() == size && fits_or_none(pass.removed) &&
-                    fits_or_none(pass.coverage),
+                    fits_or_none(pass.coverage) && fits_or_none(pass.pick_error),
                 "a pass has another size than those before, or layers of different sizes (their "
                 "mean would be none); render all passes with one size");
     }
@@ -88,6 +89,7 @@ class PassSums {
                 remarks_.push_back(warning);
         bounces_.resize(first.bounces.size());
         removed_.add(first.removed);
+        pick_error_.add(first.pick_error);
         add_layers(first, 0);
     }
 
@@ -99,6 +101,7 @@ class PassSums {
             more.emplace_back().add(Image<Rgb>(pass.beauty.extent()));
         bounces_.reserve(bounces_.size() + more.size());
         removed_.add(pass.removed);
+        pick_error_.add(pass.pick_error);
         std::move(more.begin(), more.end(), std::back_inserter(bounces_));
         const std::uint32_t earlier = passes();
         add_pass(statistics_, pass.statistics, earlier);
@@ -128,6 +131,7 @@ class PassSums {
     LayerSum<Rgb> indirect_;
     LayerSum<Rgb> removed_;     ///< empty where no pass has that layer
     LayerSum<float> coverage_;  ///< empty where renders leave it out
+    ErrorSum pick_error_;       ///< empty where no pass has that layer
     LayerSum<Rgb> albedo_;
     LayerSum<Vec3> normal_;
     std::vector<LayerSum<Rgb>> bounces_;
@@ -148,6 +152,7 @@ inline RenderResult PassSums::result(bool complete) const {
     mean.indirect = indirect_.mean(n);
     mean.removed = removed_.mean(n);
     mean.coverage = coverage_.mean(n);
+    mean.pick_error = pick_error_.of_mean(n);
     for (const LayerSum<Rgb>& bounce : bounces_) mean.bounces.push_back(bounce.mean(n));
     InlineExecutor executor;
     add_up_layers(mean, executor);

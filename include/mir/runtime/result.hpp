@@ -84,6 +84,10 @@ struct RenderResult {
     /// Light that the bound removed, as estimated from the VPLs. No other layer holds it; empty
     /// unless asked for.
     Image<Rgb> removed{};
+    /// Standard error of the luminance of `indirect` that comes from gathering few of these VPLs
+    /// instead of all, estimated (PickSpread); nothing else that differs from the truth is in it.
+    /// Empty unless asked for.
+    Image<float> pick_error{};
     /// Share of a pixel where the camera sees a surface, 0..1: its alpha. Through the filter of the
     /// beauty, which counts as multiplied by it; the environment counts as 0.
     Image<float> coverage{};

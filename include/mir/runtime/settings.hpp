@@ -185,8 +185,9 @@ struct RenderSettings {
     /// Luxels scheduled together, rounded up to whole blocks of 16 x 16. Not larger than the image
     /// of luxels, rounded up the same way; none: the backend's choice.
     std::optional<Extent> tile{};
-    bool bounce_layers = false;  ///< one image per bounce besides the sum
-    bool removed_layer = false;  ///< an image of the light that the bound removed
+    bool bounce_layers = false;     ///< one image per bounce besides the sum
+    bool removed_layer = false;     ///< an image of the light that the bound removed
+    bool pick_error_layer = false;  ///< an image of the error of gathering few VPLs of many
     /// Paths measure what the bound removes and the largest bounce cuts. Two more per place
     /// estimate the noise of direct light, at 2048 places whatever the image. Without it the VPLs
     /// estimate what the bound removes.
