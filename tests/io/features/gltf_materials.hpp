@@ -72,7 +72,7 @@ inline Features gltf_alpha() {
         feature("blending", "`alphaMode` BLEND", {with_material({{"alphaMode", "BLEND"}})},
                 counted({"alphaMode BLEND"},
                         material([](const mir::Material& m) { CHECK_FALSE(m.is_masked()); })),
-                "opaque, with the colours of what should shine through"),
+                "opaque"),
     };
 }
 
@@ -106,7 +106,7 @@ inline Features gltf_textures() {
                 {with_texture("emissiveTexture", false)}, has(&T::emission)),
         feature("texture of occlusion", "`occlusionTexture`",
                 {with_texture("occlusionTexture", false)}, counted({"texture occlusionTexture"}),
-                "light tells what is occluded"),
+                "the picture has the real one"),
         feature("wrapping: repeat, clamp, mirror", "`wrapS`, `wrapT`", {[](Gltf& g) {
                     g.surface()["baseColorTexture"] = g.texture();
                     g.file["textures"][0]["sampler"] = 0;
@@ -158,7 +158,7 @@ inline Features gltf_coordinates() {
                     g.material()["normalTexture"] = {{"index", 0}};
                 }},
                 counted({"texture normalTexture on a second set of coordinates"}),
-                "the set of the first texture is taken"),
+                "the first texture's set is taken"),
         feature("textures without coordinates", "no `TEXCOORD_0`", {[](Gltf& g) {
                     g.surface()["baseColorTexture"] = g.texture();
                     g.attributes().erase("TEXCOORD_0");
