@@ -124,7 +124,7 @@ inline std::vector<Extension> texture_extensions() {
     const auto textured =
         material([](const mir::Material& m) { CHECK(m.textures.base_color.is_set()); });
     const Outcome lost = counted({"texture baseColorTexture without a PNG or JPEG image"});
-    const std::string fallback = "with a PNG or JPEG image beside it";
+    const std::string fallback = "beside a PNG or JPEG image";
     const Build moved = [](Gltf& g) {
         json use = g.texture();
         use["extensions"]["KHR_texture_transform"] = {{"offset", {0.25, 0.5}},

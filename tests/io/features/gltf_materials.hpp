@@ -204,7 +204,7 @@ inline Features gltf_images() {
             }},
             read([](const mir::LoadedScene& loaded) { CHECK(loaded.scene.images.size() == 1); })),
         image("WebP", "image", data("webp", "UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA=="),
-              counted({other, lost}), "no texture"),
+              counted({other, lost})),
         image("KTX2", "image", data("ktx2", "q0tUWCAyMLsNChoK"), counted({other, lost})),
         image("DDS", "image", data("vnd-ms.dds", "RERTIHwAAAA="), counted({other, lost})),
         image("images that are missing", "`uri`", {{"uri", "no.png"}},
@@ -220,7 +220,7 @@ inline Features gltf_images() {
     };
     all.push_back(feature("images outside of the folder", "`uri`", {outside},
                           counted({"image outside of the scene's folder", lost}),
-                          "unless `Limits::allow_outside` is set"));
+                          "see [Files](#files-beside-the-scene)"));
     return all;
 }
 

@@ -125,7 +125,7 @@ inline Features gltf_containers() {
         feature("buffers outside of the folder", "`uri`",
                 {with_buffer("../secret.bin", "../secret.bin")},
                 refused("lies outside of the scene's folder"),
-                "unless `Limits::allow_outside` is set"),
+                "see [Files](#files-beside-the-scene)"),
         feature("buffers elsewhere", "`uri` with `http:`, `file:`",
                 {with_buffer("http://example.com/a.bin"), with_buffer("file:///a.bin")},
                 refused("this reader opens files beside the scene")),

@@ -190,7 +190,7 @@ inline Features mtl_images() {
             counted({"image 'none.png' (not found)"})),
         key("images outside of the folder", "`map_Kd`", {"map_Kd ../a.png"},
             counted({"image '../a.png' (outside of the folder of the OBJ file)"}),
-            "unless `--allow-outside` (`Limits::allow_outside`) is given"),
+            "see [OBJ and MTL](#obj-and-mtl)"),
         key("images neither PNG nor JPEG", "`map_Kd`", {"map_Kd a.webp"},
             counted({"image that is neither PNG nor JPEG"})),
         key("broken images", "`map_Kd`", {"map_Kd broken.png"}, refused("it cannot be decoded")),

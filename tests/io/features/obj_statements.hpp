@@ -182,7 +182,7 @@ inline Features obj_libraries() {
          "`mtllib`",
          {obj("mtllib ../a.mtl\n" + use, {{"../a.mtl", red}})},
          refused("lies outside of the folder of the OBJ file"),
-         "unless `--allow-outside` (`Limits::allow_outside`) is given"},
+         "see [OBJ and MTL](#obj-and-mtl)"},
         obj_feature("materials that no library has", "`usemtl`", {use},
                     counted({unknown}, is_default)),
         {"several materials of one name",
