@@ -58,11 +58,13 @@ class HostFrame final : public RenderFrame {
         here.visibility.emplace(here.gbuffer.tiles(), vpls.size(), job_.settings.limits);
         traced_.fill_visibility(*here.visibility, LuxelsOf<B>{here.gbuffer}, vpls, job_.executor);
     }
-    [[nodiscard]] std::vector<ImageResponse> row_responses(const FrameBand& band, Vpls vpls,
-                                                           float bound) override {
+    void add_responses(const FrameBand& band, Vpls vpls, float bound, BandTurn& turn,
+                       ResponseSum& sum) override {
         const auto& here = HostBand<B>::of(band);
-        return block_row_responses(here.gbuffer, vpls, here.visibility->view(),
-                                   VplShading<B>{bound}, job_.executor);
+        const std::vector<ImageResponse> rows = block_row_responses(
+            here.gbuffer, vpls, here.visibility->view(), VplShading<B>{bound}, job_.executor);
+        turn.wait();
+        sum.add_rows(band.extent(), rows);
     }
 
     [[nodiscard]] LayerPtr black(const FrameBand& band) override {
