@@ -4,9 +4,7 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/core/error.hpp"
 #include "mir/cuts/detail/halve_vpls.hpp"
-#include "mir/cuts/detail/high_product.hpp"
-#include "mir/cuts/vpl_bounds.hpp"
-#include "mir/cuts/vpl_node.hpp"
+#include "mir/cuts/vpl_tree_view.hpp"
 #include "mir/data/vpl_list.hpp"
 
 #include <algorithm>
@@ -48,21 +46,23 @@ class VplTree {
     /// Bounds of a node.
     [[nodiscard]] const VplBounds& bounds(const VplNode& node) const { return bounds_[node.place]; }
 
-    /// The leaf that a number picks. Its probability is its share in the node's weight. `u` is a
-    /// fraction of 2^64.
+    /// See VplTreeView::pick().
     [[nodiscard]] std::uint32_t pick(const VplNode& node, std::uint64_t u) const {
-        const std::uint64_t before = sums_[node.first];
-        const std::uint64_t at = detail::high_product(u, weight(node));
-        const auto first = sums_.begin() + node.first + 1;
-        const auto found = std::upper_bound(first, first + (node.count - 1), before + at);
-        return node.first + static_cast<std::uint32_t>(found - first);
+        return view().pick(node, u);
     }
-
     /// The inverse of the probability with which a node picks one of its leaves.
     [[nodiscard]] float inverse_probability(const VplNode& node, std::uint32_t leaf) const {
-        const std::uint64_t own = sums_[leaf + 1] - sums_[leaf];
-        return static_cast<float>(static_cast<double>(weight(node)) / static_cast<double>(own));
+        return view().inverse_probability(node, leaf);
     }
+
+    /// Itself, without owning; valid as long as this.
+    [[nodiscard]] VplTreeView<Space::host> view() const {
+        return {leaves_.data(), sums_.data(), bounds_.data(), size()};
+    }
+    /// Sums of weights as the view has them, for copies: size() + 1 of them.
+    [[nodiscard]] std::span<const std::uint64_t> sums() const { return sums_; }
+    /// Bounds as the view has them, for copies.
+    [[nodiscard]] std::span<const VplBounds> node_bounds() const { return bounds_; }
 
  private:
     std::vector<VplIndex> order_;
