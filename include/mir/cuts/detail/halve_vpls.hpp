@@ -58,13 +58,24 @@ inline VplBounds halve_all(std::span<VplKey> keys, const VplNode& node,
     return bounds[node.place] = left.with(halve_all(keys, node.right(), bounds));
 }
 
-/// Halves a node and those below it until there are parts enough for many threads.
-inline void halve_top(std::span<VplKey> keys, const VplNode& node, std::uint32_t least,
-                      std::vector<VplNode>& parts) {
-    if (node.count < least) return parts.push_back(node);
-    halve(keys.subspan(node.first, node.count));
-    halve_top(keys, node.left(), least, parts);
-    halve_top(keys, node.right(), least, parts);
+/// Halves a node and those below it, level by level, until there are parts enough for many threads.
+template <Executor E>
+std::vector<VplNode> halve_top(std::span<VplKey> keys, const VplNode& root, std::uint32_t least,
+                               E& executor) {
+    const auto is_large = [least](const VplNode& node) { return node.count >= least; };
+    std::vector<VplNode> parts{root};
+    while (std::any_of(parts.begin(), parts.end(), is_large)) {
+        executor.for_each(parts.size(), [&](std::size_t i) {
+            if (is_large(parts[i])) halve(keys.subspan(parts[i].first, parts[i].count));
+        });
+        std::vector<VplNode> below;
+        for (const VplNode& node : parts) {
+            below.push_back(is_large(node) ? node.left() : node);
+            if (is_large(node)) below.push_back(node.right());
+        }
+        parts.swap(below);
+    }
+    return parts;
 }
 
 /// Bounds of the nodes above the parts.
@@ -97,8 +108,7 @@ void halve_vpls(VplSpan<Space::host> vpls, std::vector<VplIndex>& order,
     const VplNode root{0, 0, static_cast<std::uint32_t>(order.size())};
     bounds.resize(2 * order.size() - 1);
     constexpr std::uint32_t least = 4096;
-    std::vector<VplNode> parts;
-    halve_top(keys, root, least, parts);
+    const std::vector<VplNode> parts = halve_top(std::span(keys), root, least, executor);
     executor.for_each(parts.size(), [&](std::size_t i) { halve_all(keys, parts[i], bounds); });
     join_top(root, least, bounds);
     for (std::size_t i = 0; i < keys.size(); ++i) order[i] = keys[i].vpl;
