@@ -13,7 +13,7 @@ namespace mirtest {
 template <mir::Bsdf B>
 struct CutsAsked {
     const mir::BlockedGBuffer<typename B::Params>& luxels;
-    const mir::VplTree& tree;
+    mir::VplSpan<mir::Space::host> vpls;
     mir::VplShading<B> shading;
     std::uint32_t picks;
     mir::CutPlace place;
@@ -31,7 +31,7 @@ mir::Image<mir::Rgb> cuts_on(const M& backend, const CutsAsked<B>& asked, const 
                                                      {first.width, first.height});
     there.upload(queue, asked.luxels);
     queue.record().sync();
-    mir::BackendCuts<M> cuts(backend, asked.tree, mir::DeviationCut{asked.picks}, bytes);
+    mir::BackendCuts<M> cuts(backend, asked.vpls, mir::DeviationCut{asked.picks}, bytes);
     auto layer = cuts.gather(there, visibility, asked.shading, asked.place, asked.monitor);
     std::vector<std::uint32_t> words(layer.words().size());
     queue.download(layer.words(), std::span(words));

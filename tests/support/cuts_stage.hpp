@@ -31,14 +31,16 @@ struct CutsStage {
     mir::InlineExecutor executor;
     mir::VplShading<B> shading;
     Luxels luxels;
+    std::vector<mir::Vpl> vpls;
     mir::VplTree tree;
 
-    CutsStage(std::string_view name, mir::Extent extent, mir::Extent tile, std::uint32_t vpls,
+    CutsStage(std::string_view name, mir::Extent extent, mir::Extent tile, std::uint32_t count,
               float bound)
         : scene(made(name)),
           shading{bound},
           luxels(extent, tile),
-          tree(mir::span_of(spread(vpls)), executor) {
+          vpls(spread(count)),
+          tree(mir::span_of(vpls), executor) {
         mir::CameraRays rays;
         rays.camera = scene.cameras.front();
         rays.grid.pixels = extent;
@@ -55,7 +57,7 @@ struct CutsStage {
     /// The same, for a backend.
     [[nodiscard]] CutsAsked<B> asked(std::uint32_t picks, const mir::CutPlace& place,
                                      mir::Monitor* monitor = nullptr) const {
-        return {luxels, tree, shading, picks, place, monitor};
+        return {luxels, mir::span_of(vpls), shading, picks, place, monitor};
     }
 
  private:
@@ -67,13 +69,13 @@ struct CutsStage {
     }
     [[nodiscard]] std::vector<mir::Vpl> spread(std::uint32_t count) const {
         mir::Random random(7, mir::Stream::test, 3);
-        std::vector<mir::Vpl> vpls;
+        std::vector<mir::Vpl> all;
         for (std::uint32_t j = 0; j < count; ++j) {
             const mir::SurfacePoint p = mir::validation::random_surface_point(geometry, random);
             const float x = random.next();
-            vpls.push_back({mir::lift(p), p.geometric_normal, {x * x, 0.01f, random.next() * x}});
+            all.push_back({mir::lift(p), p.geometric_normal, {x * x, 0.01f, random.next() * x}});
         }
-        return vpls;
+        return all;
     }
 };
 

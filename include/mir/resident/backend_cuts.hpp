@@ -6,7 +6,7 @@
 #include "mir/cuts/gather_cuts.hpp"
 #include "mir/resident/backend_gbuffer.hpp"
 #include "mir/resident/backend_layer.hpp"
-#include "mir/resident/uploaded_vpl_tree.hpp"
+#include "mir/resident/backend_vpl_tree.hpp"
 #include "mir/resident/wait_at_end.hpp"
 #include "mir/shading/check_bound.hpp"
 
@@ -15,7 +15,7 @@
 
 namespace mir {
 
-/// reconstruct_cuts() by DeviationCut on a backend. Tree, cuts and luxels stay there. Bits are
+/// reconstruct_cuts() by DeviationCut on a backend. Tree, cuts and luxels are made there. Bits are
 /// those of reconstruct_cuts() where host and device round alike and answer rays alike. One thread
 /// at a time.
 template <Backend B>
@@ -24,23 +24,18 @@ class BackendCuts {
     /// Memory of the cuts that are made at a time, unless those of one block need more.
     static constexpr std::uint64_t default_bytes = std::uint64_t{1} << 28;
 
-    /// Copies the tree. Cuts have at most policy.picks nodes, which are at least 1.
-    /// @throws What the backend throws when it has no memory left.
-    BackendCuts(const B& backend, const VplTree& tree, const DeviationCut& policy,
+    /// Copies the VPLs that shine and makes their tree. Cuts have at most policy.picks nodes, which
+    /// are at least 1.
+    /// @throws What BackendVplTree throws.
+    BackendCuts(const B& backend, VplSpan<Space::host> vpls, const DeviationCut& policy,
                 std::uint64_t bytes = default_bytes)
         : backend_(backend),
-          here_(tree),
           queue_(backend.queue()),
-          tree_(backend, queue_, tree),
+          tree_(backend, queue_, vpls),
           floor_(policy.floor),
-          room_(std::min(policy.picks, tree.size())),
+          room_(std::min(policy.picks, tree_.size())),
           most_blocks_(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-              bytes / CutTable::bytes_of_block(room_), 1, std::uint64_t{1} << 24))) {
-        queue_.record().sync();
-    }
-
-    /// The tree that it was made for, or a copy.
-    [[nodiscard]] const VplTree& tree() const { return here_; }
+              bytes / CutTable::bytes_of_block(room_), 1, std::uint64_t{1} << 24))) {}
 
     /// The radiance of the luxels of an image or band, W m^-2 sr^-1. All work is done when it
     /// returns. `monitor` may be null; it counts pairs of luxel and picked VPL.
@@ -127,9 +122,8 @@ class BackendCuts {
     }
 
     B backend_;
-    VplTree here_;
     typename B::Queue queue_;
-    UploadedVplTree<B> tree_;
+    BackendVplTree<B> tree_;
     float floor_;
     std::uint32_t room_;
     std::uint32_t most_blocks_;
