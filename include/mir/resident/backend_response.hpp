@@ -33,7 +33,8 @@ class BackendResponse {
           partial_(backend.template buffer<ImageResponse>(chunk_.sums())),
           rows_(backend.template buffer<ImageResponse>(
               std::size_t{detail::block_rows(luxels.height)} * vpls)),
-          totals_(backend.template buffer<ImageResponse>(vpls)) {}
+          totals_(backend.template buffer<ImageResponse>(vpls)),
+          beside_(backend.queue()) {}
 
     /// Starts to sum each row of blocks of a band, for all VPLs. `seen` holds the visibility of
     /// this band and these VPLs, whose intensities are not read.
@@ -91,6 +92,7 @@ class BackendResponse {
     typename B::template Buffer<ImageResponse> partial_;
     typename B::template Buffer<ImageResponse> rows_;
     typename B::template Buffer<ImageResponse> totals_;
+    Queue beside_;  ///< every other tile; last, so that it ends before its memory goes
 };
 
 template <Backend B>
@@ -138,6 +140,8 @@ void BackendResponse<B>::sum_part(Queue& queue, const G& gbuffer, P vpls,
                                   const Part& part, ImageResponse* rows) {
     const std::uint32_t n = part.vpls;
     const std::uint32_t tiles = seen.grid().columns();
+    // Groups take unequally long: those of the next tile begin while the last of this one end.
+    beside_.wait(queue.record());
     for (TileIndex t = part.first_tile; t < part.first_tile + tiles; ++t) {
         const Tile tile = gbuffer.tiles()[t];
         const std::uint32_t across = BlockedLayout::of(tile).blocks_x;
@@ -145,8 +149,10 @@ void BackendResponse<B>::sum_part(Queue& queue, const G& gbuffer, P vpls,
         const BlockResponse blocks{
             gbuffer.view(t), vpls, seen.tile(t), shading,       part.first_row * across, across,
             part.first_vpl,  n,    column,       chunk_.columns};
-        queue.for_each_group(blocks.groups(part.rows * across), blocks);
+        Queue& of_tile = (t - part.first_tile) % 2 == 0 ? queue : beside_;
+        of_tile.for_each_group(blocks.groups(part.rows * across), blocks);
     }
+    queue.wait(beside_.record());
     queue.for_each(part.rows * n,
                    SumBlockRow{partial_.data(), chunk_.columns, n, rows, seen.vpls()});
 }
