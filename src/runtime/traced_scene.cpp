@@ -21,18 +21,25 @@ void TracedScene::fill_visibility(VisibilityMatrix& matrix, const AnyLuxels& lux
 
 Image<Rgb> TracedScene::reconstruct(const sched::CpuBlocks<AnyExecutor>& scheduler,
                                     const AnyLuxels& luxels, VplSpan<Space::host> vpls,
-                                    VplKernel kernel) const {
+                                    float bound) const {
     return std::visit(
         [&]<Bsdf B>(const LuxelsOf<B>& of) {
-            // Few VPLs reach a block with what is removed of them: no block is worth preparing.
-            if (kernel.kind == VplKernel::Kind::removed)
-                return mir::reconstruct(scheduler, of.gbuffer, vpls, rays_.visibility(),
-                                        RemovedByBound<B>{kernel.bound});
-            const VplShading<B> shading{kernel.bound};
-            if (rays_.answers_blocks())
-                return mir::reconstruct(scheduler, of.gbuffer, vpls, rays_.block_visibility(),
-                                        shading);
-            return mir::reconstruct(scheduler, of.gbuffer, vpls, rays_.visibility(), shading);
+            const VplShading<B> shading{bound};
+            return rays_.answers_blocks()
+                       ? mir::reconstruct(scheduler, of.gbuffer, vpls, rays_.block_visibility(),
+                                          shading)
+                       : mir::reconstruct(scheduler, of.gbuffer, vpls, rays_.visibility(), shading);
+        },
+        luxels);
+}
+
+Image<Rgb> TracedScene::removed(const sched::CpuBlocks<AnyExecutor>& scheduler,
+                                const AnyLuxels& luxels, VplSpan<Space::host> vpls,
+                                float bound) const {
+    return std::visit(
+        [&]<Bsdf B>(const LuxelsOf<B>& of) {
+            return mir::reconstruct(scheduler, of.gbuffer, vpls, rays_.visibility(),
+                                    RemovedByBound<B>{bound});
         },
         luxels);
 }

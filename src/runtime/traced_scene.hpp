@@ -6,7 +6,6 @@
 #include "mir/runtime/any_executor.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "runtime/compiled_bsdfs.hpp"
-#include "runtime/vpl_kernel.hpp"
 
 #include <memory>
 #include <utility>
@@ -28,10 +27,14 @@ class TracedScene {
     /// fill_visibility() by blocks where the engine answers them, by packets elsewhere.
     void fill_visibility(VisibilityMatrix& matrix, const AnyLuxels& luxels,
                          VplSpan<Space::host> vpls, AnyExecutor& executor) const;
-    /// The same of reconstruct(), for points and for what was removed of them.
+    /// The same of reconstruct(), the geometry term bounded by `bound`, m^-2.
     [[nodiscard]] Image<Rgb> reconstruct(const sched::CpuBlocks<AnyExecutor>& scheduler,
                                          const AnyLuxels& luxels, VplSpan<Space::host> vpls,
-                                         VplKernel kernel) const;
+                                         float bound) const;
+    /// What the bound removes, always by packets: few VPLs reach a block with it.
+    [[nodiscard]] Image<Rgb> removed(const sched::CpuBlocks<AnyExecutor>& scheduler,
+                                     const AnyLuxels& luxels, VplSpan<Space::host> vpls,
+                                     float bound) const;
 
  private:
     AnyEngine rays_;
