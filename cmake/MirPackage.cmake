@@ -103,6 +103,8 @@ endif()
 
 configure_file(${PROJECT_SOURCE_DIR}/cmake/cpack_options.cmake.in
                ${PROJECT_BINARY_DIR}/cpack_options.cmake @ONLY)
+set(CPACK_MIR_LIBRARY_ARCHITECTURE "${CMAKE_LIBRARY_ARCHITECTURE}")
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian_layout.cmake)
 set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/repack.cmake)
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_BINARY_DIR}/cpack_options.cmake)
 include(CPack)

@@ -69,6 +69,15 @@ TEST_CASE("what a material asks for and does not get is counted by name") {
     CHECK(loaded.scene.materials.at(0).roughness == 1.0f);
 }
 
+TEST_CASE("an environment that a file names is not missed where another is given") {
+    const std::string text =
+        with(triangle_json(), R"("scenes":[{)", R"("scenes":[{"extras":{"environment":{}},)");
+    auto loaded = read_text(text, triangle_bytes());
+    REQUIRE(loaded.report.ignored.contains("environment"));
+    mir::put_around(loaded.scene, {}, loaded.report);
+    CHECK(loaded.report.ignored.empty());
+}
+
 TEST_CASE("punctual lights shine along -z of their nodes") {
     const std::string lights =
         R"("extensions":{"KHR_lights_punctual":{"lights":[)"

@@ -35,6 +35,13 @@ class SceneFolder {
 
 }  // namespace
 
+TEST_CASE("a picture is refused as one") {
+    const SceneFolder folder;
+    for (const char* name : {"a.exr", "a.PNG", "a.hdr"})
+        CHECK(has(message_of([&] { (void)folder.read(name, triangle_json()); }),
+                  std::string(name) + ": it is a picture, not a scene"));
+}
+
 TEST_CASE("files of other programs are refused with their format and what to export") {
     const SceneFolder folder;
     using Case = std::pair<std::string, std::string>;

@@ -26,8 +26,8 @@ foreach(file IN ITEMS man/man1/mir.1 bash-completion/completions/mir zsh/site-fu
     endif()
 endforeach()
 
-file(GLOB_RECURSE config ${SCRATCH}/prefix/*.cmake)
-foreach(file IN LISTS config)
+file(GLOB_RECURSE files ${SCRATCH}/prefix/*)
+foreach(file IN LISTS files)
     file(STRINGS ${file} absolute REGEX "${SCRATCH}|${MIR_SOURCE_DIR}|${MIR_BUILD_DIR}")
     if(absolute)
         message(FATAL_ERROR "${file} holds a path of this machine: ${absolute}")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Packages of one build made twice are equal; those of Debian have what lintian wants, the tarball of
-# the sources has the files of the repository.
+# Packages of one build made twice are equal; the tarball of the sources has the files of the
+# repository.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 
 # Less compressed than for users, which takes a fifth of the time.
@@ -42,13 +42,3 @@ if(GIT AND EXISTS ${MIR_SOURCE_DIR}/.git)
         message(FATAL_ERROR "the tarball of the sources lacks ${tracked}")
     endif()
 endif()
-
-find_program(LINTIAN lintian)
-if(NOT LINTIAN)
-    message(STATUS "lintian is not installed: it has not looked at Debian's packages")
-    return()
-endif()
-file(GLOB packages ${SCRATCH}/first/*.deb)
-# That tag asks for a number in Debian's tracker of bugs.
-run(said ${LINTIAN} --allow-root --fail-on error,warning
-    --suppress-tags initial-upload-closes-no-bugs ${packages})

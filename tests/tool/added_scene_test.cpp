@@ -48,6 +48,19 @@ TEST_CASE("a sun below the ground lights nothing of it") {
     for (const mir::Rgb& pixel : direct.pixels()) CHECK(mir::is_black(pixel));
 }
 
+TEST_CASE("a camera that is chosen looks at what stands on the ground, not at the ground") {
+    const BareObject bare;
+    const Words words = small_render(bare.picture, bare.scene) + Words{"--sun", "1,2,1"};
+    const auto picture = [&](const Words& more) {
+        REQUIRE(run_mir(words + more).exit_code == 0);
+        return mir::read_exr(bare.picture, "depth").image;
+    };
+    const auto alone = picture({});
+    const auto grounded = picture({"--ground"});
+    REQUIRE(alone(12, 9).r > 0.0f);
+    CHECK(grounded(12, 9).r == Approx(alone(12, 9).r).epsilon(1e-3));
+}
+
 TEST_CASE("the camera of --eye looks at the middle of the scene, straight down too") {
     const BareObject bare;
     const Words sun{"--sun", "1,2,1"};

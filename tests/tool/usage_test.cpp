@@ -23,7 +23,8 @@ TEST_CASE("the version is that of the headers") {
 }
 
 TEST_CASE("a command is required and mistyped ones are recognised") {
-    check_failure(run_mir({}), 2);
+    check_failure(run_mir({}), 2, "no command is given (commands are render, info,");
+    check_failure(run_mir({"convert", "a.glb"}), 2, "unknown command 'convert'");
     check_failure(run_mir({"rendr", "builtin:sphere"}), 2, "did you mean render?");
     check_failure(run_mir({"render"}), 2, "scene is required");
     check_failure(run_mir({"info"}), 2, "scene is required");
@@ -55,6 +56,8 @@ TEST_CASE("an unknown option that resembles none is named without a guess") {
     const Outcome outcome = run_mir({"render", "builtin:sphere", "--nonsense-of-mine"});
     check_failure(outcome, 2, "--nonsense-of-mine");
     CHECK_FALSE(has(outcome.err, "did you mean"));
+    // Two of its four letters would have to change.
+    CHECK_FALSE(has(run_mir({"render", "builtin:sphere", "--size", "3"}).err, "did you mean"));
 }
 
 TEST_CASE("no layers and a layer contradict each other") {

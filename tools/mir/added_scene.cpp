@@ -49,7 +49,7 @@ mir::Camera camera_of(const AddedScene& added, const mir::Bounds& bounds, mir::D
 
 }  // namespace
 
-void add_to_scene(const AddedScene& added, SceneAndReport& loaded) {
+void add_sun_and_camera(const AddedScene& added, SceneAndReport& loaded) {
     mir::Scene& scene = loaded.scene;
     if (added.sun) {
         const mir::Vec3 towards(*added.sun);
@@ -62,11 +62,6 @@ void add_to_scene(const AddedScene& added, SceneAndReport& loaded) {
         sun.irradiance = grey(added.sun_irradiance);
         scene.directional_lights.push_back(sun);
     }
-    if (added.ground && !scene.instances.empty()) {
-        const std::uint32_t material =
-            scene.add(mir::lambertian("ground", grey(ground_reflectance)));
-        scene.place(ground_mesh(loaded.report.bounds, material));
-    }
     if (!added.eye) return;
     scene.cameras.push_back(camera_of(added, loaded.report.bounds, scene.origin));
     mir::CameraReport report;
@@ -75,6 +70,13 @@ void add_to_scene(const AddedScene& added, SceneAndReport& loaded) {
     report.index = static_cast<std::uint32_t>(scene.cameras.size() - 1);
     // The first of the list is the one that is used.
     loaded.report.cameras.insert(loaded.report.cameras.begin(), report);
+}
+
+void add_ground(const AddedScene& added, SceneAndReport& loaded) {
+    mir::Scene& scene = loaded.scene;
+    if (!added.ground || scene.instances.empty()) return;
+    const std::uint32_t material = scene.add(mir::lambertian("ground", grey(ground_reflectance)));
+    scene.place(ground_mesh(loaded.report.bounds, material));
 }
 
 }  // namespace mirtool

@@ -13,6 +13,18 @@ std::string worst_of(const std::vector<std::string>& strangers) {
     return strangers.back();
 }
 
+/// What is wrong where no command is named, or one that there is not.
+std::string without_command(const CLI::App& app, const std::vector<std::string>& strangers) {
+    if (!strangers.empty() && strangers.front().starts_with('-'))
+        return "unknown argument '" + strangers.front() + "'";
+    std::string commands;
+    for (const CLI::App* command : app.get_subcommands({}))
+        commands += (commands.empty() ? "" : ", ") + command->get_name();
+    return (strangers.empty() ? "no command is given"
+                              : "unknown command '" + strangers.front() + "'") +
+           " (commands are " + commands + ")";
+}
+
 }  // namespace
 
 const CLI::App& used_command(const CLI::App& app) {
@@ -27,6 +39,8 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& e) {
     const std::vector<std::string> strangers = app.remaining(true);
     const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr;
     std::string text = unknown ? "unknown argument '" + worst_of(strangers) + "'" : e.what();
+    if (&used == &app && dynamic_cast<const CLI::RequiredError*>(&e) != nullptr)
+        text = without_command(app, strangers);
     std::vector<std::string> known;
     for (const CLI::Option* option : used.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

@@ -33,7 +33,9 @@ inline std::size_t edit_distance(const std::string& a, const std::string& b) {
 inline std::optional<std::string> nearest(const std::string& word,
                                           const std::vector<std::string>& known) {
     std::optional<std::string> best;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+    const auto letters = static_cast<std::size_t>(
+        std::count_if(word.begin(), word.end(), [](char c) { return c != '-'; }));
+    std::size_t least = std::max<std::size_t>(letters > 4 ? 2 : 1, letters / 3) + 1;
     for (const std::string& candidate : known) {
         const std::size_t distance = edit_distance(word, candidate);
         if (distance >= least) continue;

@@ -85,7 +85,7 @@ bool adds_to_scene(const RenderOptions& o, const mir::SceneReport& report) {
 }
 
 ChosenView prepare_scene(RenderOptions& o, SceneAndReport& loaded) {
-    add_to_scene(o.added, loaded);
+    add_sun_and_camera(o.added, loaded);
     const auto camera = choose_camera(o, loaded);
     o.settings.image = choose_size(o, camera, loaded.scene);
     ChosenView view;
@@ -96,6 +96,8 @@ ChosenView prepare_scene(RenderOptions& o, SceneAndReport& loaded) {
         loaded.scene.cameras.push_back(framed.camera);
         o.settings.camera = static_cast<std::uint32_t>(loaded.scene.cameras.size() - 1);
     }
+    // The view is of what the file holds: the ground is many times larger.
+    add_ground(o.added, loaded);
     const auto wants = [&o](const char* layer) {
         return std::find(o.layers.begin(), o.layers.end(), layer) != o.layers.end();
     };

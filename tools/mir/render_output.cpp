@@ -44,7 +44,8 @@ OutputPaths choose_outputs(const RenderOptions& o) {
         paths.png = std::filesystem::path(paths.exr).replace_extension(".png").string();
     if (o.no_preview) paths.png.clear();
     mir::expects(!are_one_file(paths.png, paths.exr),
-                 "picture and preview have the same name; let the picture end in .exr");
+                 "picture and preview have the same name (the picture is OpenEXR, a PNG beside it "
+                 "its preview); let the picture end in .exr");
     mir::expects(!are_one_file(o.scene, paths.exr) && !are_one_file(o.scene, paths.png),
                  "the picture would replace the scene that it shows; give another name with -o");
     mir::expects(o.vpls_out.empty() || o.settings.integrator == mir::Integrator::vpl,

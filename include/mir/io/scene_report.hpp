@@ -112,11 +112,12 @@ inline void count_scene(const Scene& scene, SceneReport& report) {
 }
 
 /// Gives a counted scene the light of `environment`, which no scene file holds. It replaces the
-/// scene's own, and the note that the scene is dark.
+/// scene's own, the note that the scene is dark, and the one that a file's sky was ignored.
 inline void put_around(Scene& scene, Environment environment, SceneReport& report) {
     scene.environment = std::move(environment);
     report.environments = 1;
     std::erase(report.notes, detail::no_light_note);
+    report.ignored.erase("environment");
 }
 
 }  // namespace mir

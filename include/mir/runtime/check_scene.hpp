@@ -65,8 +65,8 @@ inline std::vector<std::string> check_scene(const Scene& scene, const RenderSett
     if (!settings.allow_no_light)
         throw Error(
             ErrorCode::invalid_input,
-            "the scene has no light (the picture would be black); add an emissive material, a "
-            "light or, with --sun, a sun, or pass --allow-no-light");
+            "the scene has no light (the picture would be black); add an emissive material or a "
+            "light, a sun (--sun) or a sky (--environment), or pass --allow-no-light");
     warnings.emplace_back("the scene has no light: the picture is black");
     return warnings;
 }

@@ -29,8 +29,16 @@ inline constexpr std::array<OtherFormat, 19> other_formats = {{
     {".ifc", "IFC"},     {".pbrt", "pbrt"},     {".x3d", "X3D"},
 }};
 
-/// @throws Error(unsupported) when the name ends as that of another program's file.
+inline constexpr std::array<std::string_view, 5> pictures = {".exr", ".png", ".hdr", ".jpg",
+                                                             ".jpeg"};
+
+/// @throws Error(unsupported) when the name ends as that of a picture or another program's file.
 inline void refuse_other_formats(const std::filesystem::path& path, std::string_view ending) {
+    if (std::find(pictures.begin(), pictures.end(), ending) != pictures.end())
+        throw Error(ErrorCode::unsupported,
+                    path.string() +
+                        ": it is a picture, not a scene (glTF, OBJ and PLY are read); "
+                        "name the file of a scene");
     for (const OtherFormat& other : other_formats)
         if (ending == other.ending)
             throw Error(ErrorCode::unsupported,
