@@ -107,7 +107,7 @@ RenderSettings settings() {
 
 struct Render {
     mirtest::World world{mirtest::glossy_box()};
-    mir::TracedSceneOf<BruteForceScene> traced{std::make_unique<BruteForceScene>(world.geometry)};
+    mir::TracedScene traced{std::make_unique<const BruteForceScene>(world.geometry)};
     RenderSettings settings;
     mir::InlineExecutor executor;
     mir::StageClock clock;
