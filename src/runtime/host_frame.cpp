@@ -81,12 +81,12 @@ class HostFrame final : public RenderFrame {
     }
     [[nodiscard]] LayerPtr light(const FrameBand& band, Vpls vpls, VplKernel kernel,
                                  Monitor* monitor) override;
-    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
+    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const CutVpls& vpls, float bound,
                                          Monitor* monitor) override {
-        return host_layer(reconstruct_cuts(HostBand<B>::of(band).gbuffer, tree, rays().visibility(),
-                                           VplShading<B>{bound}, DeviationCut{job_.settings.picks},
-                                           {job_.settings.seed, band.first_row}, job_.executor,
-                                           monitor));
+        return host_layer(
+            reconstruct_cuts(HostBand<B>::of(band).gbuffer, vpls.tree(), rays().visibility(),
+                             VplShading<B>{bound}, DeviationCut{job_.settings.picks},
+                             {job_.settings.seed, band.first_row}, job_.executor, monitor));
     }
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;

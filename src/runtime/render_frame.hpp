@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cuts/vpl_tree.hpp"
 #include "mir/data/image.hpp"
 #include "mir/data/vpl_record.hpp"
 #include "mir/metropolis/metropolis_options.hpp"
@@ -9,6 +8,7 @@
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/shading/direct_samples.hpp"
 #include "runtime/band_turn.hpp"
+#include "runtime/cut_vpls.hpp"
 #include "runtime/frame_features.hpp"
 #include "runtime/render_job.hpp"
 #include "runtime/vpl_kernel.hpp"
@@ -115,12 +115,9 @@ class RenderFrame {
     /// `monitor`, which may be null, counts pairs of luxel and VPL.
     [[nodiscard]] virtual LayerPtr light(const FrameBand& band, VplSpan<Space::host> vpls,
                                          VplKernel kernel, Monitor* monitor) = 0;
-    /// Light of the VPLs of a tree by cuts of RenderSettings::picks, under `bound`.
-    /// @throws Error(unsupported) of frames without FrameFeature::cuts.
-    [[nodiscard]] virtual LayerPtr light_by_cuts(const FrameBand& /*band*/, const VplTree& /*tree*/,
-                                                 float /*bound*/, Monitor* /*monitor*/) {
-        throw without(FrameFeature::cuts);
-    }
+    /// Light of VPLs by cuts of RenderSettings::picks, under `bound`.
+    [[nodiscard]] virtual LayerPtr light_by_cuts(const FrameBand& band, const CutVpls& vpls,
+                                                 float bound, Monitor* monitor) = 0;
     /// sum += layer.
     virtual void add(FrameLayer& sum, const FrameLayer& layer) = 0;
     /// Sum of the luminance of each row's luxels, from left to right, W m^-2 sr^-1.

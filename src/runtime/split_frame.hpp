@@ -54,9 +54,9 @@ class SplitFrame final : public RenderFrame {
                                  Monitor* monitor) override {
         return first().light(band, vpls, kernel, monitor);
     }
-    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
+    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const CutVpls& vpls, float bound,
                                          Monitor* monitor) override {
-        return first().light_by_cuts(band, tree, bound, monitor);
+        return first().light_by_cuts(band, vpls, bound, monitor);
     }
     void add(FrameLayer& sum, const FrameLayer& layer) override { first().add(sum, layer); }
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override {

@@ -24,8 +24,9 @@ VplLight::VplLight(const RenderSettings& settings, float bound, const VplList& v
         for (std::uint8_t b = 1; b <= vpls.max_bounce(); ++b) bounces_.push_back(vpls.bounce(b));
     }
     if (settings.sum != LightSum::cuts) return;
-    if (layers_ == 0) trees_.emplace_back(vpls.span(), executor);
-    for (const std::vector<Vpl>& bounce : bounces_) trees_.emplace_back(span_of(bounce), executor);
+    if (layers_ == 0) cut_vpls_.emplace_back(vpls.span(), executor);
+    for (const std::vector<Vpl>& bounce : bounces_)
+        cut_vpls_.emplace_back(span_of(bounce), executor);
 }
 
 void VplLight::append_layers(RenderFrame& frame, const FrameBand& band, Monitor* monitor,
@@ -46,7 +47,7 @@ void VplLight::append_layers(RenderFrame& frame, const FrameBand& band, Monitor*
 /// Of all VPLs, or of those of one bounce where there are layers of these.
 LayerPtr VplLight::light(RenderFrame& frame, const FrameBand& band, std::size_t list,
                          Monitor* monitor) const {
-    if (!trees_.empty()) return frame.light_by_cuts(band, trees_[list], lit_.bound, monitor);
+    if (!cut_vpls_.empty()) return frame.light_by_cuts(band, cut_vpls_[list], lit_.bound, monitor);
     return frame.light(band, layers_ == 0 ? vpls_.span() : span_of(bounces_[list]), lit_, monitor);
 }
 

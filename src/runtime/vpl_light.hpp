@@ -10,7 +10,7 @@
 namespace mir {
 
 /// Light that the VPLs of a render send through a band's luxels. Of all VPLs, or by cuts of trees
-/// over them. Of all, or by cuts of trees over them. `vpls` must outlive it.
+/// over them. `vpls` must outlive it.
 class VplLight {
  public:
     /// Under `bound`, m^-2, as points, spheres or with lobes, as the settings say.
@@ -39,7 +39,7 @@ class VplLight {
     VplKernel removed_;
     std::size_t layers_ = 0;
     std::vector<std::vector<Vpl>> bounces_;
-    std::vector<VplTree> trees_;  ///< of all VPLs, or of those of each bounce; none without cuts
+    std::vector<CutVpls> cut_vpls_;  ///< all, or those of each bounce; none without cuts
 };
 
 }  // namespace mir
