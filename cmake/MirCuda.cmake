@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 #
-# Finds nvcc and, with it, turns CUDA on: TARGET mir::cuda exists afterwards or it does not. Included
-# once, from the top of the project, where languages are enabled.
+# Finds nvcc and, with it, turns CUDA on: MIR_HAS_CUDA says whether. Included once, from the top of a
+# project, where languages are enabled.
 include_guard()
+set(MIR_HAS_CUDA OFF)
 
 set(MIR_WITH_CUDA OFF CACHE STRING
     "Build the CUDA backend: ON, OFF, or AUTO for where nvcc is found (preset cuda says ON)")
@@ -68,4 +69,4 @@ if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
 endif()
 enable_language(CUDA)
 find_package(CUDAToolkit 12.0 REQUIRED)
-add_subdirectory(backends/cuda)
+set(MIR_HAS_CUDA ON)

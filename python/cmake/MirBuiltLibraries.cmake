@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: MIT
 #
 # The targets of the library as ./render.sh builds them, brought up to date: the same folder, so that
-# whoever has it compiles nothing twice.
-set(MIR_PYTHON_PRESET cpu CACHE STRING "Preset whose libraries the module holds: cpu or cuda")
+# whoever has it compiles nothing twice. A folder that is there keeps its options, such as
+# MIR_WITH_EMBREE=OFF, and may have a name that is no preset's.
+set(MIR_PYTHON_PRESET cpu CACHE STRING "Folder of build/ whose libraries the module holds: cpu or cuda")
 cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH mir_root)
 set(mir_build ${mir_root}/build/${MIR_PYTHON_PRESET})
 
 # What pip tells the compiler of the module must not reach the libraries.
 set(plain ${CMAKE_COMMAND} -E env --unset=CXXFLAGS --unset=CFLAGS --unset=LDFLAGS ${CMAKE_COMMAND})
-set(tests -DMIR_BUILD_TESTS=OFF)
+set(configure --preset ${MIR_PYTHON_PRESET} -DMIR_BUILD_TESTS=OFF)
 if(EXISTS ${mir_build}/CMakeCache.txt)
-    set(tests)
+    set(configure ${mir_build})
 endif()
 if(NOT DEFINED ENV{CMAKE_BUILD_PARALLEL_LEVEL})
     cmake_host_system_information(RESULT jobs QUERY NUMBER_OF_LOGICAL_CORES)
@@ -18,7 +19,7 @@ if(NOT DEFINED ENV{CMAKE_BUILD_PARALLEL_LEVEL})
 endif()
 foreach(command IN ITEMS configure build)
     if(command STREQUAL "configure")
-        set(arguments --preset ${MIR_PYTHON_PRESET} ${tests})
+        set(arguments ${configure})
     else()
         set(arguments --build ${mir_build} --target mir_front)
     endif()
@@ -44,4 +45,14 @@ find_package(TinyGLTF REQUIRED)
 find_package(tinyobjloader REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 REQUIRED)
+# The kernels of the module are compiled as those of the library.
+load_cache(${mir_build} READ_WITH_PREFIX built_ MIR_WITH_CUDA CMAKE_CUDA_ARCHITECTURES)
+if(built_MIR_WITH_CUDA)
+    set(MIR_WITH_CUDA ${built_MIR_WITH_CUDA})
+    set(CMAKE_CUDA_ARCHITECTURES ${built_CMAKE_CUDA_ARCHITECTURES})
+    include(MirCuda)
+endif()
 include(${mir_build}/mirBuildTargets.cmake)
+if(MIR_HAS_CUDA)
+    add_library(mir::cuda ALIAS cuda)
+endif()

@@ -18,17 +18,6 @@ bool is_kind(const AnyArray& array, Code code) {
     return array.dtype().code == static_cast<std::uint8_t>(code) && array.dtype().lanes == 1;
 }
 
-std::string dtype_text(const AnyArray& array) {
-    const auto code = static_cast<Code>(array.dtype().code);
-    const char* kind = code == Code::Int       ? "int"
-                       : code == Code::UInt    ? "uint"
-                       : code == Code::Float   ? "float"
-                       : code == Code::Complex ? "complex"
-                       : code == Code::Bool    ? "bool"
-                                               : "another type of ";
-    return code == Code::Bool ? kind : kind + std::to_string(array.dtype().bits);
-}
-
 std::string shape_of(const AnyArray& array) {
     std::string text = "(";
     for (std::size_t i = 0; i < array.ndim(); ++i)
@@ -63,14 +52,7 @@ AnyArray checked_array(nb::handle value, const std::string& place,
         throw ArgumentError(place,
                             "it lies in the memory of another device (the processor reads it); "
                             "copy it to the processor");
-    bool fits = array.ndim() == shape.size();
-    for (std::size_t i = 0; fits && i < shape.size(); ++i) {
-        const long wanted = *(shape.begin() + i);
-        fits = wanted == any_size || array.shape(i) == static_cast<std::size_t>(wanted);
-    }
-    if (!fits)
-        throw ArgumentError(place,
-                            "it has the shape " + shape_of(array) + "; give " + shape_text(shape));
+    check_shape(array, place, shape);
     return array;
 }
 
@@ -104,6 +86,29 @@ ReadWhole reader_of(const AnyArray& array) {
 }
 
 }  // namespace
+
+std::string dtype_text(const AnyArray& array) {
+    const auto code = static_cast<Code>(array.dtype().code);
+    const char* kind = code == Code::Int       ? "int"
+                       : code == Code::UInt    ? "uint"
+                       : code == Code::Float   ? "float"
+                       : code == Code::Complex ? "complex"
+                       : code == Code::Bool    ? "bool"
+                                               : "another type of ";
+    return code == Code::Bool ? kind : kind + std::to_string(array.dtype().bits);
+}
+
+void check_shape(const AnyArray& array, const std::string& place,
+                 std::initializer_list<long> shape) {
+    bool fits = array.ndim() == shape.size();
+    for (std::size_t i = 0; fits && i < shape.size(); ++i) {
+        const long wanted = *(shape.begin() + i);
+        fits = wanted == any_size || array.shape(i) == static_cast<std::size_t>(wanted);
+    }
+    if (!fits)
+        throw ArgumentError(place,
+                            "it has the shape " + shape_of(array) + "; give " + shape_text(shape));
+}
 
 std::string shape_text(std::initializer_list<long> shape) {
     constexpr const char* letters[] = {"n", "m", "k"};
@@ -182,18 +187,22 @@ std::vector<std::uint32_t> index_rows(nb::handle value, const std::string& place
     return all;
 }
 
-AnyArray byte_array(nb::handle value, const std::string& place, std::initializer_list<long> shape) {
-    AnyArray array = checked_array(value, place, shape);
-    if (!is_kind(array, Code::UInt) || array.dtype().bits != 8)
-        throw ArgumentError(place, "its dtype is " + dtype_text(array) + "; give uint8");
+void check_dense(const AnyArray& array, const std::string& place) {
     std::int64_t step = 1;
     for (std::size_t i = array.ndim(); i-- > 0;) {
         if (array.shape(i) > 1 && array.stride(i) != step)
             throw ArgumentError(place,
                                 "its elements do not lie one behind the other (they are read where "
-                                "they are); give numpy.ascontiguousarray() of it");
+                                "they are); give a contiguous copy");
         step *= static_cast<std::int64_t>(array.shape(i));
     }
+}
+
+AnyArray byte_array(nb::handle value, const std::string& place, std::initializer_list<long> shape) {
+    AnyArray array = checked_array(value, place, shape);
+    if (!is_kind(array, Code::UInt) || array.dtype().bits != 8)
+        throw ArgumentError(place, "its dtype is " + dtype_text(array) + "; give uint8");
+    check_dense(array, place);
     return array;
 }
 

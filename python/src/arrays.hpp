@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "strided_floats.hpp"
+
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
@@ -37,6 +39,10 @@ class FloatArray {
     [[nodiscard]] std::size_t size(std::size_t axis) const { return array_.shape(axis); }
     /// True where it is one float behind the other, rows first.
     [[nodiscard]] bool is_dense() const;
+    /// For kernels, of single floats alone.
+    [[nodiscard]] StridedFloats view() const {
+        return {reinterpret_cast<const float*>(data_), {strides_[0], strides_[1], strides_[2]}};
+    }
     /// An element: not checked.
     [[nodiscard]] float at(std::size_t i, std::size_t j = 0, std::size_t k = 0) const {
         const std::int64_t place = static_cast<std::int64_t>(i) * strides_[0] +
@@ -61,6 +67,18 @@ class FloatArray {
     std::array<std::size_t, 3> sizes_{1, 1, 1};
     bool is_double_ = false;
 };
+
+/// Checks the sizes of an array.
+/// @throws ArgumentError that calls it `place`, unless it has this shape.
+void check_shape(const nanobind::ndarray<nanobind::ro>& array, const std::string& place,
+                 std::initializer_list<long> shape);
+
+/// Checks that elements lie one behind the other, rows first.
+/// @throws ArgumentError that calls the array `place`, unless they do.
+void check_dense(const nanobind::ndarray<nanobind::ro>& array, const std::string& place);
+
+/// "float32": what an array holds.
+std::string dtype_text(const nanobind::ndarray<nanobind::ro>& array);
 
 /// Whole numbers of rows of `columns`, each from 0 to below `limit`.
 /// @throws ArgumentError that calls it `place`, for anything else.

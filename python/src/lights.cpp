@@ -3,6 +3,7 @@
 #include "errors.hpp"
 #include "mir/scene/environment_table.hpp"
 #include "scene.hpp"
+#include "triples.hpp"
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -16,24 +17,12 @@ namespace nb = nanobind;
 namespace mirpy {
 namespace {
 
-mir::Vec3 vector_of(nb::handle value, const char* place) {
-    const std::vector<double> v = numbers_of(value, place, 3);
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
 mir::Vec3 direction_of(nb::handle value, const char* place) {
     const mir::Vec3 v = vector_of(value, place);
     const float length = glm::length(v);
     if (!(length > 0.0f) || std::isinf(length))
         throw ArgumentError(place, "it has no direction; give one such as (0, -1, 0)");
     return v / length;
-}
-
-mir::Rgb light_of(nb::handle value, const char* place) {
-    const mir::Vec3 v = vector_of(value, place);
-    if (v.x < 0.0f || v.y < 0.0f || v.z < 0.0f)
-        throw ArgumentError(place, "light is negative; give three numbers from 0 up");
-    return {v.x, v.y, v.z};
 }
 
 float radians_of(double degrees, double least, double most, const char* place) {

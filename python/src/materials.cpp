@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 #include "errors.hpp"
 #include "scene.hpp"
+#include "triples.hpp"
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -14,11 +15,6 @@ namespace nb = nanobind;
 namespace mirpy {
 namespace {
 
-mir::Rgb rgb_of(nb::handle value, const char* place) {
-    const std::vector<double> c = numbers_of(value, place, 3);
-    return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
-}
-
 void check_share(float value, const char* place) {
     if (!(value >= 0.0f && value <= 1.0f)) throw ArgumentError(place, "give a number of 0 to 1");
 }
@@ -27,13 +23,6 @@ mir::Rgb reflectance_of(nb::handle value) {
     const mir::Rgb color = rgb_of(value, "base_color");
     for (const float c : {color.r, color.g, color.b}) check_share(c, "base_color");
     return color;
-}
-
-mir::Rgb emission_of(nb::handle value) {
-    const mir::Rgb light = rgb_of(value, "emission");
-    if (light.r < 0.0f || light.g < 0.0f || light.b < 0.0f)
-        throw ArgumentError("emission", "light is negative; give three numbers from 0 up");
-    return light;
 }
 
 mir::Wrap wrap_of(const std::string& name) {
@@ -80,7 +69,7 @@ std::uint32_t add_material(PyScene& self, const std::string& name, nb::handle ba
     check_share(m.specular = specular, "specular");
     if (!(ior >= 1.0f) || std::isinf(ior)) throw ArgumentError("ior", "give a number from 1 up");
     m.ior = ior;
-    m.emission = emission_of(emission);
+    m.emission = light_of(emission, "emission");
     m.emits_from_both_sides = emits_from_both_sides;
     m.light_group = light_group;
     check_share(m.alpha_cutoff = alpha_cutoff, "alpha_cutoff");

@@ -7,6 +7,7 @@
 
 #include <nanobind/nanobind.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +21,8 @@ struct Tracing {
 
     mir::WorldGeometry geometry;
     mir::KdTreeScene tree;
+    /// Copies of the tree by number of their GPU, made and read with the GIL held.
+    mutable std::map<int, std::shared_ptr<const void>> on_gpus;
 };
 
 /// A scene as Python holds it. All but what a Hold gives is for whoever holds the GIL.

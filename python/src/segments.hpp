@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "array_gbuffer.hpp"
 #include "arrays.hpp"
+#include "luxel_arrays.hpp"
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "packed_bits.hpp"
+#include "target_facing.hpp"
 
 #include <algorithm>
 
@@ -48,15 +49,15 @@ class PointGroup {
     /// Bits of the points that lie before each other's surfaces.
     [[nodiscard]] std::uint32_t facing(const Segments& segments, std::size_t target) const {
         const mir::Vec3 end = Segments::triple(segments.targets, target);
-        const mir::Vec3 front = segments.target_normals != nullptr
-                                    ? Segments::triple(*segments.target_normals, target)
-                                    : mir::Vec3(0.0f);
-        std::uint32_t faces = 0;
-        for (std::size_t k = 0; k < count_; ++k) {
-            const mir::Vec3 d = end - places_[k];
-            const bool is_before = segments.target_normals == nullptr || glm::dot(d, front) < 0.0f;
-            if (is_before && glm::dot(d, normals_[k]) > 0.0f) faces |= 1u << k;
+        mir::Vec3 side(0.0f);
+        const mir::Vec3* front = nullptr;
+        if (segments.target_normals != nullptr) {
+            side = Segments::triple(*segments.target_normals, target);
+            front = &side;
         }
+        std::uint32_t faces = 0;
+        for (std::size_t k = 0; k < count_; ++k)
+            if (faces_target(places_[k], normals_[k], end, front)) faces |= 1u << k;
         return faces;
     }
 

@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "errors.hpp"
+#include "gpu_parts.hpp"
 #include "views.hpp"
 
 #include <nanobind/stl/string.h>
@@ -65,6 +66,20 @@ PyVpls vpls_of(mir::VplList list, float bound) {
     return {std::move(all), std::move(list), bound};
 }
 
+const PyVpls& vpls_in(nb::handle vpls) {
+    if (!nb::isinstance<PyVpls>(vpls))
+        throw ArgumentError("vpls",
+                            "it is no mir.Vpls; give what sample_vpls() returns, or "
+                            "mir.Vpls(positions, normals, intensities)");
+    return nb::cast<const PyVpls&>(vpls);
+}
+
+float bound_of(const PyVpls& vpls, const std::optional<float>& bound) {
+    if (bound && !(*bound > 0.0f))
+        throw ArgumentError("bound", "it is no positive number; give one, per square metre");
+    return bound.value_or(vpls.bound);
+}
+
 void bind_vpls(nb::module_& m) {
     nb::class_<PyVpls>(m, "Vpls",
                        "Virtual point lights: places, the side on which they shine, and light.")
@@ -92,7 +107,10 @@ void bind_vpls(nb::module_& m) {
             [](const PyVpls& self, std::uint16_t g) {
                 return lit_by(self, self.list.light_group(g));
             },
-            nb::arg("light_group"), "The same VPLs with the light of one group of lamps alone.");
+            nb::arg("light_group"), "The same VPLs with the light of one group of lamps alone.")
+        .def("on_gpu", gpu::copy_of, nb::arg("device") = 0,
+             "A copy in the memory of a GPU, for reconstruct() and reshade(): a dictionary of\n"
+             "arrays positions, normals and intensities, (n, 3) each, and the bound.");
 }
 
 }  // namespace mirpy

@@ -6,6 +6,7 @@
 #include <nanobind/nanobind.h>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace mirpy {
@@ -21,6 +22,14 @@ struct PyVpls {
 
 /// VPLs of a list, with all their light.
 PyVpls vpls_of(mir::VplList list, float bound);
+
+/// What an argument `vpls` holds.
+/// @throws ArgumentError for what is no Vpls.
+const PyVpls& vpls_in(nanobind::handle vpls);
+
+/// The bound that a call gives, or that of the VPLs.
+/// @throws ArgumentError for one that is not positive.
+float bound_of(const PyVpls& vpls, const std::optional<float>& bound);
 
 /// Declares the class Vpls.
 void bind_vpls(nanobind::module_& m);

@@ -13,7 +13,8 @@ def run(code):
 
 
 def test_import_takes_below_0_3_s():
-    code = "import time; t = time.perf_counter(); import mir; print(time.perf_counter() - t)"
+    # Seconds of the processor: others may keep it busy meanwhile.
+    code = "import time; t = time.process_time(); import mir; print(time.process_time() - t)"
     assert min(float(run(code).stdout) for _ in range(5)) < 0.3
 
 

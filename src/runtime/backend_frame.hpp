@@ -5,7 +5,7 @@
 #include "mir/accel/kd/kd_tree.hpp"
 #include "mir/resident/backend_film.hpp"
 #include "mir/resident/backend_guides.hpp"
-#include "mir/resident/backend_response.hpp"
+#include "mir/resident/backend_visibility.hpp"
 #include "mir/resident/backend_wide_bvh.hpp"
 #include "mir/resident/quantised_bvh.hpp"
 #include "mir/resident/uploaded_scene.hpp"
@@ -70,9 +70,8 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override;
     [[nodiscard]] BandPtr trace(const ProbeRays& probes) override;
     void find_visible(FrameBand& band, VplSpan<Space::host> vpls) override;
-    [[nodiscard]] std::vector<ImageResponse> row_responses(const FrameBand& band,
-                                                           VplSpan<Space::host> vpls,
-                                                           float bound) override;
+    void add_responses(const FrameBand& band, VplSpan<Space::host> vpls, float bound,
+                       BandTurn& turn, ResponseSum& sum) override;
 
     [[nodiscard]] LayerPtr black(const FrameBand& band) override;
     [[nodiscard]] LayerPtr direct(const FrameBand& band, DirectSamples samples) override;

@@ -58,11 +58,13 @@ class HostFrame final : public RenderFrame {
         here.visibility.emplace(here.gbuffer.tiles(), vpls.size(), job_.settings.limits);
         traced_.fill_visibility(*here.visibility, LuxelsOf<B>{here.gbuffer}, vpls, job_.executor);
     }
-    [[nodiscard]] std::vector<ImageResponse> row_responses(const FrameBand& band, Vpls vpls,
-                                                           float bound) override {
+    void add_responses(const FrameBand& band, Vpls vpls, float bound, BandTurn& turn,
+                       ResponseSum& sum) override {
         const auto& here = HostBand<B>::of(band);
-        return block_row_responses(here.gbuffer, vpls, here.visibility->view(),
-                                   VplShading<B>{bound}, job_.executor);
+        const std::vector<ImageResponse> rows = block_row_responses(
+            here.gbuffer, vpls, here.visibility->view(), VplShading<B>{bound}, job_.executor);
+        turn.wait();
+        sum.add_rows(band.extent(), rows);
     }
 
     [[nodiscard]] LayerPtr black(const FrameBand& band) override {
@@ -153,20 +155,24 @@ LayerPtr HostFrame<B>::light(const FrameBand& band, Vpls vpls, VplKernel kernel,
 template <Bsdf B>
 Image<Rgb> HostFrame<B>::light_of_points(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
                                          Monitor* monitor) {
-    if (band.visibility)
-        return with_host_scheduler(scheduler_, job_.executor, monitor, [&](const auto& scheduler) {
-            return with_shading<B>(kernel, [&](const auto& shading) {
-                return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
-            });
-        });
+    const LuxelsOf<B> luxels{band.gbuffer};
+    // All schedulers have the same bits. What is removed is no part of the picture that they differ
+    // in time for, so it need not be compiled for each.
+    if (kernel.kind == VplKernel::Kind::removed) {
+        const sched::CpuBlocks blocks{job_.executor, monitor};
+        return band.visibility ? reshade(blocks, band.gbuffer, vpls, *band.visibility,
+                                         RemovedByBound<B>{kernel.bound})
+                               : traced_.removed(blocks, luxels, vpls, kernel.bound);
+    }
+    const VplShading<B> shading{kernel.bound};
     return with_host_scheduler(
         scheduler_, job_.executor, monitor, [&]<class S>(const S& scheduler) {
+            if (band.visibility)
+                return reshade(scheduler, band.gbuffer, vpls, *band.visibility, shading);
             if constexpr (std::is_same_v<S, sched::CpuBlocks<AnyExecutor>>)
-                return traced_.reconstruct(scheduler, LuxelsOf<B>{band.gbuffer}, vpls, kernel);
+                return traced_.reconstruct(scheduler, luxels, vpls, kernel.bound);
             else
-                return with_shading<B>(kernel, [&](const auto& shading) {
-                    return reconstruct(scheduler, band.gbuffer, vpls, rays().visibility(), shading);
-                });
+                return reconstruct(scheduler, band.gbuffer, vpls, rays().visibility(), shading);
         });
 }
 

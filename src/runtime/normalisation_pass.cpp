@@ -14,10 +14,10 @@ NormalisationReport NormalisationPass::run(VplList& vpls, double path_luminance,
     return normalise(vpls, responses, path_luminance, states);
 }
 
-std::vector<ImageResponse> NormalisationPass::rows(RenderFrame& by, const FrameBand& band,
-                                                   VplSpan<Space::host> vpls) const {
+void NormalisationPass::add(RenderFrame& by, const FrameBand& band, VplSpan<Space::host> vpls,
+                            BandTurn& turn, ResponseSum& sum) const {
     const auto stage = by.job().clock.measure(&StageSeconds::response);
-    return by.row_responses(band, vpls, bound_);
+    by.add_responses(band, vpls, bound_, turn, sum);
 }
 
 /// Responses over every luxel.
@@ -30,10 +30,7 @@ std::vector<ImageResponse> NormalisationPass::over_image(VplSpan<Space::host> vp
     frame_.for_each_band(bands_.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
         BandPtr band = bands_.make(by, i);
         find_visible(by, *band, vpls);
-        const std::vector<ImageResponse> of_band = rows(by, *band, vpls);
-        turn.wait();
-        const auto stage = job.clock.measure(&StageSeconds::response);
-        sum.add_rows(band->extent(), of_band);
+        add(by, *band, vpls, turn, sum);
         if (keep) kept_[i] = std::move(band);
     });
     const auto stage = job.clock.measure(&StageSeconds::response);
@@ -50,7 +47,8 @@ std::vector<ImageResponse> NormalisationPass::probed(VplSpan<Space::host> vpls) 
     }();
     find_visible(frame_, *probes, vpls);
     ResponseSum sum(probes->extent(), vpls.size());
-    sum.add_rows(probes->extent(), rows(frame_, *probes, vpls));
+    BandTurn only;
+    add(frame_, *probes, vpls, only, sum);
     std::vector<ImageResponse> responses = sum.mean();
     const std::vector<VplIndex> poor = poorly_measured(responses);
     if (poor.empty()) return responses;

@@ -26,8 +26,8 @@ class NormalisationPass {
  private:
     [[nodiscard]] std::vector<ImageResponse> over_image(VplSpan<Space::host> vpls);
     [[nodiscard]] std::vector<ImageResponse> probed(VplSpan<Space::host> vpls);
-    [[nodiscard]] std::vector<ImageResponse> rows(RenderFrame& by, const FrameBand& band,
-                                                  VplSpan<Space::host> vpls) const;
+    void add(RenderFrame& by, const FrameBand& band, VplSpan<Space::host> vpls, BandTurn& turn,
+             ResponseSum& sum) const;
 
     RenderFrame& frame_;
     const ImageBands& bands_;

@@ -3,7 +3,6 @@
 
 #include "mir/cuts/vpl_tree.hpp"
 #include "mir/data/image.hpp"
-#include "mir/data/image_response.hpp"
 #include "mir/data/vpl_record.hpp"
 #include "mir/metropolis/metropolis_options.hpp"
 #include "mir/runtime/any_engine.hpp"
@@ -20,6 +19,8 @@
 #include <vector>
 
 namespace mir {
+
+class ResponseSum;
 
 /// Rows of luxels, where their frame keeps them.
 class FrameBand {
@@ -97,11 +98,10 @@ class RenderFrame {
     /// Keeps with a band which luxels and VPLs see each other.
     /// @throws Error(limit_exceeded) when the bits do not fit into Limits::visibility_bytes.
     virtual void find_visible(FrameBand& band, VplSpan<Space::host> vpls) = 0;
-    /// Responses of points under `bound`, for each row of blocks of a band. The band knows their
-    /// visibility; block_row_responses(), which ResponseSum adds up.
-    [[nodiscard]] virtual std::vector<ImageResponse> row_responses(const FrameBand& band,
-                                                                   VplSpan<Space::host> vpls,
-                                                                   float bound) = 0;
+    /// Adds responses of points under `bound`. Those of a band that knows their visibility, to a
+    /// sum of the bands above. Waits for its turn when its rows are summed.
+    virtual void add_responses(const FrameBand& band, VplSpan<Space::host> vpls, float bound,
+                               BandTurn& turn, ResponseSum& sum) = 0;
 
     /// No light.
     [[nodiscard]] virtual LayerPtr black(const FrameBand& band) = 0;

@@ -35,10 +35,9 @@ class SplitFrame final : public RenderFrame {
     void find_visible(FrameBand& band, VplSpan<Space::host> vpls) override {
         first().find_visible(band, vpls);
     }
-    [[nodiscard]] std::vector<ImageResponse> row_responses(const FrameBand& band,
-                                                           VplSpan<Space::host> vpls,
-                                                           float bound) override {
-        return first().row_responses(band, vpls, bound);
+    void add_responses(const FrameBand& band, VplSpan<Space::host> vpls, float bound,
+                       BandTurn& turn, ResponseSum& sum) override {
+        first().add_responses(band, vpls, bound, turn, sum);
     }
 
     [[nodiscard]] LayerPtr black(const FrameBand& band) override { return first().black(band); }

@@ -6,8 +6,7 @@
 namespace mir {
 
 TracedScenePtr trace_by_kd_tree(const WorldGeometry& geometry, AnyExecutor& executor) {
-    return std::make_unique<TracedSceneOf<KdTreeScene>>(
-        std::make_unique<KdTreeScene>(geometry, executor));
+    return std::make_unique<TracedScene>(std::make_unique<const KdTreeScene>(geometry, executor));
 }
 
 KdTree tree_for_backends(const WorldGeometry& geometry, AnyExecutor& executor) {

@@ -4,6 +4,5 @@
 #include "runtime/traced_scenes.hpp"
 
 mir::TracedScenePtr mir::trace_by_shafts(const WorldGeometry& geometry, AnyExecutor& executor) {
-    return std::make_unique<TracedSceneOf<ShaftScene>>(
-        std::make_unique<ShaftScene>(geometry, executor));
+    return std::make_unique<TracedScene>(std::make_unique<const ShaftScene>(geometry, executor));
 }

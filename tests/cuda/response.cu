@@ -28,9 +28,10 @@ Responses responses_on_gpu(const Backend& backend,
     luxels.upload(queue, here);
     mir::BackendVisibility<Backend> seen(backend, luxels.grid(), vpls.size());
     seen.find(queue, luxels, there, rows.visibility());
-    mir::BackendResponse<Backend> rows_there(backend, here.extent(), vpls.size(), partial_sums);
+    mir::BackendResponse<Backend> sums_there(backend, here.extent(), vpls.size(), partial_sums);
     mir::ResponseSum sum(here.extent(), vpls.size());
-    sum.add_rows(here.extent(), rows_there.rows(queue, luxels, there, seen, shading));
+    sums_there.sum_rows(queue, luxels, there, seen, shading);
+    sum.add_by(here.extent(), [&](auto totals) { sums_there.add_rows(queue, totals); });
     return sum.mean();
 }
 

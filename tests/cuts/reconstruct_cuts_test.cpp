@@ -87,7 +87,7 @@ mir::Image<mir::Rgb> naive_gather(const KdStage<mir::Lambert>& stage, const mir:
     for (std::uint32_t y = 0; y < image.height(); ++y)
         for (std::uint32_t x = 0; x < image.width(); ++x) {
             const mir::LuxelIndex luxel = mir::BlockedLayout::inside(x, y);
-            numbers.start(Interleaved::place_here(luxel) / mir::blocks::group_size);
+            numbers.start(mir::InterleavedOrder::place_here(luxel) / mir::blocks::group_size);
             for (std::uint32_t i = 0; i < cut.size(); ++i) {
                 const std::uint32_t leaf = tree.pick(cut[i], numbers(i));
                 image(x, y) += contribution(view.hit(luxel), view.surface(luxel),
@@ -101,22 +101,22 @@ mir::Image<mir::Rgb> naive_gather(const KdStage<mir::Lambert>& stage, const mir:
 }  // namespace
 
 TEST_CASE("groups of an interleaved block have a luxel of each square, and pixels all quarters") {
-    using Interleaved = mir::blocks::InterleavedBlock<mir::VplShading<mir::Lambert>>;
     const auto group_at = [](std::uint32_t x, std::uint32_t y) {
-        return Interleaved::place_here(mir::BlockedLayout::inside(x, y)) / mir::blocks::group_size;
+        return mir::InterleavedOrder::place_here(mir::BlockedLayout::inside(x, y)) /
+               mir::blocks::group_size;
     };
     for (std::uint32_t group = 0; group < 16; ++group)
         for (std::uint32_t square = 0; square < 16; ++square) {
-            const std::uint32_t luxel = Interleaved::place_of(group, square);
+            const std::uint32_t luxel = mir::InterleavedOrder::place_of(group, square);
             CHECK(luxel / 16 == square);
-            CHECK(Interleaved::place_here(luxel) == group * 16 + square);
+            CHECK(mir::InterleavedOrder::place_here(luxel) == group * 16 + square);
         }
     std::uint32_t beside = 0;
     for (std::uint32_t y = 0; y < 16; y += 2)
         for (std::uint32_t x = 0; x < 16; x += 2) {
             std::uint32_t quarters = 0;
             for (std::uint32_t i = 0; i < 4; ++i)
-                quarters |= 1u << mir::CutPicks::stratum(group_at(x + i % 2, y + i / 2)) / 4;
+                quarters |= 1u << mir::PickNumbers::stratum(group_at(x + i % 2, y + i / 2)) / 4;
             CHECK(quarters == 15);
             beside += x + 4 < 16 && group_at(x, y) == group_at(x + 4, y) ? 1 : 0;
             beside += y + 4 < 16 && group_at(x, y) == group_at(x, y + 4) ? 1 : 0;

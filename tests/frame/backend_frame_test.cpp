@@ -40,7 +40,7 @@ RenderResult draw_on_host(const Scene& scene, const RenderSettings& settings) {
     InlineExecutor executor;
     mir::StageClock clock;
     mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
-    const mir::TracedSceneOf<mir::KdTreeScene> traced(std::make_unique<mir::KdTreeScene>(geometry));
+    const mir::TracedScene traced(std::make_unique<const mir::KdTreeScene>(geometry));
     return mir::render_vpls(*mir::host_frame(job, traced, mir::HostScheduler::cpu));
 }
 
@@ -72,7 +72,7 @@ RenderResult draw_split(const Scene& scene, const RenderSettings& settings,
     InlineExecutor executor;
     mir::StageClock clock;
     mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
-    const mir::TracedSceneOf<mir::KdTreeScene> traced(std::make_unique<mir::KdTreeScene>(geometry));
+    const mir::TracedScene traced(std::make_unique<const mir::KdTreeScene>(geometry));
     std::vector<std::unique_ptr<mir::RenderFrame>> parts;
     for (const BackendFrameOptions& of : options)
         parts.push_back(std::make_unique<Frame>(

@@ -33,8 +33,7 @@ RenderSettings settings(NormalisationPolicy policy = NormalisationPolicy::full) 
 
 struct Box {
     mirtest::World world{mirtest::glossy_box()};
-    mir::TracedSceneOf<mirtest::BruteForceScene> traced{
-        std::make_unique<mirtest::BruteForceScene>(world.geometry)};
+    mir::TracedScene traced{std::make_unique<const mirtest::BruteForceScene>(world.geometry)};
 
     /// `use(frame)` of a frame of the box.
     template <class Use, mir::Executor E>

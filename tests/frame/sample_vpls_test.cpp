@@ -53,8 +53,9 @@ class SamplingFrame final : public mir::RenderFrame {
     mir::BandPtr trace(mir::Extent, mir::Extent, std::uint32_t) override { return never(nullptr); }
     mir::BandPtr trace(const mir::ProbeRays&) override { return never(nullptr); }
     void find_visible(mir::FrameBand&, mir::VplSpan<mir::Space::host>) override { never(0); }
-    std::vector<mir::ImageResponse> row_responses(const mir::FrameBand&, Vpls, float) override {
-        return never(std::vector<mir::ImageResponse>{});
+    void add_responses(const mir::FrameBand&, Vpls, float, mir::BandTurn&,
+                       mir::ResponseSum&) override {
+        never(0);
     }
     mir::LayerPtr black(const mir::FrameBand&) override { return never(nullptr); }
     mir::LayerPtr direct(const mir::FrameBand&, mir::DirectSamples) override {
@@ -103,7 +104,7 @@ RenderSettings settings() {
 
 struct Render {
     mirtest::World world{mirtest::glossy_box()};
-    mir::TracedSceneOf<BruteForceScene> traced{std::make_unique<BruteForceScene>(world.geometry)};
+    mir::TracedScene traced{std::make_unique<const BruteForceScene>(world.geometry)};
     RenderSettings settings;
     mir::InlineExecutor executor;
     mir::StageClock clock;

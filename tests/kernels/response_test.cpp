@@ -33,7 +33,8 @@ Responses on_backend(const B& backend, const mirtest::LitBox<F>& box, Extent ima
         there.upload(queue, luxels);
         mir::BackendVisibility<B> seen(backend, there.grid(), vpls.size());
         seen.find(queue, there, vpls, box.engine.visibility());
-        sum.add_rows(band, there_sums.rows(queue, there, vpls, seen, shading));
+        there_sums.sum_rows(queue, there, vpls, seen, shading);
+        sum.add_by(band, [&](auto totals) { there_sums.add_rows(queue, totals); });
     }
     return sum.mean();
 }
@@ -107,14 +108,33 @@ TEST_CASE("Sums go from left to right along rows of blocks, then from top to bot
     for (std::uint32_t i = 0; i < 4; ++i) along(i);
     CHECK(rows[1].r == big);
     CHECK(rows[3].r == big + 2.0);
+    const auto check_means = [&](const mir::ResponseSum& sum) {
+        const std::vector<ImageResponse> means = sum.mean();
+        CHECK(means[1].r == (big + (big + 2.0)) / 32);
+        CHECK(means[1].g == 6.0 / 32);
+        CHECK(means[1].b == 12.0 / 32);
+        CHECK(means[0].lit_luxels == 0);
+        CHECK(means[1].lit_luxels == 6);
+    };
     mir::ResponseSum sum({1, 32}, 2);
     sum.add_rows({1, 32}, rows);
-    const std::vector<ImageResponse> means = sum.mean();
-    CHECK(means[1].r == (big + (big + 2.0)) / 32);
-    CHECK(means[1].g == 6.0 / 32);
-    CHECK(means[1].b == 12.0 / 32);
-    CHECK(means[0].lit_luxels == 0);
-    CHECK(means[1].lit_luxels == 6);
+    check_means(sum);
+    mir::ResponseSum by_kernel({1, 32}, 2);
+    by_kernel.add_by({1, 32}, [&](std::span<ImageResponse> totals) {
+        const mir::AddBlockRows down{rows.data(), 2, 2, totals.data()};
+        for (std::uint32_t j = 0; j < 2; ++j) down(j);
+    });
+    check_means(by_kernel);
+}
+
+TEST_CASE("Rows are added to totals one by one, not to each other") {
+    // The big total swallows each of the small rows, though not their sum.
+    std::vector<ImageResponse> totals{{0x1p53, 0.0, 0.0, 1}};
+    const std::vector<ImageResponse> rows(4, {1.0, 1.0, 1.0, 1});
+    mir::AddBlockRows{rows.data(), 4, 1, totals.data()}(0);
+    CHECK(totals[0].r == 0x1p53);
+    CHECK(totals[0].g == 4.0);
+    CHECK(totals[0].lit_luxels == 5);
 }
 
 TEST_CASE("Sums of other rows of blocks than a band's are refused") {
@@ -149,7 +169,8 @@ TEST_CASE("Black luxels do not count as lit on a backend, those beside them do")
     mir::BackendResponse<B> there(backend, image, box.vpls.size());
     const mir::VplShading<mir::Lambert> shading;
     mir::ResponseSum sum(image, box.vpls.size());
-    sum.add_rows(image, there.rows(queue, black, box.vpls.span(), seen, shading));
+    there.sum_rows(queue, black, box.vpls.span(), seen, shading);
+    sum.add_by(image, [&](auto totals) { there.add_rows(queue, totals); });
     const auto matrix = box.visibility(black, box.engine.visibility());
     const Responses wanted = response(black, box.vpls.span(), matrix, shading, executor);
     std::uint64_t lit = 0;
@@ -168,12 +189,13 @@ TEST_CASE("A response of no VPLs is empty") {
     mir::BackendVisibility<B> seen(backend, mir::TileGrid::of({16, 16}, box.gbuffer.tiles()), 0);
     seen.find(queue, box.gbuffer, none, box.engine.visibility());
     mir::BackendResponse<B> there(backend, {16, 16}, 0);
-    const Responses rows =
-        there.rows(queue, box.gbuffer, none, seen, mir::VplShading<mir::Lambert>{});
-    CHECK(rows.empty());
+    there.sum_rows(queue, box.gbuffer, none, seen, mir::VplShading<mir::Lambert>{});
     mir::ResponseSum sum({16, 16}, 0);
-    CHECK_NOTHROW(sum.add_rows({16, 16}, rows));
+    sum.add_by({16, 16}, [&](auto totals) { there.add_rows(queue, totals); });
     CHECK(sum.mean().empty());
+    mir::ResponseSum by_rows({16, 16}, 0);
+    CHECK_NOTHROW(by_rows.add_rows({16, 16}, {}));
+    CHECK(by_rows.mean().empty());
 }
 
 TEST_CASE("Luxels, VPLs and visibility that do not belong together are refused on a backend") {
@@ -189,10 +211,15 @@ TEST_CASE("Luxels, VPLs and visibility that do not belong together are refused o
                          const mir::TileGrid& seen_grid, std::uint32_t seen_vpls) {
         const mir::BackendVisibility<B> seen(backend, seen_grid, seen_vpls);
         mir::BackendResponse<B> there(backend, luxels, vpls);
-        return there.rows(queue, g, box.vpls.span(), seen, mir::VplShading<mir::Lambert>{});
+        there.sum_rows(queue, g, box.vpls.span(), seen, mir::VplShading<mir::Lambert>{});
+        std::vector<ImageResponse> totals(box.vpls.size() + 1);
+        CHECK_THROWS_AS(there.add_rows(queue, totals), mir::Error);
+        totals.pop_back();
+        there.add_rows(queue, totals);
     };
     CHECK_NOTHROW(add(box.gbuffer, image, n, grid, n));
     CHECK_THROWS_AS(add(box.gbuffer, {16, 64}, n, grid, n), mir::Error);
+    CHECK_THROWS_AS(add(box.gbuffer, {32, 16}, n, grid, n), mir::Error);
     CHECK_THROWS_AS(add(box.gbuffer, image, n + 1, grid, n), mir::Error);
     CHECK_THROWS_AS(add(box.gbuffer, image, n, grid, n + 1), mir::Error);
     CHECK_THROWS_AS(add(box.gbuffer, image, n, {image, {32, 16}}, n), mir::Error);

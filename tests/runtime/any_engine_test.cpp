@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "mir/runtime/any_engine.hpp"
 
+#include "conformance/block_suite.hpp"
 #include "conformance/brute_force.hpp"
 #include "conformance/packet_suite.hpp"
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/concepts/archetypes.hpp"
+#include "mir/host/shaft_scene.hpp"
 #include "support/brute_force_view.hpp"
 
 using mir::AnyEngine;
@@ -54,6 +56,15 @@ void has_the_bits_of() {
     CHECK(packets.different == 0);
 }
 
+/// A ShaftScene whose blocks are asked by virtual calls.
+struct ShaftsBehindCalls {
+    explicit ShaftsBehindCalls(const mir::WorldGeometry& geometry) : scene(geometry), any(scene) {}
+    [[nodiscard]] mir::AnyBlockVisibility visibility() const { return any.block_visibility(); }
+
+    mir::ShaftScene scene;
+    AnyEngine any;
+};
+
 /// Meets a surface as far as it may look.
 struct MeetsAtReach {
     [[nodiscard]] std::optional<mir::SurfacePoint> closest_hit(mir::Ray ray,
@@ -78,6 +89,13 @@ TEST_CASE("An engine behind virtual calls gives the engine's bits, with packets 
     static_assert(!mir::PacketVisibility<
                   decltype(std::declval<const mirtest::BruteForceRows&>().visibility())>);
     has_the_bits_of<mirtest::BruteForceRows>();
+}
+
+TEST_CASE("An engine behind virtual calls answers blocks where its own visibility does") {
+    const mirtest::World world = mirtest::triangle_soup(80, 21);
+    CHECK(AnyEngine(mir::ShaftScene(world.geometry)).answers_blocks());
+    CHECK_FALSE(AnyEngine(mir::KdTreeScene(world.geometry)).answers_blocks());
+    mirtest::block_suite<ShaftsBehindCalls>();
 }
 
 TEST_CASE("An engine behind virtual calls is told how far to look") {

@@ -7,8 +7,7 @@ namespace mir {
 namespace {
 
 TracedScenePtr trace_by_embree(const WorldGeometry& geometry) {
-    return std::make_unique<TracedSceneOf<cpu::EmbreeScene>>(
-        std::make_unique<cpu::EmbreeScene>(geometry));
+    return std::make_unique<TracedScene>(std::make_unique<const cpu::EmbreeScene>(geometry));
 }
 
 }  // namespace

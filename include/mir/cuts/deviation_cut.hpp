@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/cuts/cut_policy.hpp"
+#include "mir/cuts/growing_cut.hpp"
 #include "mir/cuts/node_deviation.hpp"
 
 #include <algorithm>
@@ -24,63 +25,37 @@ struct DeviationCut {
     template <InstructionSet Set, Shading F>
     [[nodiscard]] VplCut choose(const CutBlock<F>& block, const VplTree& tree,
                                 const F& shading) const {
-        std::vector<Candidate> heap;
+        const std::size_t most = std::min(picks, tree.size());
+        std::vector<GrowingCut::Listed> list(most);
+        std::vector<GrowingCut::Ranked> heap(most);
+        const GrowingCut growing{list.data(), heap.data()};
         blocks::LitVpls batch;
-        heap.reserve(picks + 1);
-        heap.push_back(candidate<Set>(block, tree, shading, batch, tree.root()));
-        while (heap.size() < picks && heap.front().deviation > 0.0f) {
-            std::pop_heap(heap.begin(), heap.end());
-            const VplNode node = heap.back().node;
-            heap.back() = candidate<Set>(block, tree, shading, batch, node.left());
-            std::push_heap(heap.begin(), heap.end());
-            heap.push_back(candidate<Set>(block, tree, shading, batch, node.right()));
-            std::push_heap(heap.begin(), heap.end());
+        const auto deviation = [&](const VplNode& node) {
+            return deviation_of<Set>(block, tree, shading, batch, node);
+        };
+        growing.start(tree.root(), deviation(tree.root()));
+        std::uint32_t size = 1;
+        for (; size < picks && growing.deviation() > 0.0f; ++size) {
+            const VplNode node = growing.widest();
+            growing.divide(size, deviation(node.left()), deviation(node.right()));
         }
-        return in_leaf_order(heap);
+        VplCut cut(size);
+        growing.write(size, cut.data());
+        return cut;
     }
 
  private:
-    struct Candidate {
-        VplNode node;
-        float deviation = 0.0f;
-
-        friend bool operator<(const Candidate& a, const Candidate& b) {
-            return a.deviation != b.deviation ? a.deviation < b.deviation
-                                              : a.node.first > b.node.first;
-        }
-    };
-
     template <InstructionSet Set, Shading F>
-    [[nodiscard]] Candidate candidate(const CutBlock<F>& block, const VplTree& tree,
-                                      const F& shading, blocks::LitVpls& batch,
-                                      const VplNode& node) const {
-        if (node.is_leaf()) return {node, 0.0f};
-        // One group tells: luxels of all squares of the block. Another one for each node.
-        std::uint32_t group = node.first * 7 % blocks::groups_per_block;
-        while (block.candidates[group] == 0) group = (group + 1) % blocks::groups_per_block;
-        const float deviation = node_deviation<Set>(block, group, tree, node, shading, batch);
-        return {node, larger(deviation, floor * largest_light(block.bounds, tree, node, shading))};
-    }
-
-    /// The most that a node's VPLs can bring to the block. The luxel reflects all light. The luxel
-    /// reflects all light.
-    template <Shading F>
-    [[nodiscard]] static float largest_light(const blocks::BlockBounds& luxels, const VplTree& tree,
-                                             const VplNode& node, const F& shading) {
-        const VplBounds& vpls = tree.bounds(node);
-        const Vec3 gap =
-            glm::max(glm::max(vpls.low - luxels.high, luxels.low - vpls.high), Vec3(0.0f));
-        const float geometry = smaller(1.0f / length_squared(gap), shading.bound);
-        return static_cast<float>(node.count) * vpls.most * geometry;
-    }
-
-    static VplCut in_leaf_order(const std::vector<Candidate>& heap) {
-        VplCut cut;
-        cut.reserve(heap.size());
-        for (const Candidate& c : heap) cut.push_back(c.node);
-        std::sort(cut.begin(), cut.end(),
-                  [](const VplNode& a, const VplNode& b) { return a.first < b.first; });
-        return cut;
+    [[nodiscard]] float deviation_of(const CutBlock<F>& block, const VplTree& tree,
+                                     const F& shading, blocks::LitVpls& batch,
+                                     const VplNode& node) const {
+        if (node.is_leaf()) return 0.0f;
+        const std::uint32_t group = telling_group(
+            node, blocks::groups_per_block, [&](std::uint32_t g) { return block.candidates[g]; });
+        const float largest = largest_light(block.bounds.low, block.bounds.high, tree.bounds(node),
+                                            node.count, shading.bound);
+        return larger(node_deviation<Set>(block, group, tree, node, shading, batch),
+                      floor * largest);
     }
 };
 

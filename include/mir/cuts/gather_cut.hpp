@@ -3,6 +3,7 @@
 
 #include "mir/blocks/lit_vpls.hpp"
 #include "mir/cuts/cut_picks.hpp"
+#include "mir/cuts/cut_policy.hpp"
 
 namespace mir {
 

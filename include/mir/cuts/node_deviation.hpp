@@ -2,10 +2,8 @@
 #pragma once
 
 #include "mir/blocks/lit_vpls.hpp"
+#include "mir/cuts/node_light.hpp"
 #include "mir/cuts/vpl_tree.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace mir {
 
@@ -18,35 +16,25 @@ template <InstructionSet Set, Shading F, class Hits>
                                                    std::uint32_t group, const VplTree& tree,
                                                    const VplNode& node, const F& shading,
                                                    blocks::LitVpls& batch) {
-    constexpr std::uint32_t samples = 8;
-    const bool all = node.count <= samples;
-    const std::uint32_t count = all ? node.count : samples;
-    float share[samples];
+    const std::uint32_t count = NodeSample::count_of(node);
+    float share[NodeSample::most];
     for (std::uint32_t k = 0; k < count; ++k) {
-        const std::uint64_t u = (std::uint64_t{k} << 61) | std::uint64_t{1} << 60;
-        const std::uint32_t leaf = all ? node.first + k : tree.pick(node, u);
-        Vpl vpl = tree.leaves()[leaf];
-        const float inverse = tree.inverse_probability(node, leaf);
-        share[k] = all ? 1.0f / inverse : 1.0f / samples;
-        vpl.intensity = vpl.intensity * inverse;
+        const NodeSample sample = NodeSample::of(tree.view(), node, k);
+        share[k] = sample.share;
         BlockMask lit;
         lit.packet[group] = block.candidates[group];
-        batch.add(vpl, lit);
+        batch.add(sample.vpl, lit);
     }
-    blocks::GroupRadiance light[samples];
+    blocks::GroupRadiance light[NodeSample::most];
     batch.template shade_each<Set>(block, shading, light);
     float variance = 0.0f;
     for (std::uint32_t lane = 0; lane < blocks::group_size; ++lane) {
-        float mean = 0.0f;
-        float square = 0.0f;
-        for (std::uint32_t k = 0; k < count; ++k) {
-            const float y = luminance(Rgb{light[k].r[lane], light[k].g[lane], light[k].b[lane]});
-            mean += share[k] * y;
-            square += share[k] * y * y;
-        }
-        variance += square - mean * mean;
+        SampleMoments moments;
+        for (std::uint32_t k = 0; k < count; ++k)
+            moments.add(share[k], {light[k].r[lane], light[k].g[lane], light[k].b[lane]});
+        variance += moments.variance();
     }
-    return std::sqrt(std::max(variance, 0.0f) / blocks::group_size);
+    return root_of_mean(variance, blocks::group_size);
 }
 
 }  // namespace mir

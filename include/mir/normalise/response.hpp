@@ -34,11 +34,22 @@ class ResponseSum {
     /// The same of a band whose sums (block_row_responses()) were found before, wherever that was.
     /// @throws Error(invalid_argument) when band or sums do not fit.
     void add_rows(Extent band, std::span<const ImageResponse> rows) {
-        bands_.check(band, bands_.vpls());
         expects(rows.size() == std::size_t{detail::block_rows(band.height)} * bands_.vpls(),
                 "a response was given sums of other rows or VPLs (they would be of nothing); give "
                 "one for each VPL and row of blocks of the band");
-        for (std::size_t i = 0; i < rows.size(); ++i) sums_[i % sums_.size()] += rows[i];
+        add_by(band, [rows](std::span<ImageResponse> totals) {
+            for (auto row = rows; !row.empty(); row = row.subspan(totals.size()))
+                for (std::size_t j = 0; j < totals.size(); ++j) totals[j] += row[j];
+        });
+    }
+
+    /// The same where another knows those sums. add(totals) adds each VPL's to its total, row by
+    /// row from top to bottom. An exception of it ends the sum, which then is of no use.
+    /// @throws Error(invalid_argument) when the band does not fit; what `add` throws.
+    template <class Add>
+    void add_by(Extent band, const Add& add) {
+        bands_.check(band, bands_.vpls());
+        add(std::span(sums_));
         bands_.count(band);
     }
 

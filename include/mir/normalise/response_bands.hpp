@@ -36,7 +36,6 @@ class ResponseBands {
 
     [[nodiscard]] Extent luxels() const { return luxels_; }
     [[nodiscard]] std::uint32_t vpls() const { return vpls_; }
-    [[nodiscard]] bool none_yet() const { return rows_ == 0; }
 
     /// @throws Error(invalid_argument) when the band is not the next one.
     void check(Extent band, std::uint32_t vpls) const {

@@ -8,15 +8,14 @@
 
 #include <algorithm>
 #include <span>
-#include <vector>
 
 namespace mir {
 
-/// block_row_responses() on a backend: what VPLs do to luxels of bands there. Their visibility
-/// lies there too. The order of sums is that of ResponseSum, which takes the rows on the host:
-/// neither tiles nor memory change a bit, and bits are those of the host where shading has the
-/// same. Memory: a sum for each VPL and row of blocks of a band, and `partial_sums` more. Not
-/// thread-safe.
+/// ResponseSum on a backend: what VPLs do to luxels of bands there. Their visibility lies there
+/// too. The order of sums is that of the host: neither tiles nor memory change a bit, and bits are
+/// those of the host where shading has the same. Totals alone come home, so that bands may be
+/// summed on several backends. Memory: a sum for each VPL and row of blocks of a band, and
+/// `partial_sums` more. Must not end before the work that it started. Not thread-safe.
 template <Backend B>
 class BackendResponse {
  public:
@@ -28,21 +27,26 @@ class BackendResponse {
     /// are.
     BackendResponse(const B& backend, Extent luxels, std::uint32_t vpls,
                     std::uint32_t partial_sums = 1u << 21)
-        : backend_(backend),
-          width_(luxels.width),
+        : most_(luxels),
           vpls_(vpls),
           chunk_(choose_chunk(luxels, vpls, partial_sums)),
-          partial_(backend.template buffer<ImageResponse>(chunk_.sums())) {}
+          partial_(backend.template buffer<ImageResponse>(chunk_.sums())),
+          rows_(backend.template buffer<ImageResponse>(
+              std::size_t{detail::block_rows(luxels.height)} * vpls)),
+          totals_(backend.template buffer<ImageResponse>(vpls)) {}
 
-    /// Sums for each row of blocks of a band, from top to bottom. Those of all VPLs. `seen` holds
-    /// the visibility of this band and these VPLs, whose intensities are not read. All work is done
-    /// when it returns.
-    /// @throws Error(invalid_argument) when VPLs or visibility do not fit or tiles cut blocks; what
-    ///         the backend throws.
+    /// Starts to sum each row of blocks of a band, for all VPLs. `seen` holds the visibility of
+    /// this band and these VPLs, whose intensities are not read.
+    /// @throws Error(invalid_argument) when band, VPLs or visibility do not fit or tiles cut
+    ///         blocks; what the backend throws.
     template <TiledGBuffer G, VplSet P, Shading F>
-    [[nodiscard]] std::vector<ImageResponse> rows(Queue& queue, const G& gbuffer, P vpls,
-                                                  const BackendVisibility<B>& seen,
-                                                  const F& shading);
+    void sum_rows(Queue& queue, const G& gbuffer, P vpls, const BackendVisibility<B>& seen,
+                  const F& shading);
+
+    /// Adds the rows of that band to totals of the bands above, by VPL. For ResponseSum::add_by().
+    /// All work is done when it returns.
+    /// @throws What the backend throws.
+    void add_rows(Queue& queue, std::span<ImageResponse> totals);
 
  private:
     /// Pairs of block and VPL that are summed at a time.
@@ -80,30 +84,29 @@ class BackendResponse {
     void sum_part(Queue& queue, const G& gbuffer, P vpls, const BackendVisibility<B>& seen,
                   const F& shading, const Part& part, ImageResponse* rows);
 
-    B backend_;
-    std::uint32_t width_;  ///< luxels
+    Extent most_;  ///< luxels of a band
     std::uint32_t vpls_;
+    std::uint32_t block_rows_ = 0;  ///< of the band that was summed
     Chunk chunk_;
     typename B::template Buffer<ImageResponse> partial_;
+    typename B::template Buffer<ImageResponse> rows_;
+    typename B::template Buffer<ImageResponse> totals_;
 };
 
 template <Backend B>
 template <TiledGBuffer G, VplSet P, Shading F>
-std::vector<ImageResponse> BackendResponse<B>::rows(Queue& queue, const G& gbuffer, P vpls,
-                                                    const BackendVisibility<B>& seen,
-                                                    const F& shading) {
+void BackendResponse<B>::sum_rows(Queue& queue, const G& gbuffer, P vpls,
+                                  const BackendVisibility<B>& seen, const F& shading) {
     detail::check_whole_blocks(gbuffer.tiles());
     const auto grid = TileGrid::of(gbuffer.extent(), gbuffer.tiles());
     const std::uint32_t n = vpls.size();
     expects(seen.grid() == grid && seen.vpls() == n,
             "a response was given visibility of other luxels or VPLs (it would be of nothing); "
             "give that of this band");
-    expects(n == vpls_ && grid.image.width == width_,
-            "a response was given luxels of another width or other VPLs (it would be of nothing); "
-            "give those it was made for");
-    std::vector<ImageResponse> sums(std::size_t{detail::block_rows(gbuffer.extent().height)} * n);
-    auto there = backend_.template buffer<ImageResponse>(sums.size());
-    const WaitAtEnd wait(queue);
+    expects(n == vpls_ && grid.image.width == most_.width && grid.image.height <= most_.height,
+            "a response was given luxels of another width, too many or other VPLs (it would be of "
+            "nothing); give those it was made for");
+    block_rows_ = detail::block_rows(grid.image.height);
     for (TileIndex first = 0; first < gbuffer.tiles().size(); first += grid.columns()) {
         const Tile tile = grid[first];
         const std::uint32_t rows = BlockedLayout::of(tile).blocks_y;
@@ -112,11 +115,20 @@ std::vector<ImageResponse> BackendResponse<B>::rows(Queue& queue, const G& gbuff
                 sum_part(queue, gbuffer, vpls, seen, shading,
                          {first, row, std::min(chunk_.rows, rows - row), j,
                           std::min(chunk_.vpls, n - j)},
-                         there.data() + (std::size_t{tile.y / BlockedLayout::side + row} * n + j));
+                         rows_.data() + (std::size_t{tile.y / BlockedLayout::side + row} * n + j));
     }
-    queue.download(there, std::span(sums));
+}
+
+template <Backend B>
+void BackendResponse<B>::add_rows(Queue& queue, std::span<ImageResponse> totals) {
+    expects(totals.size() == vpls_,
+            "a response was given totals of other VPLs (they would be of nothing); give one for "
+            "each VPL that it was made for");
+    const WaitAtEnd wait(queue);
+    queue.upload(std::span<const ImageResponse>(totals), totals_);
+    queue.for_each(vpls_, AddBlockRows{rows_.data(), block_rows_, vpls_, totals_.data()});
+    queue.download(totals_, totals);
     queue.record().sync();
-    return sums;
 }
 
 template <Backend B>

@@ -13,6 +13,33 @@ namespace mir {
 
 namespace detail {
 
+/// What a prepared block of luxels is asked.
+class BlockQuestions {
+ public:
+    BlockQuestions() = default;
+    BlockQuestions(const BlockQuestions&) = delete;
+    BlockQuestions& operator=(const BlockQuestions&) = delete;
+    virtual ~BlockQuestions() = default;
+
+    virtual void visible_block(Vec3 origin, BlockMask& mask) const = 0;
+};
+
+/// The call, answered by a visibility.
+template <BlockVisibility V>
+class BlockAnswers final : public BlockQuestions {
+ public:
+    BlockAnswers(const V& visibility, const SoaView<const Hit>& luxels, InstructionSet set)
+        : visibility_(visibility), block_(visibility.block(luxels, set)) {}
+
+    void visible_block(Vec3 origin, BlockMask& mask) const override {
+        visibility_.visible_block(block_, origin, mask);
+    }
+
+ private:
+    const V& visibility_;
+    typename V::Block block_;
+};
+
 /// What a ray engine is asked, one virtual call a question.
 class RayQuestions {
  public:
@@ -26,6 +53,10 @@ class RayQuestions {
     [[nodiscard]] virtual bool visible(Vec3 a, Vec3 b) const = 0;
     [[nodiscard]] virtual std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                        std::uint32_t active) const = 0;
+    [[nodiscard]] virtual bool answers_blocks() const = 0;
+    /// Null where it does not.
+    [[nodiscard]] virtual std::unique_ptr<const BlockQuestions> block(
+        const SoaView<const Hit>& luxels, InstructionSet set) const = 0;
 };
 
 /// The calls, answered by a ray caster and a visibility.
@@ -56,6 +87,14 @@ class RayAnswers final : public RayQuestions {
                     seen |= 1u << i;
             return seen;
         }
+    }
+    [[nodiscard]] bool answers_blocks() const override { return BlockVisibility<V>; }
+    [[nodiscard]] std::unique_ptr<const BlockQuestions> block(const SoaView<const Hit>& luxels,
+                                                              InstructionSet set) const override {
+        if constexpr (BlockVisibility<V>)
+            return std::make_unique<BlockAnswers<V>>(visibility_, luxels, set);
+        else
+            return nullptr;
     }
 
  private:
@@ -96,14 +135,30 @@ struct AnyVisibility {
     }
 };
 
+/// Asks an AnyEngine which luxels of a block see a point. Model of BlockVisibility, with the
+/// answers of the engine's own; thread-safe. The AnyEngine must outlive it.
+struct AnyBlockVisibility : AnyVisibility {
+    /// What the engine prepared of a block.
+    using Block = std::unique_ptr<const detail::BlockQuestions>;
+
+    /// By the engine's own visibility.
+    [[nodiscard]] Block block(const SoaView<const Hit>& luxels, InstructionSet set) const {
+        return calls->block(luxels, set);
+    }
+    /// The answer of the engine's own visibility.
+    void visible_block(const Block& block, Vec3 origin, BlockMask& mask) const {
+        block->visible_block(origin, mask);
+    }
+};
+
 static_assert(ShortRayCaster<AnyRayCaster>);
 static_assert(PacketVisibility<AnyVisibility>);
+static_assert(BlockVisibility<AnyBlockVisibility>);
 
-/// An engine of the host behind virtual calls. Code that traces ray by ray and takes a compiler
-/// long uses it: it is compiled once, not once for each engine. Loops over luxels and VPLs by the
-/// million keep the engine's own type, because they are compiled for vector registers with the
-/// traversal inside. Const use from any thread; what the engine's handles read must outlive it.
-/// Copies share them.
+/// An engine of the host behind virtual calls. Code that takes a compiler long uses it: it is
+/// compiled once, not once for each engine. A call answers for a ray, for a packet or for a block
+/// of luxels. Const use from any thread; what the engine's handles read must outlive it. Copies
+/// share them.
 class AnyEngine {
  public:
     /// `engine` offers ray_caster() and visibility().
@@ -115,6 +170,10 @@ class AnyEngine {
     [[nodiscard]] AnyRayCaster ray_caster() const { return {calls_.get()}; }
     /// Valid as long as this or a copy of it.
     [[nodiscard]] AnyVisibility visibility() const { return {calls_.get()}; }
+    /// Whether the engine's visibility is a BlockVisibility.
+    [[nodiscard]] bool answers_blocks() const { return calls_->answers_blocks(); }
+    /// Valid as long as this or a copy of it. For engines with answers_blocks() alone.
+    [[nodiscard]] AnyBlockVisibility block_visibility() const { return {{calls_.get()}}; }
 
  private:
     template <RayCaster R, Visibility V>

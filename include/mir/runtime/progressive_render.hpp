@@ -17,9 +17,10 @@ namespace mir {
 /// A picture that gets better pass by pass. Each pass is a whole render with random numbers of
 /// its own (pass_seed()): other luxels where a pixel has several, other VPLs, other light
 /// samples; the picture is the mean. Its variance falls as one over the number of passes; the
-/// spheres of virtual spherical lights shrink from pass to pass (vsl_radius_share()). Each pass
-/// builds everything again, the acceleration structure and the G-buffer too. One thread at a
-/// time.
+/// spheres of virtual spherical lights shrink from pass to pass (vsl_radius_share()). Passes share
+/// what the bound removes: 16 passes of 256 VPLs lose more light than one of 4096. A single luxel
+/// lies at the centre of its pixel in every pass, so edges want two. Each pass builds everything
+/// again, the acceleration structure and the G-buffer too. One thread at a time.
 class ProgressiveRender {
  public:
     /// Starts the clock of the goal. `renderer`, `scene` and `monitor`, which may be null, must

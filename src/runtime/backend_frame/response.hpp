@@ -3,6 +3,8 @@
 
 // What VPLs do to the image, from the visibility that a BackendFrame stored.
 
+#include "mir/normalise/response.hpp"
+#include "mir/resident/backend_response.hpp"
 #include "mir/resident/uploaded_vpls.hpp"
 #include "mir/resident/wait_at_end.hpp"
 #include "mir/shading/vpl_shading.hpp"
@@ -11,14 +13,17 @@
 namespace mir {
 
 template <Backend M, Bsdf B>
-std::vector<ImageResponse> BackendFrame<M, B>::row_responses(const FrameBand& band, Vpls vpls,
-                                                             float bound) {
+void BackendFrame<M, B>::add_responses(const FrameBand& band, Vpls vpls, float bound,
+                                       BandTurn& turn, ResponseSum& sum) {
     const Band& here = of(band);
     UploadedVpls<M> there(machine_, vpls);
-    BackendResponse<M> sums(machine_, band.extent(), vpls.size());
+    BackendResponse<M> responses(machine_, band.extent(), vpls.size());
     const WaitAtEnd wait(queue_);
     there.send(queue_);
-    return sums.rows(queue_, here.gbuffer, there.view(), *here.visibility, VplShading<B>{bound});
+    responses.sum_rows(queue_, here.gbuffer, there.view(), *here.visibility, VplShading<B>{bound});
+    turn.wait();
+    sum.add_by(band.extent(),
+               [&](std::span<ImageResponse> totals) { responses.add_rows(queue_, totals); });
 }
 
 }  // namespace mir

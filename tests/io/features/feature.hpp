@@ -234,8 +234,7 @@ inline std::string table_of(const std::vector<Extension>& extensions) {
         const std::string used = outcome_text(e.when_used);
         const std::string required = outcome_text(e.when_required);
         text += "| " + e.name + (e.about.empty() ? "" : ": " + e.about) + " | " +
-                with_words(used, e.words) + " | " + (required == used ? "the same" : required) +
-                " |\n";
+                with_words(used, e.words) + " | " + (required == used ? "same" : required) + " |\n";
     }
     return text;
 }

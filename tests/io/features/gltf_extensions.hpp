@@ -46,7 +46,7 @@ inline std::vector<Extension> geometry_extensions() {
             "KHR_mesh_quantization", "positions, normals, coordinates of 8 and 16 bits", quantized,
             read(mesh([](const mir::Mesh& m) { CHECK(m.positions.at(1) == mir::Vec3(7, 0, 0)); }))),
         extension("EXT_mesh_gpu_instancing", "copies of a mesh", two_copies, read(triangles(2)),
-                  "stored once in the scene, expanded to triangles for rendering"),
+                  "stored once, expanded for rendering"),
         optional_alone("KHR_draco_mesh_compression", "compressed meshes", draco,
                        counted({"KHR_draco_mesh_compression"}, triangles(1)),
                        "the accessors beside it are read"),
@@ -124,7 +124,7 @@ inline std::vector<Extension> texture_extensions() {
     const auto textured =
         material([](const mir::Material& m) { CHECK(m.textures.base_color.is_set()); });
     const Outcome lost = counted({"texture baseColorTexture without a PNG or JPEG image"});
-    const std::string fallback = "with a PNG or JPEG image beside it";
+    const std::string fallback = "beside a PNG or JPEG image";
     const Build moved = [](Gltf& g) {
         json use = g.texture();
         use["extensions"]["KHR_texture_transform"] = {{"offset", {0.25, 0.5}},
@@ -193,7 +193,7 @@ inline std::vector<Extension> other_extensions() {
         extension("KHR_animation_pointer", "", pointer, counted({"animation"}, triangles(1)),
                   "as stored at rest"),
         extension("KHR_node_visibility", "`visible` false", hidden, read(is_hidden),
-                  "the node and those below have no meshes and lights; cameras stay"),
+                  "hides meshes and lights of the node and those below, not cameras"),
         of_no_effect(
             "KHR_node_visibility", "`visible` true",
             [visible](Gltf& g) { visible(g.node(), true); }, plain_triangle),
@@ -204,8 +204,7 @@ inline std::vector<Extension> other_extensions() {
         optional_alone("MSFT_lod", "levels of detail", of_node("MSFT_lod"),
                        counted({"MSFT_lod"}, triangles(1)), "the finest one"),
         optional_alone("VENDOR_some_extension", "any other, of the file, scenes, nodes, materials",
-                       anywhere, counted({"VENDOR_some_extension"}, triangles(1)),
-                       "as though it were not there"),
+                       anywhere, counted({"VENDOR_some_extension"}, triangles(1)), "ignored"),
     };
 }
 

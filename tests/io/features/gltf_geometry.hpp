@@ -62,7 +62,7 @@ inline Features gltf_indices() {
                 read(mesh([](const mir::Mesh& m) {
                     CHECK(m.triangles.at(0) == mir::TriangleIndices{{2, 0, 1}});
                 })),
-                "without them vertices come in their order"),
+                "without: vertices in their order"),
         feature("indices of vertices that do not exist", "`indices`", {beyond},
                 refused("uses vertex 3 of 3")),
     };
@@ -187,7 +187,7 @@ inline Features gltf_attributes() {
                 "the flat normal there"),
         feature("vertex colours of floats, 8 and 16 bits, with alpha and without", "`COLOR_0`",
                 {floats, bytes, shorts}, colors({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}),
-                "they multiply the base colour. Their alpha means nothing but in masks"),
+                "they multiply the base colour; their alpha counts in masks only"),
         feature("vertex colours outside 0..1", "`COLOR_0`", {with_color([](Gltf& g) {
                     return g.floats({2, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
                 })},
@@ -201,7 +201,7 @@ inline Features gltf_attributes() {
                         material([](const mir::Material& m) { CHECK(m.alpha == 1.0f); })),
                 "taken as 1"),
         feature("tangents", "`TANGENT`", {bumpy_with_tangents}, without_effect(gltf(bumpy)),
-                "normal maps are read in the frame of the texture coordinates"),
+                "see [Textures](#textures)"),
         feature("attributes of programs, further colours", "`_ANYTHING`, `COLOR_1`",
                 {[](Gltf& g) { g.attributes()["_ANYTHING"] = 0; },
                  [](Gltf& g) { g.attributes()["COLOR_1"] = 0; }},
@@ -246,7 +246,7 @@ inline Features gltf_shapes() {
                     CHECK(m.positions.at(0) == mir::Vec3(0, 0, 2));
                     CHECK(m.normals.at(0) == mir::Vec3(0, 0, -1));
                 })),
-                "by the weights of the node, else of the mesh"),
+                "weights of the node, else of the mesh"),
         feature("morph targets of colours and texture coordinates", "`targets`", {[](Gltf& g) {
                     morphed("COLOR_0", 0.5f)(g);
                     g.surface()["baseColorTexture"] = g.texture();
@@ -259,8 +259,7 @@ inline Features gltf_shapes() {
                 without_effect(gltf([](Gltf&) {}))),
         feature("skins, of any number of joints a vertex", "`skin`, `JOINTS_0`, `JOINTS_1`",
                 {skinned(1), skinned(2)}, read(first_vertex({1, 0, 0})),
-                "as the scene stands: placed by joints and inverse bind matrices, the mesh's node "
-                "does not count"),
+                "placed by joints and inverse bind matrices, not by the mesh's node"),
         feature("skins that cannot be used", "`skin`", {[](Gltf& g) {
                     skinned(1)(g);
                     g.file["skins"][0]["joints"] = {99};

@@ -88,10 +88,10 @@ inline std::vector<Extension> read_materials() {
                   of_material("KHR_materials_specular", {{"specularTexture", {{"index", 0}}},
                                                          {"specularColorTexture", {{"index", 0}}}}),
                   counted({"texture specularColorTexture", "texture specularTexture"})),
-        extension("KHR_materials_unlit", "", unlit, read(orange),
-                  "shines with the radiance of its base colour, times 1 W m⁻² sr⁻¹, and reflects "
-                  "nothing: it is seen in its colour and lights what is around it. Vertex colours "
-                  "multiply that where they are one colour all over a primitive"),
+        extension(
+            "KHR_materials_unlit", "", unlit, read(orange),
+            "reflects nothing and shines with its base colour as radiance, W m⁻² sr⁻¹, which "
+            "lights what is around. A vertex colour multiplies it if a primitive has only one"),
         extension("KHR_materials_unlit", "vertex colours that differ", varied,
                   counted({"COLOR_0 of an unlit material"}, orange), "white"),
         extension("KHR_materials_pbrSpecularGlossiness",
@@ -109,8 +109,7 @@ inline std::vector<Extension> read_materials() {
                               CHECK(m.roughness == 0.25f);
                               CHECK(m.metallic == 0.0f);
                           })),
-                  "the two factors are read as those of a dielectric, the specular colour is "
-                  "white"),
+                  "both factors are read as of a dielectric; specular colour white"),
     };
 }
 
@@ -128,8 +127,8 @@ inline std::vector<Extension> counted_materials() {
         {"KHR_materials_volume_scatter", "wax and milk"}};
     std::vector<Extension> all;
     for (const auto& [name, about] : names)
-        all.push_back(extension(name, about, of_material(name), counted({name}, triangles(1)),
-                                "as though it were not there"));
+        all.push_back(
+            extension(name, about, of_material(name), counted({name}, triangles(1)), "ignored"));
     const Build variants = [](Gltf& g) {
         g.file["extensions"]["KHR_materials_variants"] = {
             {"variants", json::array({{{"name", "red"}}})}};
@@ -137,7 +136,7 @@ inline std::vector<Extension> counted_materials() {
     };
     all.push_back(extension("KHR_materials_variants", "materials to choose from", variants,
                             counted({"KHR_materials_variants"}, triangles(1)),
-                            "the material of the primitive itself"));
+                            "the primitive's own material"));
     return all;
 }
 

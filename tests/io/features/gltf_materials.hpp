@@ -72,7 +72,7 @@ inline Features gltf_alpha() {
         feature("blending", "`alphaMode` BLEND", {with_material({{"alphaMode", "BLEND"}})},
                 counted({"alphaMode BLEND"},
                         material([](const mir::Material& m) { CHECK_FALSE(m.is_masked()); })),
-                "opaque, with the colours of what should shine through"),
+                "opaque"),
     };
 }
 
@@ -106,7 +106,7 @@ inline Features gltf_textures() {
                 {with_texture("emissiveTexture", false)}, has(&T::emission)),
         feature("texture of occlusion", "`occlusionTexture`",
                 {with_texture("occlusionTexture", false)}, counted({"texture occlusionTexture"}),
-                "light tells what is occluded"),
+                "the picture has the real one"),
         feature("wrapping: repeat, clamp, mirror", "`wrapS`, `wrapT`", {[](Gltf& g) {
                     g.surface()["baseColorTexture"] = g.texture();
                     g.file["textures"][0]["sampler"] = 0;
@@ -158,7 +158,7 @@ inline Features gltf_coordinates() {
                     g.material()["normalTexture"] = {{"index", 0}};
                 }},
                 counted({"texture normalTexture on a second set of coordinates"}),
-                "the set of the first texture is taken"),
+                "the first texture's set is taken"),
         feature("textures without coordinates", "no `TEXCOORD_0`", {[](Gltf& g) {
                     g.surface()["baseColorTexture"] = g.texture();
                     g.attributes().erase("TEXCOORD_0");
@@ -204,7 +204,7 @@ inline Features gltf_images() {
             }},
             read([](const mir::LoadedScene& loaded) { CHECK(loaded.scene.images.size() == 1); })),
         image("WebP", "image", data("webp", "UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA=="),
-              counted({other, lost}), "no texture"),
+              counted({other, lost})),
         image("KTX2", "image", data("ktx2", "q0tUWCAyMLsNChoK"), counted({other, lost})),
         image("DDS", "image", data("vnd-ms.dds", "RERTIHwAAAA="), counted({other, lost})),
         image("images that are missing", "`uri`", {{"uri", "no.png"}},
@@ -220,7 +220,7 @@ inline Features gltf_images() {
     };
     all.push_back(feature("images outside of the folder", "`uri`", {outside},
                           counted({"image outside of the scene's folder", lost}),
-                          "unless `Limits::allow_outside` is set"));
+                          "see [Files](#files-beside-the-scene)"));
     return all;
 }
 

@@ -28,7 +28,7 @@ inline Features gltf_nodes() {
                     CHECK(loaded.report.stored_triangles == 1);
                     CHECK(loaded.report.triangles == 2);
                 }),
-                "stored once in the scene, expanded to triangles for rendering"),
+                "stored once, expanded for rendering"),
         feature("nodes in a circle", "`children`", {[](Gltf& g) { g.node()["children"] = {0}; }},
                 refused("it is its own ancestor or below such a node")),
         feature("several scenes", "`scenes`, `scene`", {[](Gltf& g) {
@@ -36,7 +36,7 @@ inline Features gltf_nodes() {
                     g.file["scene"] = 1;
                 }},
                 noted("the file has 2 scenes: scene 1 was read", triangles(1)),
-                "the default one, else the first"),
+                "the default, else the first"),
         feature("no scene", "no `scenes`", {[](Gltf& g) {
                     g.file.erase("scenes");
                     g.file.erase("scene");
@@ -125,7 +125,7 @@ inline Features gltf_containers() {
         feature("buffers outside of the folder", "`uri`",
                 {with_buffer("../secret.bin", "../secret.bin")},
                 refused("lies outside of the scene's folder"),
-                "unless `Limits::allow_outside` is set"),
+                "see [Files](#files-beside-the-scene)"),
         feature("buffers elsewhere", "`uri` with `http:`, `file:`",
                 {with_buffer("http://example.com/a.bin"), with_buffer("file:///a.bin")},
                 refused("this reader opens files beside the scene")),

@@ -73,12 +73,12 @@ inline Features mtl_colors() {
             read(material([](const mir::Material& m) { CHECK(m.ior == 1.25f); }))),
         key("an index of 1 or less", "`Ni`", {"Ni 1", "Ni 0"},
             read(material([](const mir::Material& m) { CHECK(m.ior == 1.5f); })),
-            "taken as 1.5, for exporters write it for none"),
+            "taken as 1.5: exporters write it for none"),
         key("ambient colour, sharpness of reflections", "`Ka`, `map_Ka`, `sharpness`",
             {"Ka 1 1 1", "map_Ka a.png", "sharpness 60"}, without_effect(mtl("")),
             "light from around is computed"),
         key("keywords with nothing behind them", "for instance `Kd`", {"Kd"},
-            counted({"MTL 'Kd' without a value"}), "as though they were not there"),
+            counted({"MTL 'Kd' without a value"}), "ignored"),
         key("numbers that are none", "for instance `Ns x`", {"Ns x"},
             refused("a.mtl, line 2: Ns is no number")),
     };
@@ -94,7 +94,7 @@ inline Features mtl_models() {
         key("highlights, reflections", "`illum` 2, 3, 5, 8",
             {"Ks 1\nillum 2", "Ks 1\nillum 3", "Ks 1\nillum 5", "Ks 1\nillum 8"},
             read(material([](const mir::Material& m) { CHECK(m.specular == 1.0f); })),
-            "`Ks` and `Ns` say how strong and sharp they are"),
+            "by `Ks` and `Ns`"),
         key("glass", "`illum` 4, 6, 7, 9", {"illum 4", "illum 6", "illum 7", "illum 9"},
             counted({glass}), "opaque"),
         key("surfaces that only catch shadows", "`illum` 10", {"illum 10"},
@@ -102,7 +102,7 @@ inline Features mtl_models() {
         key("filter of what shines through", "`Tf`, `Kt`", {"Tf 0.5 1 1", "Kt 0.5 1 1"},
             counted({glass}), "opaque; `1 1 1` means none"),
         key("opacity, transparency", "`d`, `Tr`", {"d 0.5", "Tr 0.5", "d 0.5\nTr 0\nillum 4"},
-            counted({thin}), "opaque; once for a material, and `d` stands before `Tr`"),
+            counted({thin}), "opaque; once a material; `d` before `Tr`"),
         key("opacity that is full", "`d 1`, `Tr 0`", {"d 1", "Tr 0", "d 1\nTr 1"},
             without_effect(mtl(""))),
         key("opacity towards the rim", "`d -halo`", {"d -halo 1"}, counted({"MTL option '-halo'"}),
@@ -134,19 +134,19 @@ inline Features mtl_textures() {
                 CHECK(m.textures.base_color.is_set());
                 CHECK(m.base_color == mir::Rgb{1, 1, 1});
             })),
-            "sRGB; multiplies `Kd`, or white where there is none. Names may hold blanks"),
+            "sRGB; multiplies `Kd`, else white; names may hold blanks"),
         key("texture of the emission", "`map_Ke`", {"map_Ke a.png"},
             read(material([](const mir::Material& m) {
                 CHECK(m.textures.emission.is_set());
                 CHECK(m.emission == mir::Rgb{1, 1, 1});
             })),
-            "sRGB; multiplies `Ke`, or 1 W m⁻² sr⁻¹ where there is none"),
+            "sRGB; multiplies `Ke`, else 1 W m⁻² sr⁻¹"),
         key("normal map", "`norm`, `-bm`", {"norm a.png", "norm -bm 0.5 a.png"}, has(&T::normal),
             "`-bm` is its scale"),
         key("texture of the opacity", "`map_d`, `-imfchan`", {"map_d -imfchan r a.png"},
             read(material([](const mir::Material& m) { CHECK(m.alpha_cutoff == 0.5f); })),
-            "[mask](#masks) with the cutoff 0.5: alpha of the image, or how bright it is where it "
-            "has none; `-imfchan r`, `g`, `b`, `m` (alpha) or `l` (brightness) chooses"),
+            "[mask](#masks), cutoff 0.5, of the image's alpha, else brightness; `-imfchan r`, `g`, "
+            "`b`, `m` (alpha) or `l` (brightness) chooses"),
         key("an opacity that lies otherwise than the colour", "`map_d`, `map_Kd`",
             {"map_Kd a.png\nmap_d -s 2 2 a.png"},
             counted({"map_d with other options than map_Kd"})),
@@ -176,8 +176,7 @@ inline Features mtl_images() {
                 CHECK(t.u_axis.x == 2.0f);
                 CHECK(t.offset.x == 0.25f);
             }),
-            "lookups are at (s u + o, s v + o), as modelling programs write it, v counted from "
-            "below"),
+            "lookups at (s u + o, s v + o), v from below"),
         key("clamping", "`-clamp`", {"map_Kd -clamp on a.png"},
             placed([](const mir::Texture& t) { CHECK(t.wrap_u == mir::Wrap::clamp); }),
             "`on` clamps to the edge, else images repeat"),
@@ -191,7 +190,7 @@ inline Features mtl_images() {
             counted({"image 'none.png' (not found)"})),
         key("images outside of the folder", "`map_Kd`", {"map_Kd ../a.png"},
             counted({"image '../a.png' (outside of the folder of the OBJ file)"}),
-            "unless `--allow-outside` (`Limits::allow_outside`) is given"),
+            "see [OBJ and MTL](#obj-and-mtl)"),
         key("images neither PNG nor JPEG", "`map_Kd`", {"map_Kd a.webp"},
             counted({"image that is neither PNG nor JPEG"})),
         key("broken images", "`map_Kd`", {"map_Kd broken.png"}, refused("it cannot be decoded")),

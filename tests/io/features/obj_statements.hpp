@@ -42,9 +42,7 @@ inline Features obj_faces() {
         obj_feature(
             "faces with texture coordinates", "`f 1/1 2/2 3/3`, `f 1/1/ 2/2/ 3/3/`",
             {d + "f 1/1 2/2 3/3 4/4\n", d + "f 1/1/ 2/2/ 3/3/ 4/4/\n", d + "f 1/ 2/ 3/ 4/\n"},
-            read(same),
-            "nothing behind a slash means none; coordinates are kept for materials with "
-            "textures"),
+            read(same), "kept for materials with textures"),
         obj_feature(
             "faces with normals", "`f 1//1 2//2 3//3`, `f 1/1/1 2/2/2 3/3/3`",
             {d + "f 1//1 2//2 3//3 4//4\n", d + "f 1/1/1 2/2/2 3/3/3 4/4/4\n"},
@@ -58,7 +56,7 @@ inline Features obj_faces() {
                         // A cut across the dent would make it 0.7.
                         CHECK(geometry.area(0) + geometry.area(1) == Approx(0.3));
                     }),
-                    "cut into triangles; 4096 corners at most where there are dents"),
+                    "cut into triangles; with dents at most 4096 corners"),
         obj_feature("faces of fewer than three corners", "`f 1 2`, `f 1`", {"f 1 2\n", "f 1\n"},
                     counted({"face of fewer than three corners"}), "left out"),
         obj_feature("corners that are not there yet", "`f 0 1 2`, `f 1 2 9`, `f 1/9 2/9 3/9`",
@@ -82,12 +80,11 @@ inline Features obj_elements() {
                     read(mesh([](const mir::Mesh& m) {
                         CHECK(m.colors.at(0) == mir::Rgb{1, 0, 0});
                     })),
-                    "sRGB; they multiply the base colour, which is white without a material"),
+                    "sRGB; they multiply the base colour, white without material"),
         obj_feature("vertex colours outside 0..1", "`v x y z r g b`", {"v 0 0 1 2 0 0\nf 1 2 5\n"},
                     counted({"vertex colour outside 0..1 (clamped)"})),
         obj_feature("weights of vertices, depths of textures", "`v x y z w`, `vt u v w`",
-                    {"v 0 0 1 1\nvt 0 0 0\nf 1 2 5\n"}, read(triangles(1)),
-                    "polygons and images have no use for them"),
+                    {"v 0 0 1 1\nvt 0 0 0\nf 1 2 5\n"}, read(triangles(1)), "not used"),
         obj_feature("curves", "`cstype`, `deg`, `curv`, `parm`, `end`",
                     {"cstype bezier\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 1\nend\nf 1 2 3\n"},
                     counted({"statement 'cstype'", "statement 'curv'", "statement 'deg'",
@@ -175,7 +172,7 @@ inline Features obj_libraries() {
           obj("mtllib my\\ own.mtl b.mtl\n" + use, {{"my own.mtl", red}, {"b.mtl", ""}}),
           obj("mtllib sub/a.mtl\nmtllib sub/a.mtl\n" + use, {{"sub/a.mtl", red}})},
          read(is_red),
-         "relative to the file; a backslash may stand before a blank of a name"},
+         "relative to the file; a blank may have a backslash before it"},
         {"libraries that are missing",
          "`mtllib`",
          {obj("mtllib none.mtl\n" + use)},
@@ -185,7 +182,7 @@ inline Features obj_libraries() {
          "`mtllib`",
          {obj("mtllib ../a.mtl\n" + use, {{"../a.mtl", red}})},
          refused("lies outside of the folder of the OBJ file"),
-         "unless `--allow-outside` (`Limits::allow_outside`) is given"},
+         "see [OBJ and MTL](#obj-and-mtl)"},
         obj_feature("materials that no library has", "`usemtl`", {use},
                     counted({unknown}, is_default)),
         {"several materials of one name",
@@ -197,7 +194,7 @@ inline Features obj_libraries() {
          "`newmtl`",
          {obj("mtllib a.mtl\n" + use, {{"a.mtl", red + "newmtl b\nrefl x.png\nmap_Kd x.png\n"}})},
          read(is_red),
-         "nothing of them is counted, and their images are not read"},
+         "not counted; images not read"},
         obj_feature("no material", "no `usemtl`", {"f 1 2 3\n"}, read(is_default),
                     "Lambertian, reflectance 0.8"),
     };

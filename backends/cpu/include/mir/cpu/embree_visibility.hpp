@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/concepts/visibility.hpp"
+#include "mir/core/instruction_set.hpp"
 #include "mir/cpu/detail/embree.hpp"
 
 #include <limits>
@@ -37,6 +38,20 @@ struct EmbreeVisibility {
                                                std::uint32_t active) const {
         RTCRay16 rays;
         alignas(64) int valid[16];
+        const InstructionSet set = best_instruction_set();
+        run_with(set, [&] { fill(rays, valid, origin, points, active); });
+        detail::occluded16(valid, scene, rays);
+        std::uint32_t seen = 0;
+        run_with(set, [&] {
+            for (std::uint32_t k = 0; k < 16; ++k)
+                seen |= static_cast<std::uint32_t>(rays.tfar[k] >= 0.0f) << k;
+        });
+        return seen & active;
+    }
+
+ private:
+    static void fill(RTCRay16& rays, int* valid, Vec3 origin, const PointPacket& points,
+                     std::uint32_t active) {
         for (std::uint32_t k = 0; k < 16; ++k) {
             const bool on = (active >> k & 1u) != 0;
             rays.org_x[k] = origin.x;
@@ -53,11 +68,6 @@ struct EmbreeVisibility {
             rays.mask[k] = detail::all_rays;
             valid[k] = on ? -1 : 0;
         }
-        detail::occluded16(valid, scene, rays);
-        std::uint32_t seen = 0;
-        for (std::uint32_t k = 0; k < 16; ++k)
-            seen |= static_cast<std::uint32_t>(rays.tfar[k] >= 0.0f) << k;
-        return seen & active;
     }
 };
 
