@@ -211,7 +211,9 @@ def test_arrays_that_cannot_be_used(torch, lit):
     )
     lonely = {"positions": there["position"]}
     assert error_of(lambda: mir.reconstruct(scene, there, lonely))[0] == "invalid_argument"
-    assert error_of(lambda: mir.Scene().add_mesh(there["position"][0], [[0, 1, 2]]))[1] == "vertices"
+    grey = mir.Scene()
+    grey.add_material()
+    assert error_of(lambda: grey.add_mesh(there["position"][0], [[0, 1, 2]]))[1] == "vertices"
 
 
 def test_no_memory_leaks(torch, lit):

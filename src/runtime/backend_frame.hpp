@@ -21,6 +21,9 @@
 
 namespace mir {
 
+template <Backend B>
+class BackendCuts;
+
 /// How contributions are arranged in time.
 enum class BackendScheduler { os, rc, rcvp };
 
@@ -79,6 +82,8 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] LayerPtr coverage(const FrameBand& band) override;
     [[nodiscard]] LayerPtr light(const FrameBand& band, VplSpan<Space::host> vpls, VplKernel kernel,
                                  Monitor* monitor) override;
+    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const CutVpls& vpls, float bound,
+                                         Monitor* monitor) override;
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 
@@ -163,6 +168,8 @@ class BackendFrame final : public RenderFrame {
     std::optional<UploadedKdTree<M>> tree_;
     std::optional<BackendWideBvh<M>> bvh_;
     std::optional<QuantisedBvh<M>> short_bvh_;
+    std::optional<CutVpls> cut_vpls_;       ///< the last that were gathered
+    std::shared_ptr<BackendCuts<M>> cuts_;  ///< of these
     std::optional<Picture> picture_;
 };
 

@@ -97,7 +97,7 @@ class BackendRenderer final : public Renderer {
         const bool by_vpls = settings.integrator == Integrator::vpl;
         const BackendStructures structures =
             by_vpls ? structures_of(placed.geometry.is_masked(), settings) : tree_alone;
-        const RenderSettings decided = with_light_sum(settings, backend_features);
+        const RenderSettings decided = with_light_sum(settings);
         RenderJob job(placed, decided);
         RenderResult result =
             by_vpls ? render_there(job, structures, machines) : render_here(job, machines.front());

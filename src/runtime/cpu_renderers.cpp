@@ -16,7 +16,7 @@ class CpuRenderer : public Renderer {
 
     RenderResult render(const Scene& scene, const RenderSettings& wanted,
                         Monitor* monitor) const override {
-        const RenderSettings settings = with_light_sum(wanted, host_features);
+        const RenderSettings settings = with_light_sum(wanted);
         CheckedRender checked(scene, settings, monitor, std::launch::deferred);
         const HostTracing tracing = trace_on_host(checked.placed(), settings);
         RenderJob job(checked.placed(), settings);

@@ -12,11 +12,11 @@ namespace mir {
 
 /// What some frames (RenderFrame) can do and others cannot.
 enum class FrameFeature {
-    embree,    ///< Acceleration::embree
-    residual,  ///< RenderSettings::compensate
-    spheres,   ///< VslSettings
-    lobes,     ///< GlossySettings
-    cuts       ///< LightSum::cuts
+    embree,     ///< Acceleration::embree
+    residual,   ///< RenderSettings::compensate
+    spheres,    ///< VslSettings
+    lobes,      ///< GlossySettings
+    pick_error  ///< RenderSettings::pick_error_layer
 };
 
 /// Features of a kind of frame.
@@ -47,9 +47,9 @@ class FrameFeatures {
         case FrameFeature::spheres:
             return "spheres light luxels on the processor only (this backend keeps its luxels to "
                    "itself); use --backend cpu or leave --vsl out";
-        case FrameFeature::cuts:
-            return "cuts of many VPLs are gathered on the processor only (kernels of this backend "
-                   "gather all); use --backend cpu or --sum all";
+        case FrameFeature::pick_error:
+            return "the error of picks is estimated on the processor only (kernels of this backend "
+                   "keep no pick); use --backend cpu or leave the layer pick_error out";
         case FrameFeature::lobes:
             break;
     }
@@ -71,16 +71,15 @@ class FrameFeatures {
         {FrameFeature::residual, by_vpls && s.compensate > 0},
         {FrameFeature::spheres, by_vpls && s.vsl.enabled},
         {FrameFeature::lobes, by_vpls && s.glossy.enabled},
-        {FrameFeature::cuts, by_vpls && (s.sum == LightSum::cuts || s.pick_error_layer)}};
+        {FrameFeature::pick_error, by_vpls && s.pick_error_layer}};
     for (const auto& [feature, is_wanted] : wanted)
         if (is_wanted && !features.has(feature)) return reason_without(feature);
     return "";
 }
 
-/// The settings with LightSum::automatic decided for frames with these features.
-[[nodiscard]] inline RenderSettings with_light_sum(RenderSettings s, FrameFeatures features) {
-    if (s.sum == LightSum::automatic)
-        s.sum = s.wants_cuts() && features.has(FrameFeature::cuts) ? LightSum::cuts : LightSum::all;
+/// The settings with LightSum::automatic decided.
+[[nodiscard]] inline RenderSettings with_light_sum(RenderSettings s) {
+    if (s.sum == LightSum::automatic) s.sum = s.wants_cuts() ? LightSum::cuts : LightSum::all;
     return s;
 }
 

@@ -82,8 +82,18 @@ class HostFrame final : public RenderFrame {
     }
     [[nodiscard]] LayerPtr light(const FrameBand& band, Vpls vpls, VplKernel kernel,
                                  Monitor* monitor) override;
-    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
-                                         FrameLayer* variance, Monitor* monitor) override;
+    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const CutVpls& vpls, float bound,
+                                         Monitor* monitor) override {
+        return gathered_by_cuts(band, vpls, bound, nullptr, monitor);
+    }
+    [[nodiscard]] LayerPtr light_and_error_by_cuts(const FrameBand& band, const CutVpls& vpls,
+                                                   float bound, FrameLayer& variance,
+                                                   Monitor* monitor) override {
+        Image<float> more;
+        LayerPtr light = gathered_by_cuts(band, vpls, bound, &more, monitor);
+        add_errors(HostLayer::of(variance), more, job_.executor);
+        return light;
+    }
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 
@@ -115,6 +125,8 @@ class HostFrame final : public RenderFrame {
                         job_.lights.environment().view(), job_.executor);
         return band;
     }
+    [[nodiscard]] LayerPtr gathered_by_cuts(const FrameBand& band, const CutVpls& vpls, float bound,
+                                            Image<float>* variance, Monitor* monitor);
     [[nodiscard]] Image<Rgb> light_of_points(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
                                              Monitor* monitor);
     [[nodiscard]] Image<Rgb> light_of_shapes(const HostBand<B>& band, Vpls vpls, VplKernel kernel,
@@ -130,15 +142,12 @@ class HostFrame final : public RenderFrame {
 };
 
 template <Bsdf B>
-LayerPtr HostFrame<B>::light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
-                                     FrameLayer* variance, Monitor* monitor) {
-    Image<float> more;
-    LayerPtr light = host_layer(reconstruct_cuts(
-        HostBand<B>::of(band).gbuffer, tree, rays().visibility(), VplShading<B>{bound},
+LayerPtr HostFrame<B>::gathered_by_cuts(const FrameBand& band, const CutVpls& vpls, float bound,
+                                        Image<float>* variance, Monitor* monitor) {
+    return host_layer(reconstruct_cuts(
+        HostBand<B>::of(band).gbuffer, vpls.tree(), rays().visibility(), VplShading<B>{bound},
         DeviationCut{job_.settings.picks}, {job_.settings.seed, band.first_row}, job_.executor,
-        monitor, best_instruction_set(), variance != nullptr ? &more : nullptr));
-    if (variance != nullptr) add_errors(HostLayer::of(*variance), more, job_.executor);
-    return light;
+        monitor, best_instruction_set(), variance));
 }
 
 template <Bsdf B>

@@ -9,10 +9,6 @@
 
 namespace mir {
 
-/// Features of the frames of host_frame(), Embree apart.
-inline constexpr FrameFeatures host_features{FrameFeature::residual, FrameFeature::spheres,
-                                             FrameFeature::lobes, FrameFeature::cuts};
-
 /// A frame in the host's memory (HostBand, HostLayer). VPLs light luxels in the order of a
 /// scheduler. What is passed in must outlive it.
 [[nodiscard]] std::unique_ptr<RenderFrame> host_frame(RenderJob& job, const TracedScene& traced,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/cuts/vpl_tree.hpp"
 #include "mir/data/image.hpp"
 #include "mir/data/vpl_record.hpp"
 #include "mir/metropolis/metropolis_options.hpp"
@@ -9,6 +8,7 @@
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/shading/direct_samples.hpp"
 #include "runtime/band_turn.hpp"
+#include "runtime/cut_vpls.hpp"
 #include "runtime/frame_features.hpp"
 #include "runtime/render_job.hpp"
 #include "runtime/vpl_kernel.hpp"
@@ -115,14 +115,18 @@ class RenderFrame {
     /// `monitor`, which may be null, counts pairs of luxel and VPL.
     [[nodiscard]] virtual LayerPtr light(const FrameBand& band, VplSpan<Space::host> vpls,
                                          VplKernel kernel, Monitor* monitor) = 0;
-    /// Light of the VPLs of a tree by cuts of RenderSettings::picks, under `bound`. `variance` may
-    /// be null. Else its standard errors, roots of its gray values, grow by those of the light: so
-    /// much they grow at most, and do where picks of several trees err together.
-    /// @throws Error(unsupported) of frames without FrameFeature::cuts.
-    [[nodiscard]] virtual LayerPtr light_by_cuts(const FrameBand& /*band*/, const VplTree& /*tree*/,
-                                                 float /*bound*/, FrameLayer* /*variance*/,
-                                                 Monitor* /*monitor*/) {
-        throw without(FrameFeature::cuts);
+    /// Light of VPLs by cuts of RenderSettings::picks, under `bound`.
+    [[nodiscard]] virtual LayerPtr light_by_cuts(const FrameBand& band, const CutVpls& vpls,
+                                                 float bound, Monitor* monitor) = 0;
+    /// The same, and adds standard errors of its picks. Those of `variance`, a gray layer of their
+    /// squares, grow by those of the light: so much they grow at most, and do where picks of
+    /// several trees err together.
+    /// @throws Error(unsupported) of frames without FrameFeature::pick_error.
+    [[nodiscard]] virtual LayerPtr light_and_error_by_cuts(const FrameBand& /*band*/,
+                                                           const CutVpls& /*vpls*/, float /*bound*/,
+                                                           FrameLayer& /*variance*/,
+                                                           Monitor* /*monitor*/) {
+        throw without(FrameFeature::pick_error);
     }
     /// sum += layer.
     virtual void add(FrameLayer& sum, const FrameLayer& layer) = 0;

@@ -54,9 +54,14 @@ class SplitFrame final : public RenderFrame {
                                  Monitor* monitor) override {
         return first().light(band, vpls, kernel, monitor);
     }
-    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const VplTree& tree, float bound,
-                                         FrameLayer* variance, Monitor* monitor) override {
-        return first().light_by_cuts(band, tree, bound, variance, monitor);
+    [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const CutVpls& vpls, float bound,
+                                         Monitor* monitor) override {
+        return first().light_by_cuts(band, vpls, bound, monitor);
+    }
+    [[nodiscard]] LayerPtr light_and_error_by_cuts(const FrameBand& band, const CutVpls& vpls,
+                                                   float bound, FrameLayer& variance,
+                                                   Monitor* monitor) override {
+        return first().light_and_error_by_cuts(band, vpls, bound, variance, monitor);
     }
     void add(FrameLayer& sum, const FrameLayer& layer) override { first().add(sum, layer); }
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override {

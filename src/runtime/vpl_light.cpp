@@ -27,8 +27,9 @@ VplLight::VplLight(const RenderSettings& settings, float bound, const VplList& v
     }
     if (settings.sum != LightSum::cuts) return;
     check_limit(VplTree::bytes_for(vpls.size()), settings.limits.vpl_tree_bytes, "vpl_tree_bytes");
-    if (layers_ == 0) trees_.emplace_back(vpls.span(), executor);
-    for (const std::vector<Vpl>& bounce : bounces_) trees_.emplace_back(span_of(bounce), executor);
+    if (layers_ == 0) cut_vpls_.emplace_back(vpls.span(), executor);
+    for (const std::vector<Vpl>& bounce : bounces_)
+        cut_vpls_.emplace_back(span_of(bounce), executor);
 }
 
 void VplLight::append_layers(RenderFrame& frame, const FrameBand& band, FrameLayer* variance,
@@ -49,8 +50,9 @@ void VplLight::append_layers(RenderFrame& frame, const FrameBand& band, FrameLay
 /// Of all VPLs, or of those of one bounce where there are layers of these.
 LayerPtr VplLight::light(RenderFrame& frame, const FrameBand& band, std::size_t list,
                          FrameLayer* variance, Monitor* monitor) const {
-    if (!trees_.empty())
-        return frame.light_by_cuts(band, trees_[list], lit_.bound, variance, monitor);
+    if (!cut_vpls_.empty() && variance != nullptr)
+        return frame.light_and_error_by_cuts(band, cut_vpls_[list], lit_.bound, *variance, monitor);
+    if (!cut_vpls_.empty()) return frame.light_by_cuts(band, cut_vpls_[list], lit_.bound, monitor);
     return frame.light(band, layers_ == 0 ? vpls_.span() : span_of(bounces_[list]), lit_, monitor);
 }
 

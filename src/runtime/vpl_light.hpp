@@ -10,7 +10,7 @@
 namespace mir {
 
 /// Light that the VPLs of a render send through a band's luxels. Of all VPLs, or by cuts of trees
-/// over them. Of all, or by cuts of trees over them. `vpls` must outlive it.
+/// over them. `vpls` must outlive it.
 class VplLight {
  public:
     /// Under `bound`, m^-2, as points, spheres or with lobes, as the settings say.
@@ -21,7 +21,8 @@ class VplLight {
     [[nodiscard]] std::size_t bounces() const { return layers_; }
 
     /// Appends the light of all VPLs and that of each bounce, W m^-2 sr^-1. `variance` is null or
-    /// black, and becomes that of cuts (RenderFrame::light_by_cuts()). `monitor` may be null.
+    /// black, and becomes that of cuts (RenderFrame::light_and_error_by_cuts()). `monitor` may be
+    /// null.
     void append_layers(RenderFrame& frame, const FrameBand& band, FrameLayer* variance,
                        Monitor* monitor, std::vector<LayerPtr>& layers) const;
 
@@ -39,7 +40,7 @@ class VplLight {
     VplKernel removed_;
     std::size_t layers_ = 0;
     std::vector<std::vector<Vpl>> bounces_;
-    std::vector<VplTree> trees_;  ///< of all VPLs, or of those of each bounce; none without cuts
+    std::vector<CutVpls> cut_vpls_;  ///< all, or those of each bounce; none without cuts
 };
 
 }  // namespace mir

@@ -8,6 +8,7 @@
 #include "mir/host/backend.hpp"
 #include "runtime/backend_frame/chains.hpp"
 #include "runtime/backend_frame/chains_through.hpp"
+#include "runtime/backend_frame/cuts.hpp"
 #include "runtime/backend_frame/direct.hpp"
 #include "runtime/backend_frame/film.hpp"
 #include "runtime/backend_frame/light.hpp"
@@ -214,6 +215,30 @@ TEST_CASE("A frame with alpha masks has the bits of the host's, by every schedul
     const RenderResult whole = draw_on_host(scene, settings);
     CHECK_FALSE(mirtest::same_bits(whole.direct, host.direct));
     CHECK_FALSE(mirtest::same_bits(whole.indirect, host.indirect));
+}
+
+TEST_CASE("Cuts of many VPLs have the bits of the host's in a backend's memory") {
+    Scene scene = lit_room();
+    RenderSettings settings = small_picture();
+    settings.sum = mir::LightSum::cuts;
+    settings.vpls = 400;
+    settings.picks = 24;
+    settings.sampler = mir::SamplerKind::instant_radiosity;
+    SECTION("by bounces, in bands") {
+        settings.bounce_layers = true;
+        settings.luxels_per_pixel = 4;
+    }
+    SECTION("by chains") { settings.sampler = mir::SamplerKind::metropolis; }
+    SECTION("through alpha masks") {
+        mirtest::hang_curtain(scene, mir::lambertian("curtain", {0.7f, 0.6f, 0.5f}), 6,
+                              {-0.6f, 1.3f, -0.5f}, {1.2f, 0.1f, 0.0f}, {0.0f, -0.1f, 1.1f});
+    }
+    const RenderResult host = draw_on_host(scene, settings);
+    CHECK(host.statistics.indirect_luminance > 0.0);
+    const BackendFrameOptions tree{BackendScheduler::rcvp, true, false};
+    const BackendFrameOptions shafts{BackendScheduler::rcvp, false, true};
+    check_same(host, draw_split(scene, settings, {tree}, false));
+    check_same(host, draw_split(scene, settings, {shafts, tree}, true));
 }
 
 TEST_CASE("What the bound removed is not traced back in a backend's memory, and says so") {

@@ -67,6 +67,10 @@ class SamplingFrame final : public mir::RenderFrame {
                         mir::Monitor*) override {
         return never(nullptr);
     }
+    mir::LayerPtr light_by_cuts(const mir::FrameBand&, const mir::CutVpls&, float,
+                                mir::Monitor*) override {
+        return never(nullptr);
+    }
     void add(mir::FrameLayer&, const mir::FrameLayer&) override { never(0); }
     std::vector<double> row_luminances(const mir::FrameLayer&) override {
         return never(std::vector<double>{});

@@ -119,7 +119,7 @@ void add_facts(Json& out, const mir::RenderResult& r, const mir::RenderSettings&
     out["light_paths"] = s.light_paths;
     out["camera_paths"] = s.camera_paths;
     out["vpls"] = s.vpls;
-    out["picks"] = settings.wants_cuts() && s.backend == "cpu" ? settings.picks : 0;
+    out["picks"] = settings.wants_cuts() ? settings.picks : 0;
     out["surfels"] = s.surfels;
     out["patches"] = s.patches;
     out["contributions"] = s.contributions;

@@ -27,7 +27,7 @@ struct GatherCuts {
 
     static constexpr std::uint32_t groups_of_block = 8;  ///< of lanes
     /// Of four groups of lanes each, that a GPU is to hold at least (FusedKernel).
-    static constexpr std::uint32_t resident_blocks = 10;
+    static constexpr std::uint32_t resident_blocks = 8;
 
     G luxels;                       ///< of the tile
     Tile tile;                      ///< where they lie

@@ -108,8 +108,9 @@ struct BoundParts {
     }
 
  private:
+    static constexpr float far = std::numeric_limits<float>::max();
+
     MIR_HD static KeyBounds nothing() {
-        constexpr float far = std::numeric_limits<float>::max();
         return {{far, far, far, far, far, far}, {-far, -far, -far, -far, -far, -far}, 0.0f};
     }
     MIR_HD void add(KeyBounds& bounds, const Vpl& vpl) const {
@@ -127,7 +128,7 @@ struct JoinParts {
     TreeLevel level;                    ///< of the nodes
     std::uint32_t parts = 0;            ///< of each
     const KeyBounds* bounds = nullptr;  ///< of parts
-    VplBounds* out = nullptr;           ///< written by VplNode::place, but for leaves
+    VplBounds* out = nullptr;           ///< written by VplNode::place; not of leaves
     std::uint32_t* axes = nullptr;      ///< written, by number
 
     /// Node of number i.

@@ -12,8 +12,8 @@
 namespace mir {
 
 /// A VplTree that a backend makes in its memory, level by level from the root. Leaves, weights and
-/// bounds are those of VplTree, but for bounds of leaves, which nobody asks for. Move only if the
-/// backend's buffers are.
+/// bounds are those of VplTree; leaves have no bounds here, because nobody asks for them. Move only
+/// if the backend's buffers are.
 template <Backend B>
 class BackendVplTree {
  public:

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+#include "mir/cuda/backend.cuh"
+#include "mir/cuda/sort.cuh"
+#include "runtime/backend_frame/cuts.hpp"
+
+// The members that are defined by what was included.
+template class mir::BackendFrame<mir::cuda::Backend, mir::MIR_BSDF>;
