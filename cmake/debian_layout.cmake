@@ -33,6 +33,8 @@ endif()
 cmake_path(GET lib PARENT_PATH lib)
 file(GLOB moved RELATIVE ${lib} ${lib}/*.a ${lib}/pkgconfig)
 file(MAKE_DIRECTORY ${lib}/${architecture})
+# Not by the umask of whoever packs.
+file(CHMOD ${lib}/${architecture} PERMISSIONS ${CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
 foreach(file IN LISTS moved)
     file(RENAME ${lib}/${file} ${lib}/${architecture}/${file})
 endforeach()

@@ -6,8 +6,8 @@
 #                              neighbours and, in an empty environment, the wheel that needs no Debian
 #                              packages
 #
-# What it downloads, and the environments of others' packages, stay in build/wheels. Skipped, with a reason, where PyPI cannot be reached before
-# that.
+# What it downloads, and the environments of others' packages, stay in build/wheels. Skipped, with a
+# reason, where PyPI cannot be reached before that.
 set -eu
 
 cd -- "$(dirname -- "$0")/.."

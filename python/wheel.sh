@@ -32,8 +32,12 @@ export PATH
 # and oneTBB get a prefix, wherever they are defined or used.
 parts=$(find "$out/open" -name '*.so*')
 # shellcheck disable=SC2086
-nm --dynamic --defined-only --format=posix $(find "$out/open" -name 'libembree*' -o -name 'libtbb*') |
+nm --dynamic --defined-only --without-symbol-versions --format=posix $(find "$out/open" -name 'libembree*' -o -name 'libtbb*') |
     awk '$1 ~ /^rtc/ || $1 ~ /[Tt][Bb][Bb]/ { print $1, "mir_own_" $1 }' | sort -u >"$out/names"
+[ -s "$out/names" ] || {
+    echo "wheel.sh: no symbol of Embree or oneTBB was found in $out/open; see what auditwheel packed" >&2
+    exit 1
+}
 for part in $parts; do
     patchelf --rename-dynamic-symbols "$out/names" "$part"
 done

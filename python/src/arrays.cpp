@@ -139,15 +139,6 @@ FloatArray::FloatArray(nb::handle value, std::string place, std::initializer_lis
     check_finite(place);
 }
 
-bool FloatArray::is_dense() const {
-    std::int64_t step = 1;
-    for (std::size_t i = array_.ndim(); i-- > 0;) {
-        if (sizes_[i] > 1 && strides_[i] != step) return false;
-        step *= static_cast<std::int64_t>(sizes_[i]);
-    }
-    return !is_double_;
-}
-
 void FloatArray::check_finite(const std::string& place) const {
     for (std::size_t i = 0; i < sizes_[0]; ++i)
         for (std::size_t j = 0; j < sizes_[1]; ++j)

@@ -37,8 +37,6 @@ class FloatArray {
 
     /// Of one axis.
     [[nodiscard]] std::size_t size(std::size_t axis) const { return array_.shape(axis); }
-    /// True where it is one float behind the other, rows first.
-    [[nodiscard]] bool is_dense() const;
     /// For kernels, of single floats alone.
     [[nodiscard]] StridedFloats view() const {
         return {reinterpret_cast<const float*>(data_), {strides_[0], strides_[1], strides_[2]}};

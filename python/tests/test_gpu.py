@@ -209,7 +209,7 @@ def test_arrays_that_cannot_be_used(torch, lit):
         "invalid_argument",
         "vpls",
     )
-    lonely = {"positions": there["position"]}
+    lonely = {"positions": there["position"].reshape(-1, 3)}
     assert error_of(lambda: mir.reconstruct(scene, there, lonely))[0] == "invalid_argument"
     grey = mir.Scene()
     grey.add_material()

@@ -168,8 +168,8 @@ class BackendFrame final : public RenderFrame {
     std::optional<UploadedKdTree<M>> tree_;
     std::optional<BackendWideBvh<M>> bvh_;
     std::optional<QuantisedBvh<M>> short_bvh_;
-    std::optional<CutVpls> cut_vpls_;       ///< the last that were gathered
-    std::shared_ptr<BackendCuts<M>> cuts_;  ///< of these
+    /// Of all VPLs, or of those of each bounce, which every band gathers.
+    std::vector<std::pair<CutVpls, std::shared_ptr<BackendCuts<M>>>> cuts_;
     std::optional<Picture> picture_;
 };
 

@@ -6,6 +6,9 @@
 # leaves nothing behind. Exits with 77 where apt cannot fetch anything.
 set -eu
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin
+# What the machine around it tells compilers means nothing here.
+unset CC CXX CFLAGS CXXFLAGS CPPFLAGS LDFLAGS CMAKE_GENERATOR CMAKE_PREFIX_PATH PKG_CONFIG_PATH \
+    CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER
 cd /try
 
 fail() {

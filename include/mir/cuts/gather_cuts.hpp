@@ -106,5 +106,8 @@ struct GatherCuts {
         return sum;
     }
 };
+template <class G, Space S, class V, class F>
+GatherCuts(G, Tile, VplTreeView<S>, V, F, CutPlace, std::uint32_t, CutTable, SoaView<Rgb>)
+    -> GatherCuts<G, S, V, F>;
 
 }  // namespace mir

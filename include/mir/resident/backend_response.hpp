@@ -15,7 +15,8 @@ namespace mir {
 /// too. The order of sums is that of the host: neither tiles nor memory change a bit, and bits are
 /// those of the host where shading has the same. Totals alone come home, so that bands may be
 /// summed on several backends. Memory: a sum for each VPL and row of blocks of a band, and
-/// `partial_sums` more. Must not end before the work that it started. Not thread-safe.
+/// `partial_sums` more. Must not end before the work that it started, and what it reads must
+/// outlive it: a queue of its own works on it too. Not thread-safe.
 template <Backend B>
 class BackendResponse {
  public:

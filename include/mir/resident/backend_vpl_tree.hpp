@@ -44,9 +44,9 @@ class BackendVplTree {
         here.reserve(shining.order.size());
         for (const VplIndex j : shining.order) here.push_back(vpls[j]);
         const UploadedArray<B, Vpl> there(backend, queue, here);
+        const WaitAtEnd wait(queue);
         auto order = backend.template buffer<std::uint32_t>(size());
         auto scratch = backend.template buffer<std::byte>(queue.scratch_bytes(size() + 1));
-        const WaitAtEnd wait(queue);
         const VplSpan<B::space> shines{there.data(), size()};
         halve(backend, queue, shines, shining.normal_scale, order, scratch);
         weigh(backend, queue, shines, shining.most, order, scratch);
@@ -57,7 +57,7 @@ class BackendVplTree {
             throw Error(ErrorCode::limit_exceeded,
                         "there are " + std::to_string(count) +
                             " VPLs in a tree on a backend (it can add up the weights of 4194303); "
-                            "ask for fewer");
+                            "ask for fewer, or sum all of them without a tree");
         return count;
     }
 

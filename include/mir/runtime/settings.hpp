@@ -215,7 +215,7 @@ struct RenderSettings {
                    : normalisation;
     }
 
-    /// Whether luxels gather by cuts, on a machine that can. LightSum::automatic does not where
+    /// Whether luxels gather by cuts. LightSum::automatic does not where
     /// something needs all VPLs: spheres, lobes, a layer of what the bound removed, a prepass,
     /// bidirectional mutations.
     [[nodiscard]] bool wants_cuts() const {
@@ -227,7 +227,7 @@ struct RenderSettings {
                !glossy.enabled && !removed_layer && !needs_image;
     }
 
-    /// VPLs that each luxel gathers at most, on a machine that has cuts.
+    /// VPLs that each luxel gathers at most.
     [[nodiscard]] std::uint32_t gathered_vpls() const {
         return wants_cuts() && picks < vpls ? picks : vpls;
     }

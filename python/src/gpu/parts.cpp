@@ -34,9 +34,12 @@ Tree tree_of(const Tracing& tracing, Call& call) {
                          "holes); give arrays of the processor");
     std::shared_ptr<const void>& there = tracing.on_gpus[call.backend().device()];
     if (!there) {
-        there =
+        // Others see it once it is copied: another thread may ask while this one waits. The tree of
+        // the first stays, since views of it may be out.
+        auto made =
             std::make_shared<const TreeThere>(call.backend(), call.queue(), tracing.tree.tree());
         call.finish();
+        if (!there) there = std::move(made);
     }
     return static_cast<const TreeThere*>(there.get())->view();
 }
