@@ -26,7 +26,7 @@ inline std::string store(const std::filesystem::path& path, const Picture& pictu
     return path.string();
 }
 
-/// Two pictures in a folder of their own: b is 0.5 everywhere, a is 0.6 but for one pixel.
+/// Two pictures in a folder of their own: b is 0.5 everywhere, a is 0.6 except in one pixel.
 struct Pictures {
     TemporaryFolder folder{"compare"};
     std::string a;
