@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# python/blender/check.sh [CHECK...]   packs the add-on, installs it and renders with it in bpy of PyPI
-#                                      and in the installed Blender; `all` adds what takes minutes
+# python/blender/check.sh [CHECK...]   packs the add-on, installs it and renders with it in bpy of
+#                                      PyPI and in the installed Blender; `all`: everything
 #
 # CHECK: engine, views, lamps, pictures. Without any: engine and views. bpy lies in ~/.cache/mir/bpy
 # once it was downloaded (350 MB); MIR_BLENDER names another Blender than `blender`. Each host that

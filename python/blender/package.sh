@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# python/blender/package.sh [WHEEL [FOLDER]]   packs the add-on with its wheel:
-#                                              FOLDER/mir_render-VERSION.zip, for Blender 4.2 and newer
-#                                              FOLDER/mir_render-VERSION-blender3.zip, for Debian's 3.4
+# python/blender/package.sh [WHEEL [FOLDER]]   packs the add-on with its wheel
+#
+# FOLDER/mir_render-VERSION.zip is for Blender 4.2 and newer, FOLDER/mir_render-VERSION-blender3.zip
+# for Debian's 3.4.
 #
 # WHEEL (build/dist/whole/mir-*.whl) is what python/wheel.sh makes. FOLDER: build/dist/blender.
 set -eu
@@ -23,7 +24,7 @@ name=$(basename "$wheel")
 case $name in
 *-cp311-cp311-*linux*_x86_64.whl) ;;
 *)
-    say "$name does not fit: Blender 3.4 to 5.0 have Python 3.11; make a cp311 wheel for Linux x86-64"
+    say "$name does not fit Blender 3.4 to 5.0: give a wheel of Python 3.11 for Linux x86-64"
     exit 1
     ;;
 esac
@@ -32,7 +33,7 @@ mkdir -p "$out"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# zip FOLDER FILE: FOLDER's contents as FILE, the same bytes each time.
+# zip_folder FOLDER FILE: FOLDER's contents as FILE, the same bytes each time.
 zip_folder() {
     python3 - "$1" "$2" <<'PYTHON'
 import pathlib, sys, zipfile

@@ -14,7 +14,7 @@ bl_info = {
     "category": "Render",
 }
 
-# Before Blender 4.2 there are no wheels of add-ons: package.sh lays the unpacked one beside this file.
+# Before Blender 4.2 add-ons have no wheels: package.sh lays the unpacked one beside this file.
 _UNPACKED = Path(__file__).with_name("unpacked_wheel")
 if _UNPACKED.is_dir() and str(_UNPACKED) not in sys.path:
     sys.path.append(str(_UNPACKED))

@@ -12,7 +12,7 @@ from .options import settings_of
 from .passes import chosen_passes, combined, write
 
 
-class _Cancelled(Exception):
+class Cancelled(Exception):
     """The user pressed Esc."""
 
 
@@ -37,14 +37,15 @@ class MirEngine(bpy.types.RenderEngine):
         """Renders one view layer of one frame."""
         try:
             self._render(depsgraph)
-        except _Cancelled:
+        except Cancelled:
             pass
         except (mir.Error, CameraError) as error:
             self.error_set(str(error))
 
-    def _stop_if_asked(self) -> None:
+    def stop_if_asked(self) -> None:
+        """Ends the picture once Esc was pressed."""
         if self.test_break():
-            raise _Cancelled
+            raise Cancelled
 
     def _render(self, depsgraph) -> None:
         losses = Losses()
@@ -52,20 +53,20 @@ class MirEngine(bpy.types.RenderEngine):
         scale = depsgraph.scene_eval.render.resolution_percentage / 100.0
         width = max(1, int(depsgraph.scene_eval.render.resolution_x * scale))
         height = max(1, int(depsgraph.scene_eval.render.resolution_y * scale))
-        scene, window = export_scene(depsgraph, width, height, losses, self._stop_if_asked)
+        scene, window = export_scene(depsgraph, width, height, losses, self.stop_if_asked)
         last_render.remember_losses(losses)
         settings = settings_of(depsgraph.scene_eval)
         passes = settings["passes"]
         settings |= {"width": window.whole[0], "height": window.whole[1]}
 
         def tell(progress):
-            self._stop_if_asked()
+            self.stop_if_asked()
             self.update_stats("", progress.stage)
             self.update_progress((progress.passes + (progress.share or 0.0)) / passes)
 
         for result in mir.progressive(scene, progress=tell, **settings):
             self._show(depsgraph, result, window)
-            self._stop_if_asked()
+            self.stop_if_asked()
 
     def _show(self, depsgraph, result, window) -> None:
         """Puts what there is so far into Blender's picture."""

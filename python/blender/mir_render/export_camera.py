@@ -47,6 +47,25 @@ def window_of(width: int, height: int, projection) -> Window:
     return Window((whole_width, whole_height), left, top, width, height)
 
 
+def _cropped(window: Window, settings) -> Window:
+    """The window of a render region that is cut out; without cutting, the whole frame is made."""
+    if not (settings.use_border and settings.use_crop_to_border):
+        return window
+    left, right = (
+        int(share * window.width) for share in (settings.border_min_x, settings.border_max_x)
+    )
+    bottom, top = (
+        int(share * window.height) for share in (settings.border_min_y, settings.border_max_y)
+    )
+    return Window(
+        window.whole,
+        window.left + left,
+        window.top + window.height - top,
+        right - left,
+        top - bottom,
+    )
+
+
 def _lens(camera, matrix: np.ndarray, losses) -> dict:
     """Thin lens of the camera's f-stop; none without depth of field."""
     dof = camera.dof
@@ -93,4 +112,4 @@ def add_camera(scene, depsgraph, width: int, height: int, losses) -> Window:
         name=source.name,
         **_lens(camera, matrix, losses),
     )
-    return window
+    return _cropped(window, settings)

@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 from .coordinates import axes_of
+from .light_units import AREA_INTENSITY, POINT_INTENSITY, spot_parts
 from .nodes import active_output, color_of, constant_of, source_of
 from .shapes import disc, icosphere, rectangle
 
@@ -68,7 +69,7 @@ class Lights:
         add[light.type](light, to_world, watts)
 
     def _add_point(self, light, to_world, watts) -> None:
-        intensity = watts / (4.0 * math.pi)
+        intensity = watts * POINT_INTENSITY
         place, radius = to_world[:3, 3], light.shadow_soft_size
         if radius <= 0.0:
             self._scene.add_point_light(place, intensity, name=light.name)
@@ -79,19 +80,15 @@ class Lights:
         self._add_shining(light, corners, triangles, intensity, share=0.25)
 
     def _add_spot(self, light, to_world, watts) -> None:
-        outer = light.spot_size / 2.0
-        # Cycles falls by a smooth step of the cosine, glTF's spots by its square: three fourths of
-        # the width send the same power.
-        width = 0.75 * light.spot_blend * (1.0 - math.cos(outer))
-        inner = math.acos(min(1.0, math.cos(outer) + width))
-        self._scene.add_spot_light(
-            to_world[:3, 3],
-            -axes_of(to_world)[:, 2],
-            watts / (4.0 * math.pi),
-            inner_angle=math.degrees(inner),
-            outer_angle=math.degrees(outer),
-            name=light.name,
-        )
+        for intensity, cos_inner in spot_parts(math.cos(light.spot_size / 2.0), light.spot_blend):
+            self._scene.add_spot_light(
+                to_world[:3, 3],
+                -axes_of(to_world)[:, 2],
+                watts * intensity,
+                inner_angle=math.degrees(math.acos(cos_inner)),
+                outer_angle=math.degrees(light.spot_size / 2.0),
+                name=light.name,
+            )
         if light.shadow_soft_size > 0.0:
             self._losses.add(light.name, "shadows are sharp: mir's spots have no radius")
 
@@ -107,7 +104,7 @@ class Lights:
         shape = disc if light.shape in {"DISK", "ELLIPSE"} else rectangle
         corners, triangles = shape(*sides)
         corners = corners @ to_world[:3, :3].T + to_world[:3, 3]
-        self._add_shining(light, corners, triangles, watts / math.pi, share=1.0)
+        self._add_shining(light, corners, triangles, watts * AREA_INTENSITY, share=1.0)
         if getattr(light, "spread", math.pi) < _UNIFORM_SPREAD:
             self._losses.add(light.name, "its spread is 180 degrees")
 

@@ -93,5 +93,6 @@ class Materials:
             pixels = data_bytes(image) if use == "normal" else color_bytes(image)
             if pixels is None:
                 self._losses.add(image.name, "the image has no pixels; its file may be missing")
-            self._images[key] = None if pixels is None else self._scene.add_image(pixels, image.name)
+            found = pixels is not None
+            self._images[key] = self._scene.add_image(pixels, image.name) if found else None
         return self._images[key]

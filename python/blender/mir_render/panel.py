@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Panels: options, passes, and what the last picture tells."""
 
+import textwrap
+
 import bpy
 
 from . import last_render
@@ -46,9 +48,13 @@ class RENDER_PT_mir_options(_RenderPanel, bpy.types.Panel):
             column.prop(options, name)
 
 
-def _sentences(layout, sentences, icon: str) -> None:
+def _sentences(context, layout, sentences, icon: str) -> None:
+    """Sentences in as many lines as the panel's width needs."""
+    width = max(20, int(context.region.width / context.preferences.system.ui_scale / 8))
+    column = layout.column(align=True)
     for sentence in sentences:
-        layout.label(text=sentence, icon=icon)
+        for k, line in enumerate(textwrap.wrap(sentence, width)):
+            column.label(text=line, icon="BLANK1" if k else icon)
 
 
 class RENDER_PT_mir_losses(_RenderPanel, bpy.types.Panel):
@@ -58,8 +64,9 @@ class RENDER_PT_mir_losses(_RenderPanel, bpy.types.Panel):
 
     def draw(self, context):
         """Lists it."""
-        _sentences(self.layout, last_render.losses or ["nothing that was noticed"], "DOT")
-        _sentences(self.layout, last_render.warnings, "ERROR")
+        lost = last_render.losses or ["nothing that was noticed"]
+        _sentences(context, self.layout, lost, "DOT")
+        _sentences(context, self.layout, last_render.warnings, "ERROR")
 
 
 class RENDER_PT_mir_budget(_RenderPanel, bpy.types.Panel):

@@ -70,7 +70,7 @@ class ShaderReader:
             surface.images[image] = source.image
             surface.lookup = self._lookup(source)
             return (1.0, 1.0, 1.0)
-        if source.type == "VERTEX_COLOR" and image == "base_color":
+        if source.type == "VERTEX_COLOR" and source.layer_name and image == "base_color":
             surface.color_attribute = source.layer_name
             return (1.0, 1.0, 1.0)
         self._lose(f"what feeds '{socket.name}' of '{node.name}' is read as its plain colour")

@@ -38,11 +38,15 @@ def world_image(turn: float = 0.0) -> None:
         tree.links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
 
 
+def _spot(blend: float) -> None:
+    lamp("SPOT", 50, _ABOVE, (0.2, 0.1, 0), spot_size=1.2, spot_blend=blend)
+
+
 LIGHTS = {
     "point": lambda: lamp("POINT", 50, _ABOVE, shadow_soft_size=0.0),
     "point, radius 0.1 m": lambda: lamp("POINT", 50, _ABOVE, shadow_soft_size=0.1),
-    "spot": lambda: lamp("SPOT", 50, _ABOVE, (0.2, 0.1, 0), spot_size=1.2, spot_blend=0.0),
-    "spot, blend 0.5": lambda: lamp("SPOT", 50, _ABOVE, (0.2, 0.1, 0), spot_size=1.2, spot_blend=0.5),
+    "spot": lambda: _spot(0.0),
+    "spot, blend 0.5": lambda: _spot(0.5),
     "sun": lambda: lamp("SUN", 3, _ABOVE, (0.4, 0.3, 0)),
     "area, square": lambda: lamp("AREA", 50, _ABOVE, (0.3, 0, 0), size=0.5),
     "area, rectangle": lambda: lamp(
@@ -79,14 +83,17 @@ def check(folder, samples: int = 600) -> list[str]:
             float(np.mean(picture))
             for picture in (
                 render("CYCLES", folder / "cycles.exr", 24, 16, samples),
-                render("MIR", folder / "path.exr", 24, 16, integrator="path", luxels=8),
+                render("MIR", folder / "path.exr", 24, 16, integrator="path", luxels=16),
                 render(
-                    "MIR", folder / "vpls.exr", 24, 16, integrator="vpl", luxels=16,
+                    "MIR", folder / "vpls.exr", 24, 16, integrator="vpl", vpls=1024, luxels=64,
                     direct_samples=256, compensate=16,
                 ),
             )
         )  # fmt: skip
-        print(f"{name:22}{cycles:10.5f}{path:10.5f}{path / cycles:9.4f}{vpls:10.5f}{vpls / cycles:9.4f}")
+        print(
+            f"{name:22}{cycles:10.5f}{path:10.5f}{path / cycles:9.4f}"
+            f"{vpls:10.5f}{vpls / cycles:9.4f}"
+        )
         for integrator, mean in (("path", path), ("vpl", vpls)):
             if not abs(mean / cycles - 1.0) < _MOST_DIFFERENCE:
                 failures.append(f"{name}, {integrator}: {mean:.5f}, Cycles {cycles:.5f}")

@@ -49,6 +49,14 @@ def _shift() -> None:
     data.shift_x, data.shift_y = 0.25, -0.125
 
 
+def _region() -> None:
+    _texture()
+    settings = bpy.context.scene.render
+    settings.use_border = settings.use_crop_to_border = True
+    settings.border_min_x, settings.border_max_x = 0.25, 0.75
+    settings.border_min_y, settings.border_max_y = 0.5, 1.0
+
+
 def _lens() -> None:
     _texture()
     data = bpy.context.scene.camera.data
@@ -93,6 +101,7 @@ def _around(turn: float):
 VIEWS = {
     "texture": _texture,
     "shift": _shift,
+    "region": _region,
     "depth of field": _lens,
     "vertical sensor": _portrait,
     "mixed shaders": _mixed,

@@ -7,7 +7,9 @@ import bpy
 import numpy as np
 
 
-def render(engine: str, path: Path, width: int, height: int, samples: int = 64, **options) -> np.ndarray:
+def render(
+    engine: str, path: Path, width: int, height: int, samples: int = 64, **options
+) -> np.ndarray:
     """(h, w, 3) of linear light, the top row first; writes a float OpenEXR."""
     scene = bpy.context.scene
     scene.render.engine = engine

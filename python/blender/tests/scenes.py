@@ -99,7 +99,8 @@ def cornell_box() -> None:
     square("back", 2, white, (0, 1, 1), (quarter, 0, 0))
     square("left", 2, red, (-1, 0, 1), (0, quarter, 0))
     square("right", 2, green, (1, 0, 1), (0, -quarter, 0))
-    for name, x, y, turn, height in (("tall", -0.35, 0.3, 0.3, 1.2), ("low", 0.35, -0.3, -0.3, 0.6)):
+    blocks = (("tall", -0.35, 0.3, 0.3, 1.2), ("low", 0.35, -0.3, -0.3, 0.6))
+    for name, x, y, turn, height in blocks:
         bpy.ops.mesh.primitive_cube_add(size=1, location=(x, y, height / 2), rotation=(0, 0, turn))
         block = bpy.context.object
         block.name, block.scale = name, (0.6, 0.6, height)
