@@ -57,6 +57,8 @@ if ! python3 -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))'; then
 elif ! bpy_is_here; then
     say "bpy $bpy_version skipped: PyPI cannot be reached, or lacks it (see $log)"
 else
+    checked extension env BLENDER_USER_RESOURCES="$out/resources" "$cache/bin/python" \
+        "$here/tests/install_extension.py" "$(find "$out/zip" -name '*.zip' ! -name '*blender3*')"
     checked bpy "$cache/bin/python" "$here/tests/run.py" "$@"
 fi
 
