@@ -19,26 +19,48 @@ class MirOptions(bpy.types.PropertyGroup):
         ],
         default="vpl",
     )
+    quality: EnumProperty(
+        name="Quality",
+        items=[
+            ("draft", "Draft", "A look"),
+            ("good", "Good", "What one shows"),
+            ("final", "Final", "About eight times the time of good"),
+        ],
+        default="good",
+    )
     vpls: IntProperty(
-        name="VPLs", default=1024, min=1, max=4000000, description="Virtual point lights wanted"
+        name="VPLs",
+        default=0,
+        min=0,
+        max=4000000,
+        description="Virtual point lights wanted; 0: by the quality",
     )
     sampler: EnumProperty(
         name="Sampler",
         items=[
+            ("auto", "Automatic", "By the number of VPLs"),
             ("mir", "Metropolis", "VPLs where the picture needs them"),
             ("bir", "Bidirectional", "Candidates from lamps and camera, resampled"),
             ("ir", "Instant radiosity", "Paths from the lamps alone"),
         ],
-        default="mir",
+        default="auto",
     )
     luxels: IntProperty(
-        name="Rays per pixel", default=4, min=1, max=64, description="More make smoother edges"
+        name="Rays per pixel",
+        default=0,
+        min=0,
+        max=64,
+        description="More make smoother edges; 0: by the quality",
     )
     passes: IntProperty(
         name="Passes", default=1, min=1, max=65536, description="Pictures that are averaged"
     )
     direct_samples: IntProperty(
-        name="Lamp samples", default=32, min=1, max=65536, description="For each pixel"
+        name="Lamp samples",
+        default=0,
+        min=0,
+        max=65536,
+        description="For each pixel; 0: by the quality",
     )
     bounces: IntProperty(
         name="Bounces", default=32, min=1, max=63, description="Most reflections of light"
@@ -49,13 +71,6 @@ class MirOptions(bpy.types.PropertyGroup):
         min=0.0,
         description="Largest geometry term of a VPL, against bright spots, 1/m2; 0: automatic",
     )
-    compensate: IntProperty(
-        name="Compensation",
-        default=0,
-        min=0,
-        max=65536,
-        description="Paths per pixel that bring back what the bound removed; 4 are usual",
-    )
     seed: IntProperty(name="Seed", default=0, min=0, description="Of all random numbers")
 
 
@@ -64,19 +79,18 @@ def settings_of(scene) -> dict:
     options = scene.mir
     settings = {
         "integrator": options.integrator,
-        "luxels": options.luxels,
-        "direct_samples": options.direct_samples,
+        "quality": options.quality,
         "bounces": options.bounces,
         "seed": options.seed,
         "passes": options.passes,
         "allow_no_light": True,
     }
+    chosen = ["luxels", "direct_samples"]
     if options.integrator == "vpl":
-        settings |= {"vpls": options.vpls, "sampler": options.sampler}
-        if options.bound > 0.0:
-            settings["bound"] = options.bound
-        if options.compensate > 0:
-            settings["compensate"] = options.compensate
+        chosen += ["vpls", "bound"]
+        if options.sampler != "auto":
+            settings["sampler"] = options.sampler
+    settings |= {name: getattr(options, name) for name in chosen if getattr(options, name) > 0}
     if scene.render.threads_mode == "FIXED":
         settings["threads"] = scene.render.threads
     return settings

@@ -40,9 +40,10 @@ class RENDER_PT_mir_options(_RenderPanel, bpy.types.Panel):
         column = self.layout.column()
         column.use_property_split = True
         column.prop(options, "integrator")
+        column.prop(options, "quality")
         light = column.column()
         light.active = options.integrator == "vpl"
-        for name in ("vpls", "sampler", "bound", "compensate"):
+        for name in ("vpls", "sampler", "bound"):
             light.prop(options, name)
         for name in ("luxels", "passes", "direct_samples", "bounces", "seed"):
             column.prop(options, name)

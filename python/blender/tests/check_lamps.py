@@ -85,8 +85,8 @@ def check(folder, samples: int = 600) -> list[str]:
                 render("CYCLES", folder / "cycles.exr", 24, 16, samples),
                 render("MIR", folder / "path.exr", 24, 16, integrator="path", luxels=16),
                 render(
-                    "MIR", folder / "vpls.exr", 24, 16, integrator="vpl", vpls=1024, luxels=64,
-                    direct_samples=256, compensate=16,
+                    "MIR", folder / "vpls.exr", 24, 16, integrator="vpl", luxels=64,
+                    direct_samples=256,
                 ),
             )
         )  # fmt: skip
