@@ -18,11 +18,8 @@ std::vector<double> estimate(RenderJob& job, AnyVisibility visibility,
                              const BlockedGBuffer<typename B::Params>& luxels,
                              DirectSamples samples, std::uint64_t which) {
     const LuxelGrid grid = luxel_grid(luxels.extent(), job.settings.luxels_per_pixel);
-    const LuxelLight<B, AnyVisibility> light{{job.lights, visibility, samples.emitters},
-                                             {job.lights, visibility},
-                                             {job.lights, visibility, samples.environment},
-                                             {0, grid, pass_seed(job.settings.seed, which)},
-                                             samples.distant_vpls};
+    const LuxelLight<B, AnyVisibility> light(job.lights, visibility, samples,
+                                             {0, grid, pass_seed(job.settings.seed, which)});
     std::vector<double> means(static_cast<std::size_t>(luxels.extent().area()));
     for_each_luxel(
         luxels, job.executor,

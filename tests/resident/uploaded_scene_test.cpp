@@ -118,6 +118,11 @@ TEST_CASE("Uploaded textures and vertex colours give the numbers of the host") {
         const float u = random.next();
         CHECK(lamps.view().lamps.sample(there.view(), u, at).pdf_area ==
               lights.sample_emitter(u, at).pdf_area);
+        const mir::LightReceiver receiver{p.position, p.shading_normal, p.geometric_normal};
+        const auto own = lights.tree().view().pick(receiver, static_cast<double>(u));
+        const auto copied = lamps.view().tree.pick(receiver, static_cast<double>(u));
+        CHECK(copied.light == own.light);
+        CHECK(copied.probability == own.probability);
         CHECK(light.radiance != mir::Rgb{1, 2, 3});
     }
     // The lamp of the box is black.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shading/scene_light.hpp"
 
+#include "mir/core/warp.hpp"
 #include "mir/scenes.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
@@ -19,7 +20,7 @@ using mirtest::FreeSight;
 using mirtest::Moments;
 
 // Every test of a mean in this file belongs to one family of level 1 %.
-const double level = mirtest::sidak(0.01, 12);
+const double level = mirtest::sidak(0.01, 22);
 
 /// A scene with what light needs of it. Radiance of a receiver with f = 1 is its irradiance.
 struct Lit {
@@ -67,7 +68,8 @@ Moments form_factor(const Lit& lit, float nearest, std::uint64_t seed) {
         const mir::Vec2 u = random.next_2d();
         const Vec3 at(u.x - 0.5f, 0, nearest + u.y * u.y);
         const float weight = 2 * u.y / mir::pi;
-        m.add(static_cast<double>(weight * lit.from_emitters(at, up, 1, random)));
+        mir::Random lamps(seed, mir::Stream::direct_light, i);
+        m.add(static_cast<double>(weight * lit.from_emitters(at, up, 1, lamps)));
     }
     return m;
 }
@@ -247,4 +249,66 @@ TEST_CASE("light that the shading or the geometric normal turns away from is not
     CHECK(is_black(mir::reflected<Lambert>(hit, s, glm::normalize(Vec3(1, -0.5f, 0)))));
     CHECK(mir::reflected<Lambert>(hit, s, tilted).r == Approx(1.0f));
     CHECK(mir::reflected<Lambert>(hit, s, up).r == Approx(std::sqrt(0.5f)));
+}
+
+namespace {
+
+/// `count` point and spot lights of powers over three decades in a slab above the origin.
+Scene many_places(std::uint32_t count) {
+    mir::Random random(7, mir::Stream::test, count);
+    Scene s;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3 at(8 * random.next() - 4, 0.2f + 2 * random.next(), 8 * random.next() - 4);
+        const float light = std::pow(10.0f, 3 * random.next());
+        if (i % 3 == 0) {
+            mir::SpotLight spot;
+            spot.position = at;
+            spot.direction = mir::square_to_sphere(random.next_2d());
+            spot.intensity = {light, light, light};
+            spot.cos_inner = 0.8f;
+            spot.cos_outer = 0.3f;
+            s.spot_lights.push_back(spot);
+        } else {
+            s.point_lights.push_back({"bulb", at, {light, light, light}});
+        }
+    }
+    return s;
+}
+
+}  // namespace
+
+// H0: the mean of what the tree draws is the sum over all lights. Student's t over 4000 seeds at
+// each of five receivers, for the least number of lights that join the tree and for very many.
+TEST_CASE("many point and spot lights are drawn without bias", "[statistical]") {
+    for (const std::uint32_t count : {17u, 100'000u}) {
+        const Lit lit(many_places(count));
+        REQUIRE(lit.lights.view().is_listed_in_tree);
+        mir::Random random(8, mir::Stream::test, count);
+        for (int i = 0; i < 5; ++i) {
+            const Vec3 at(4 * random.next() - 2, 0, 4 * random.next() - 2);
+            const auto expected = static_cast<double>(lit.from_listed(at, up));
+            const Moments m = irradiance(lit, at, up, 140, 4);
+            CAPTURE(count, i, m.mean(), expected, m.standard_error());
+            CHECK(mirtest::mean_p_value(m, expected, 2e-6 * expected) > level);
+            CHECK(m.standard_error() < 0.05 * expected);
+        }
+    }
+}
+
+TEST_CASE("a luxel's lights in the tree are not summed once more") {
+    const Lit lit(many_places(17));
+    const mir::ListedLight<Lambert, FreeSight> rest{
+        lit.lights.view(), {}, part_beside(lit.lights.view(), 4)};
+    const auto unasked = [](std::uint32_t) -> mir::Vec2 { throw 0; };
+    CHECK(is_black(rest({{0, 0, 0}, up}, Lit::receiver(up), unasked)));
+    CHECK(part_beside(lit.lights.view(), 0) == mir::ListedPart::all);
+    CHECK(part_beside(Lit(many_places(16)).lights.view(), 4) == mir::ListedPart::all);
+}
+
+TEST_CASE("a lamp of the tree on the luxel brings nothing") {
+    Scene s;
+    for (int i = 0; i < 20; ++i) s.point_lights.push_back({"bulb", {0, 0, 0}, {1e3f, 1e3f, 1e3f}});
+    const Lit lit(s);
+    mir::Random random(9, mir::Stream::test, 0);
+    CHECK(lit.from_emitters({0, 0, 0}, up, 16, random) == 0.0f);
 }

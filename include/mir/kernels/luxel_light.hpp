@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/film/luxel_grid.hpp"
+#include "mir/shading/direct_samples.hpp"
 #include "mir/shading/environment_light.hpp"
 #include "mir/shading/scene_light.hpp"
 
@@ -37,28 +38,45 @@ struct LuxelBand {
 
 /// Direct light of the luxels of a band, host and device.
 template <Bsdf B, Visibility V>
-struct LuxelLight {
-    EmitterLight<B, V> emitters;         ///< light of surfaces that emit
-    ListedLight<B, V> listed;            ///< light of what no mesh makes
-    EnvironmentLight<B, V> environment;  ///< light from outside the scene
-    LuxelBand band;                      ///< where the luxels lie
-    bool distant_vpls = false;           ///< DirectSamples::distant_vpls
+class LuxelLight {
+ public:
+    static constexpr Space space = space_of_lights<V>;  ///< memory that the lights lie in
+
+    /// What the views read must outlive it. The band says where the luxels lie.
+    LuxelLight(const LightTableView<space>& lights, const GeometryView<space>& geometry,
+               V visibility, DirectSamples samples, const LuxelBand& band)
+        : emitters_(lights, geometry, visibility, samples.emitters),
+          listed_(lights, visibility, part_beside(lights, samples.emitters)),
+          environment_(lights, visibility, samples.environment),
+          band_(band),
+          distant_vpls_(samples.distant_vpls) {}
+    /// The lights of the host and their geometry, which must outlive it.
+    LuxelLight(const LightTable& lights, V visibility, DirectSamples samples,
+               const LuxelBand& band) requires(space == Space::host)
+        : LuxelLight(lights.view(), lights.geometry().view(), visibility, samples, band) {}
 
     /// Radiance towards the viewer of the luxel at (x, y), W m^-2 sr^-1. The luxel is one of the
     /// band and not empty.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& surface,
                                         std::uint32_t x, std::uint32_t y) const {
-        const SharedSamples shared{band.grid.per_pixel(), band.cell(x, y)};
-        const Random numbers = band.pixel_numbers(x, y);
+        const SharedSamples shared{band_.grid.per_pixel(), band_.cell(x, y)};
+        const Random numbers = band_.pixel_numbers(x, y);
         // Numbers behind those of emitters and environment.
         const auto place = [&](std::uint32_t light) {
             return kronecker_point({numbers.at(5 + 2 * light), numbers.at(6 + 2 * light)},
                                    shared.share);
         };
-        return emitters(hit, surface, shared, numbers) + listed(hit, surface, place) +
-               (distant_vpls ? environment(hit, surface, {}, band.image_numbers())
-                             : environment(hit, surface, shared, numbers));
+        return emitters_(hit, surface, shared, numbers) + listed_(hit, surface, place) +
+               (distant_vpls_ ? environment_(hit, surface, {}, band_.image_numbers())
+                              : environment_(hit, surface, shared, numbers));
     }
+
+ private:
+    EmitterLight<B, V> emitters_;         ///< light of lamps
+    ListedLight<B, V> listed_;            ///< light of what the scene lists
+    EnvironmentLight<B, V> environment_;  ///< light from outside the scene
+    LuxelBand band_;
+    bool distant_vpls_;  ///< DirectSamples::distant_vpls
 };
 
 }  // namespace mir

@@ -126,6 +126,7 @@ class UploadedLights {
           cumulative_(backend, queue, lights.by_power().cumulative()),
           textures_(backend, queue, lights.lamps().textures()),
           environment_(backend, queue, lights.environment()),
+          tree_(backend, queue, lights.tree().nodes()),
           values_(lights.view()) {}
 
     /// For kernels that follow on the queue; valid until this is moved or ends.
@@ -141,7 +142,9 @@ class UploadedLights {
                 values_.listed_count,
                 {cumulative_.data(), values_.by_power.size, values_.by_power.total},
                 values_.sphere,
-                environment_.view()};
+                environment_.view(),
+                {tree_.data(), values_.tree.size},
+                values_.is_listed_in_tree};
     }
 
  private:
@@ -153,6 +156,7 @@ class UploadedLights {
     UploadedArray<B, double> cumulative_;
     UploadedTextures<B> textures_;
     UploadedEnvironment<B> environment_;
+    UploadedArray<B, LightNode> tree_;
     LightTableView<Space::host> values_;  ///< only the values are used
 };
 

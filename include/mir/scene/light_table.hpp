@@ -4,6 +4,7 @@
 #include "mir/scene/environment_table.hpp"
 #include "mir/scene/light_table_view.hpp"
 #include "mir/scene/lights/lamp_table.hpp"
+#include "mir/scene/lights/light_tree.hpp"
 
 #include <optional>
 #include <span>
@@ -66,6 +67,10 @@ class LightTable {
     [[nodiscard]] const EnvironmentTable& environment() const { return environment_; }
     /// Weights of the lights as sample_light() counts: luminance of their power, W.
     [[nodiscard]] const DiscreteDistribution& by_power() const { return by_power_; }
+    /// Chooses lamps by place. Emissive triangles, and point and spot lights if they are many.
+    [[nodiscard]] const LightTree& tree() const { return tree_; }
+    /// Most point and spot lights that are summed one by one. More of them join the tree.
+    static constexpr std::uint32_t most_summed = 16;
     /// Where the emissive triangles are.
     [[nodiscard]] const WorldGeometry& geometry() const { return *geometry_; }
     /// Bounding sphere that light from outside is sent through. Its radius is half the diagonal of
@@ -76,16 +81,21 @@ class LightTable {
 
     /// What kernels on the host read; valid until the table is changed or ends.
     [[nodiscard]] LightTableView<Space::host> view() const {
-        return {lamps_.view(),    listed_.data(), static_cast<std::uint32_t>(listed_.size()),
-                by_power_.view(), sphere(),       environment_.view()};
+        return {lamps_.view(),    listed_.data(),    static_cast<std::uint32_t>(listed_.size()),
+                by_power_.view(), sphere(),          environment_.view(),
+                tree_.view(),     is_listed_in_tree_};
     }
 
  private:
+    [[nodiscard]] std::vector<TreeLamp> tree_lamps();
+
     const WorldGeometry* geometry_;
     LampTable lamps_;
     std::vector<ListedSource> listed_;
     EnvironmentTable environment_;
     DiscreteDistribution by_power_;
+    LightTree tree_;
+    bool is_listed_in_tree_ = false;
 };
 
 inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
@@ -108,6 +118,26 @@ inline LightTable::LightTable(const Scene& scene, const WorldGeometry& geometry)
     }
     by_power_ = DiscreteDistribution(power);
     static_cast<void>(detail::checked_power(by_power_.total(), "all lights together emit"));
+    tree_ = LightTree(tree_lamps());
+}
+
+/// What the tree holds.
+inline std::vector<TreeLamp> LightTable::tree_lamps() {
+    std::vector<TreeLamp> all;
+    const auto add = [&all](const LightBounds& bounds, std::size_t light) {
+        if (bounds.power > 0.0) all.push_back({bounds, static_cast<std::uint32_t>(light)});
+    };
+    const std::size_t triangles = lamps_.triangles().size();
+    for (std::size_t i = 0; i < triangles; ++i) add(lamps_.light_bounds(*geometry_, i), i);
+    const std::size_t before = all.size();
+    for (std::size_t i = 0; i < listed_.size(); ++i)
+        listed_[i].visit([&](const auto& source) {
+            if constexpr (TreeLight<std::remove_cvref_t<decltype(source)>>)
+                add(source.light_bounds(), triangles + i);
+        });
+    is_listed_in_tree_ = all.size() - before > most_summed;
+    if (!is_listed_in_tree_) all.resize(before);
+    return all;
 }
 
 }  // namespace mir

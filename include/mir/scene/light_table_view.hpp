@@ -5,6 +5,7 @@
 #include "mir/scene/light_kinds.hpp"
 #include "mir/scene/lights/environment_source.hpp"
 #include "mir/scene/lights/lamp.hpp"
+#include "mir/scene/lights/light_tree_view.hpp"
 
 namespace mir {
 
@@ -20,6 +21,8 @@ struct LightTableView {
     DiscreteDistributionView<S> by_power;  ///< of all lights
     BoundingSphere sphere;                 ///< of the scene
     EnvironmentView<S> environment;        ///< light from all around; empty: none
+    LightTreeView<S> tree;                 ///< emissive triangles, and what is listed if...
+    bool is_listed_in_tree = false;        ///< ...it is: all TreeLight of `listed`
 
     /// True when nothing emits power: sample_light() has no answer.
     [[nodiscard]] MIR_HD bool empty() const { return by_power.empty(); }

@@ -6,11 +6,21 @@
 
 namespace mir {
 
-/// Light of the emissive triangles at a luxel, from `samples` points. They are chosen by power: f
+/// Chooses lamps by a LightTree.
+struct PickByTree {
+    /// The lamp that a number in [0, 1) means for a receiver. The tree must not be empty.
+    template <Space S>
+    [[nodiscard]] MIR_HD static LightPick pick(const LightTableView<S>& lights,
+                                               const LightReceiver& at, double u) {
+        return lights.tree.pick(at, u);
+    }
+};
+
+/// Light of the lamps of a LightTree at a luxel, from `samples` points. `Pick` chooses the lamp: f
 /// L_e cos cos / (d^2 p) averaged over the samples. The samples of all luxels of a pixel are one
 /// Kronecker sequence with a random shift per pixel: each point is uniform, so the estimate is
 /// unbiased, and together they are spread evenly over the lamps. Host and device.
-template <Bsdf B, Visibility V>
+template <Bsdf B, Visibility V, class Pick = PickByTree>
 class EmitterLight {
  public:
     static constexpr Space space = space_of_lights<V>;  ///< memory that the lights lie in
@@ -24,44 +34,78 @@ class EmitterLight {
                  std::uint32_t samples) requires(space == Space::host)
         : EmitterLight(lights.view(), lights.geometry().view(), visibility, samples) {}
 
-    /// W m^-2 sr^-1 towards the viewer. `random` must be the same for all luxels that share.
-    /// Safe to call from any thread.
+    /// W m^-2 sr^-1 towards the viewer. `random` must be the same for all luxels that share; its
+    /// first three numbers are used. Safe to call from any thread.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
-                                        SharedSamples shared, Random random) const {
-        if (lights_.lamps.by_power.empty() || samples_ == 0) return {};
-        const Shift shift{random.next(), random.next_2d()};
+                                        SharedSamples shared, const Random& random) const {
+        if (lights_.tree.empty() || samples_ == 0) return {};
+        const Shift shift(random.block(0));
+        const LightReceiver at{hit.position, s.normal, hit.normal};
         return mean_of_samples(
             hit.position, visibility_, samples_,
-            [&](std::uint32_t k) { return sample(shift, shared, k); },
+            [&](std::uint32_t k) { return sample(at, shift, shared, k); },
             [hit, s](const LampPoint& from) { return unshadowed(hit, s, from); });
     }
 
  private:
     struct Shift {
-        float pick;
+        double pick;
         Vec2 uv;
+
+        /// The first three numbers. What floats leave of their bits makes the first one finer:
+        /// among many lamps some have less than 2^-24 of it.
+        MIR_HD explicit Shift(const Bits128& bits)
+            : pick(static_cast<double>(bits.word[0]) * 0x1p-32 +
+                   static_cast<double>((bits.word[1] & 0xFFu) << 8 | (bits.word[2] & 0xFFu)) *
+                       0x1p-48),
+              uv(to_unit_float(bits.word[1]), to_unit_float(bits.word[2])) {}
     };
 
-    /// What shading reads of an EmitterSample, in whole words.
+    /// What shading reads of a point of a lamp, in whole words.
     struct LampPoint {
-        Vec3 position;
-        float offset;
-        Vec3 normal;
-        Rgb radiance;
-        float pdf_area;
-        std::uint32_t both_sides;  ///< 0 or 1
+        Vec3 position{0};
+        float offset = 0.0f;
+        Vec3 normal{0};
+        Rgb radiance;  ///< of a lamp without surface what leaves towards the luxel, W sr^-1
+        float pdf = 1.0f;
+        std::uint32_t both_sides = 0;  ///< 0 or 1
+        std::uint32_t is_place = 0;    ///< 0 or 1; 1: without surface
     };
 
     /// Sample `k` of the luxel: its lamps interleave with those of the pixel's other luxels. The
     /// shift goes over all lamps: a share of its own for each luxel would light one corner of every
     /// pixel by the same lamps.
-    [[nodiscard]] MIR_HD LampPoint sample(Shift shift, SharedSamples shared,
-                                          std::uint32_t k) const {
+    [[nodiscard]] MIR_HD LampPoint sample(const LightReceiver& at, const Shift& shift,
+                                          SharedSamples shared, std::uint32_t k) const {
         const std::uint32_t i = k * shared.shares + shared.share;
-        const auto n = static_cast<float>(samples_ * shared.shares);
-        const float lamp = wrapped(static_cast<float>(i) / n + shift.pick);
-        const EmitterSample e = lights_.lamps.sample(geometry_, lamp, kronecker_point(shift.uv, i));
-        return {e.position, e.offset, e.normal, e.radiance, e.pdf_area, e.both_sides ? 1u : 0u};
+        const auto n = static_cast<double>(samples_ * shared.shares);
+        const double sum = static_cast<double>(i) / n + shift.pick;
+        const LightPick pick = Pick::pick(lights_, at, sum < 1.0 ? sum : sum - 1.0);
+        const Vec2 uv = kronecker_point(shift.uv, i);
+        LampPoint point;
+        point.position = at.position + at.geometric;
+        if (!pick.is_found()) return point;
+        const auto probability = static_cast<float>(pick.probability);
+        if (pick.light >= lights_.lamps.count)
+            return lights_.listed[pick.light - lights_.lamps.count].visit(
+                [&](const auto& source) { return point_of(source, at.position, uv, probability); });
+        const EmitterSample e = lights_.lamps.point_on(geometry_, pick.light, uv);
+        return {e.position,
+                e.offset,
+                e.normal,
+                e.radiance,
+                e.pdf_area * probability,
+                e.both_sides ? 1u : 0u,
+                0u};
+    }
+
+    template <LightSource L>
+    [[nodiscard]] MIR_HD static LampPoint point_of(const L& source, Vec3 from, Vec2 uv,
+                                                   float probability) {
+        const LightPoint p = source.sample(uv, from);
+        const Vec3 d = p.position - from;
+        const float share = source.share(p.normal, d * (-1.0f / std::sqrt(length_squared(d))));
+        return {p.position, 0.0f, p.normal, p.emission * share, p.pdf * probability, 0u, 1u};
     }
 
     // Inlined by force, as VplShading.
@@ -74,9 +118,13 @@ class EmitterLight {
         const Vec3 d = place - hit.position;
         const float d2 = length_squared(d);
         const Vec3 wi = d * (1.0f / std::sqrt(d2));
-        const float cosine = -glm::dot(wi, normal);
-        const Rgb light = reflected<B>(hit, s, wi) * e.radiance * (cosine / (d2 * e.pdf_area));
-        return {place, kept_if(cosine > 0.0f, light)};
+        const float cosine = e.is_place != 0 ? 1.0f : -glm::dot(wi, normal);
+        const Rgb light = reflected<B>(hit, s, wi) * e.radiance * (cosine / (d2 * e.pdf));
+        // At the lamp itself 1/d^2 has no value.
+        const float y = luminance(light);
+        const bool is_light =
+            (static_cast<int>(cosine > 0.0f) & static_cast<int>(y - y == 0.0f)) != 0;
+        return {place, kept_if(is_light, light)};
     }
 
     LightTableView<space> lights_;
@@ -84,6 +132,18 @@ class EmitterLight {
     V visibility_;
     std::uint32_t samples_;
 };
+
+/// Which of the lights that a scene lists are summed one by one.
+enum class ListedPart : std::uint8_t {
+    all,         ///< as where nothing is drawn from a LightTree
+    beside_tree  ///< those that the LightTree does not hold
+};
+
+/// What is left to ListedLight beside an EmitterLight of so many samples.
+template <Space S>
+[[nodiscard]] ListedPart part_beside(const LightTableView<S>& lights, std::uint32_t samples) {
+    return lights.is_listed_in_tree && samples > 0 ? ListedPart::beside_tree : ListedPart::all;
+}
 
 /// Light of what the scene lists at a luxel. Exact where it has no extent, by one sample where it
 /// has. No ray meets these lights, so they are never VPLs (docs/method.md, 5.2). A light at the
@@ -95,8 +155,9 @@ class ListedLight {
     static constexpr Space space = space_of_lights<V>;  ///< memory that the lights lie in
 
     /// What the view reads must outlive it.
-    ListedLight(const LightTableView<space>& lights, V visibility)
-        : lights_(lights), visibility_(visibility) {}
+    ListedLight(const LightTableView<space>& lights, V visibility,
+                ListedPart part = ListedPart::all)
+        : lights_(lights), visibility_(visibility), part_(part) {}
     /// The lights of the host, which must outlive it.
     ListedLight(const LightTable& lights, V visibility) requires(space == Space::host)
         : ListedLight(lights.view(), visibility) {}
@@ -109,8 +170,10 @@ class ListedLight {
         Rgb sum;
         for (std::uint32_t i = 0; i < lights_.listed_count; ++i)
             sum += lights_.listed[i].visit([&](const auto& source) {
+                using Source = std::remove_cvref_t<decltype(source)>;
+                if (TreeLight<Source> && part_ == ListedPart::beside_tree) return Rgb{};
                 Vec2 u{0};
-                if constexpr (std::remove_cvref_t<decltype(source)>::has_extent) u = place(i);
+                if constexpr (Source::has_extent) u = place(i);
                 return from(hit, s, source, u);
             });
         return sum;
@@ -138,6 +201,7 @@ class ListedLight {
 
     LightTableView<space> lights_;
     V visibility_;
+    ListedPart part_;
 };
 
 }  // namespace mir

@@ -16,12 +16,9 @@ LayerPtr BackendFrame<M, B>::direct(const FrameBand& band, DirectSamples samples
     const WaitAtEnd wait(queue_);
     with_rays([&](const auto& rays) {
         using Sight = typename std::remove_cvref_t<decltype(rays)>::Sight;
-        const LuxelLight<B, Sight> light{
-            {lights_.view(), geometry_there_.view(), rays.sight(), samples.emitters},
-            {lights_.view(), rays.sight()},
-            {lights_.view(), rays.sight(), samples.environment},
-            {band.first_row, job_.rays.grid, job_.settings.seed},
-            samples.distant_vpls};
+        const LuxelLight<B, Sight> light(lights_.view(), geometry_there_.view(), rays.sight(),
+                                         samples,
+                                         {band.first_row, job_.rays.grid, job_.settings.seed});
         for (TileIndex t = 0; t < gbuffer.tiles().size(); ++t) {
             const auto view = gbuffer.view(t);
             queue_.for_each(view.size(),

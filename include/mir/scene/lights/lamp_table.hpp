@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/scene/lights/lamp.hpp"
+#include "mir/scene/lights/light_bounds.hpp"
 #include "mir/scene/texture_table.hpp"
 #include "mir/scene/world_geometry.hpp"
 
@@ -85,6 +86,8 @@ class LampTable {
     [[nodiscard]] std::span<const float> powers() const { return powers_; }
     /// Of the same triangles.
     [[nodiscard]] std::span<const LampTriangle> lamp_triangles() const { return lamp_triangles_; }
+    /// What a LightTree knows of the triangle at `index` of triangles().
+    [[nodiscard]] LightBounds light_bounds(const WorldGeometry& geometry, std::size_t index) const;
     /// By material.
     [[nodiscard]] std::span<const LampEntry> entries() const { return entries_; }
     /// Picks triangles by powers().
@@ -120,6 +123,24 @@ inline void LampTable::find_triangles(const Scene& scene, const WorldGeometry& g
             luminance(radiance[geometry.material_of(t)]) * pi * geometry.area(t) * sides,
             "material " + detail::in_quotes(m.name) + " emits"));
     }
+}
+
+inline LightBounds LampTable::light_bounds(const WorldGeometry& geometry, std::size_t index) const {
+    const LampTriangle& lamp = lamp_triangles_[index];
+    const GeometryView<Space::host> view = geometry.view();
+    LightBounds bounds;
+    float offset = 0.0f;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const Vec3 corner = view.corner(triangles_[index], k);
+        bounds.box.add(corner);
+        offset = larger(offset, view.offset_at(corner, 1.0f / std::sqrt(lamp.inverse_area)));
+    }
+    // Its points are lifted; a little more pays for what rounding moves.
+    bounds.box.low -= Vec3(2.0f * offset);
+    bounds.box.high += Vec3(2.0f * offset);
+    bounds.cone = {lamp.normal, 0.0f, 0.5f * pi, lamp.both_sides};
+    bounds.power = powers_[index];
+    return bounds;
 }
 
 }  // namespace mir

@@ -5,6 +5,7 @@
 #include "mir/core/warp.hpp"
 #include "mir/scene/bounds.hpp"
 #include "mir/scene/lights/bounding_sphere.hpp"
+#include "mir/scene/lights/light_bounds.hpp"
 
 #include <optional>
 #include <string>
@@ -67,6 +68,10 @@ struct PointSource {
     }
     /// Luminance of its power, W.
     [[nodiscard]] double power() const { return luminance(intensity) * 4.0f * pi; }
+    /// What a LightTree knows of it.
+    [[nodiscard]] LightBounds light_bounds() const {
+        return {{position, position}, LightCone::everywhere(), power()};
+    }
 };
 
 /// The light in the form that is sampled.

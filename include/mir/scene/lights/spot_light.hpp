@@ -6,7 +6,9 @@
 #include "mir/core/warp.hpp"
 #include "mir/scene/bounds.hpp"
 #include "mir/scene/lights/bounding_sphere.hpp"
+#include "mir/scene/lights/light_bounds.hpp"
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -85,6 +87,11 @@ struct SpotSource {
     [[nodiscard]] double power() const {
         return luminance(intensity) *
                (2.0f * pi * ((1.0f - cos_inner) + (cos_inner - cos_outer) / 3.0f));
+    }
+    /// What a LightTree knows of it: its normals are the directions of full intensity.
+    [[nodiscard]] LightBounds light_bounds() const {
+        const float inner = std::acos(cos_inner);
+        return {{position, position}, {direction, inner, std::acos(cos_outer) - inner}, power()};
     }
 };
 
