@@ -94,6 +94,16 @@ inline void add_luminance_warnings(const ChainHealth& h, std::vector<std::string
                            " standard errors: some light is found too rarely to be measured");
 }
 
+/// Where light paths find the light that the camera sees too rarely. Then few of them bring most of
+/// it, and more often than not too few.
+inline void add_light_path_warning(const PathLuminance& p, std::vector<std::string>& warnings) {
+    if (p.relative_error() <= 0.1) return;
+    warnings.push_back("the brightness of the VPLs' light is known to " +
+                       fixed_text(100.0 * p.relative_error()) +
+                       " % only, and is more often too dark (few of " + std::to_string(p.paths) +
+                       " light paths bring most of it); --sampler mir finds it, more --vpls help");
+}
+
 inline void add_mixing_warnings(const ChainHealth& h, std::vector<std::string>& warnings) {
     if (h.capped)
         warnings.emplace_back(
@@ -194,6 +204,7 @@ inline void add_chain_warnings(const RenderStatistics& s, std::vector<std::strin
 inline void add_result_warnings(const RenderResult& result, std::vector<std::string>& warnings) {
     const RenderStatistics& s = result.statistics;
     add_chain_warnings(s, warnings);
+    if (s.light_path_luminance) detail::add_light_path_warning(*s.light_path_luminance, warnings);
     if (s.dropped_triangles > 0)
         warnings.push_back(std::to_string(s.dropped_triangles) +
                            " triangles without area were left out");
