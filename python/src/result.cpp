@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "result.hpp"
 
+#include "denoising.hpp"
 #include "errors.hpp"
 #include "mir/denoise/denoiser.hpp"
 #include "mir/io/exr.hpp"
@@ -99,6 +100,9 @@ NumpyArray<float> denoised_of(nb::handle self, const std::optional<std::string>&
             r.denoiser = denoiser.name();
         });
         r.denoised = std::move(clean);
+        const auto kind = nb::cast<PyResult&>(self).options.settings.filter.kind;
+        const std::string remark = mirtool::filter_remark(std::string(to_string(kind)));
+        if (!remark.empty()) r.warnings.push_back(remark);
     }
     return view_of(r.denoised, self);
 }
@@ -197,6 +201,7 @@ void bind_result(nb::module_& m) {
         .def(
             "denoised", denoised_of, nb::arg("library").none() = nb::none(),
             "(h, w, 3): the beauty without noise, by Open Image Denoise; save() stores it, too.\n\n"
+            "Render with filter=\"box\": others spread noise, so that it looks like detail.\n"
             "library: its file; None: that of an installed package such as pyoidn, else the "
             "system's.")
         .def("save", save, nb::arg("path"),

@@ -21,7 +21,7 @@ const Words by_fake{"--denoiser", MIR_FAKE_OIDN_2};
 
 /// A small noisy picture with these layers.
 std::string noisy(const std::filesystem::path& exr, const char* layers) {
-    const Words few{"--direct-samples", "1", "--aov", layers};
+    const Words few{"--direct-samples", "1", "--filter", "box", "--aov", layers};
     REQUIRE(run_mir(small_render(exr) + few).exit_code == 0);
     return exr.string();
 }
@@ -128,6 +128,20 @@ TEST_CASE("a picture without guides, or without parts, is denoised as it is and 
     CHECK(denoise(Words{albedo, out, "--quiet"} + by_fake).err.empty());
 }
 
+TEST_CASE("a pixel filter that hides noise from a denoiser is named, and is not the default") {
+    const TemporaryFolder folder("denoise_filter");
+    const Words denoised = small_render(folder / "a.exr") + Words{"--denoise", "--json"} + by_fake;
+    const auto told = [&](const Words& more) {
+        return json::parse(run_mir(denoised + more).out).at("warnings").dump();
+    };
+    CHECK_FALSE(has(told({}), "pixel filter"));
+    CHECK(attribute_of(folder / "a.exr", "mir:filter") == "box");
+    CHECK(has(told({"--filter", "gaussian"}), "the pixel filter gaussian spreads noise"));
+    CHECK(attribute_of(folder / "a.exr", "mir:filter") == "gaussian");
+    const Outcome outcome = denoise(Words{folder / "a.exr", folder / "b.exr"} + by_fake);
+    CHECK(has(outcome.err, "a.exr: the pixel filter gaussian spreads noise"));
+}
+
 TEST_CASE("without a denoiser nothing is rendered, and one sentence says what to do") {
     const Words nowhere{"--denoiser", "/nowhere/libOpenImageDenoise.so"};
     check_failing_render(Words{"builtin:sphere", "--denoise"} + nowhere, 4,
@@ -149,7 +163,7 @@ TEST_CASE("the real denoiser brings a noisy picture nearer to its reference", "[
         REQUIRE(outcome.exit_code != 1);
         return outcome;
     };
-    room("reference.exr", {"--integrator", "path", "--samples", "256"});
+    room("reference.exr", {"--integrator", "path", "--samples", "256", "--filter", "box"});
     const Outcome outcome =
         room("a.exr", {"--integrator", "path", "--samples", "1", "--luxels", "4", "--denoise"});
     if (outcome.exit_code == 4) {

@@ -63,7 +63,8 @@ mir::ExrAttributes kept_attributes(const mir::ExrImage& file) {
 }
 
 NoisyPicture read_noisy(const DenoiseOptions& o) {
-    NoisyPicture noisy{{}, {{}, {}, {}, {}, {}, mir::Guides({0, 0}), {}, {}, {}}};
+    NoisyPicture noisy{
+        {}, {{}, {}, {}, {}, {}, mir::Guides({0, 0}), {}, {}, {}}, false, false, false, {}};
     noisy.whole = read_layer(o, "");
     const mir::ExrImage file = mir::read_exr(o.image);
     noisy.attributes = kept_attributes(file);
@@ -96,8 +97,18 @@ mir::Image<mir::Rgb> read_reference(const DenoiseOptions& o, const NoisyPicture&
     return reference;
 }
 
+std::string filter_of(const mir::ExrAttributes& attributes) {
+    for (const mir::ExrAttribute& a : attributes)
+        if (a.name == "mir:filter") return std::get<std::string>(a.value);
+    return "";
+}
+
 void say_what_lacks(const DenoiseOptions& o, const NoisyPicture& noisy) {
-    if (o.quiet || noisy.has_normal) return;
+    if (o.quiet) return;
+    const std::string remark = filter_remark(filter_of(noisy.attributes));
+    if (!remark.empty())
+        std::fprintf(stderr, "mir: %s: %s\n", shown(o.image).c_str(), remark.c_str());
+    if (noisy.has_normal) return;
     std::fprintf(stderr,
                  "mir: %s: it has no layer %s, so edges and textures may be blurred; mir render "
                  "stores albedo and normal\n",
@@ -126,7 +137,8 @@ int run(const DenoiseOptions& o) {
     // Also while the file is written, since a signal that ended the program there would leave half.
     mir::Monitor monitor;
     const CancelOnInterrupt cancel(monitor);
-    Denoising done{denoiser.name()};
+    Denoising done;
+    done.denoiser = denoiser.name();
     mir::Image<mir::Rgb> clean;
     {
         const mir::Stopwatch watch(done.seconds);

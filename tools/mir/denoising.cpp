@@ -38,6 +38,13 @@ Denoising denoise_result(mir::RenderResult& result, const mir::Denoiser& denoise
     return done;
 }
 
+std::string filter_remark(const std::string& filter) {
+    if (filter.empty() || filter == "box") return "";
+    return "the pixel filter " + shown(filter) +
+           " spreads noise over neighbours, so that a denoiser takes it for detail; render with "
+           "--filter box";
+}
+
 Json json_of(const Denoising& d) {
     if (d.denoiser.empty()) return {};
     Json out{{"denoiser", d.denoiser}, {"seconds", d.seconds}};

@@ -31,6 +31,9 @@ struct Denoising {
 Denoising denoise_result(mir::RenderResult& result, const mir::Denoiser& denoiser,
                          mir::Monitor& monitor);
 
+/// A sentence where the pixel filter of this name hides noise from denoisers; empty otherwise.
+std::string filter_remark(const std::string& filter);
+
 /// For programs.
 nlohmann::ordered_json json_of(const Denoising& denoising);
 

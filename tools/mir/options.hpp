@@ -60,7 +60,8 @@ struct RenderOptions {
     bool quiet = false;
     bool json = false;
     bool denoise = false;
-    std::string denoiser;  ///< library; empty: found
+    std::string denoiser;     ///< library; empty: found
+    bool has_filter = false;  ///< --filter was given
     PassOptions passes;
     AddedScene added;
     mir::RenderSettings settings;

@@ -127,7 +127,8 @@ void add_image(CLI::App& app, RenderOptions& o) {
         filters.emplace(f.name, mir::default_filter(f.kind));
     add_choice<mir::Filter>(
         app, "--filter", s.filter, filters,
-        "Pixel filter (default gaussian; lanczos is the paper's windowed sinc)");
+        "Pixel filter (default gaussian, with --denoise box; lanczos is the paper's windowed sinc)")
+        ->each([&o](const std::string&) { o.has_filter = true; });
 }
 
 /// Light, ground and view for files that have none.

@@ -54,6 +54,8 @@ Denoising denoised(const std::optional<mir::Denoiser>& denoiser, mir::RenderResu
                    const mir::Image<mir::Rgb>& reference, const RenderOptions& o,
                    mir::Monitor& monitor) {
     if (!denoiser) return {};
+    const std::string remark = filter_remark(std::string(to_string(o.settings.filter.kind)));
+    if (!remark.empty()) result.warnings.push_back(remark);
     Denoising done = denoise_result(result, *denoiser, monitor);
     if (!done.denoiser.empty())
         done.measure(result.beauty, result.denoised, reference, o.report_reference);
@@ -95,6 +97,7 @@ int run(const RenderOptions& options) {
     const mir::Image<mir::Rgb> reference = read_report_reference(o);
     std::optional<mir::Denoiser> denoiser;
     if (o.denoise) denoiser.emplace(o.denoiser, o.settings.threads);
+    if (o.denoise && !o.has_filter) o.settings.filter = mir::default_filter(mir::FilterKind::box);
     // Bounds Embree's build too, which runs on the same library.
     std::optional<tbb::global_control> threads;
     if (o.settings.threads > 0)

@@ -46,7 +46,8 @@ class Denoiser {
 };
 
 /// The beauty of a result without its noise. Direct and indirect light are denoised each by itself,
-/// with the guides of the result; emission is added as it is.
+/// with the guides of the result; emission is added as it is. Render with the filter `box`: others
+/// spread noise over neighbours, so that it looks like detail.
 /// @throws Error as Denoiser::denoise().
 [[nodiscard]] Image<Rgb> denoise(const RenderResult& result, const Denoiser& denoiser,
                                  Monitor* monitor = nullptr);

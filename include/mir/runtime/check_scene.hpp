@@ -95,13 +95,17 @@ inline void add_luminance_warnings(const ChainHealth& h, std::vector<std::string
 }
 
 /// Where light paths find the light that the camera sees too rarely. Then few of them bring most of
-/// it, and more often than not too few.
+/// it, and more often than not too few. VPLs that are merely few are no reason.
 inline void add_light_path_warning(const PathLuminance& p, std::vector<std::string>& warnings) {
-    if (p.relative_error() <= 0.1) return;
+    const double error = p.relative_error();
+    if (error <= 0.1) return;
+    const double equal_paths = 1.0 / (error * error);
+    if (equal_paths >= 0.2 * static_cast<double>(p.paths)) return;
     warnings.push_back("the brightness of the VPLs' light is known to " +
-                       fixed_text(100.0 * p.relative_error()) +
-                       " % only, and is more often too dark (few of " + std::to_string(p.paths) +
-                       " light paths bring most of it); --sampler mir finds it, more --vpls help");
+                       fixed_text(100.0 * error) + " % only, and is more often too dark (" +
+                       std::to_string(p.paths) + " light paths are worth " +
+                       fixed_text(equal_paths) +
+                       " that bring the same); --sampler mir finds it, more --vpls help");
 }
 
 inline void add_mixing_warnings(const ChainHealth& h, std::vector<std::string>& warnings) {

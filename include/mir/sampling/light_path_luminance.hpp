@@ -6,6 +6,7 @@
 #include "mir/data/vpl_record.hpp"
 #include "mir/sampling/image_probe.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -29,9 +30,9 @@ inline std::vector<std::size_t> path_starts(const std::vector<VplRecord>& record
 /// P_c by the light paths of a sampler whose intensities are final. Its standard error follows from
 /// how much each path gives to the luxels of `probe`: few paths that bring most of the light make
 /// it large, and a picture of such VPLs is mostly too dark and sometimes far too bright. Of more
-/// than `most` records some paths are looked at, evenly; the error is that of all.
-/// PathLuminance::paths counts those that were looked at. `sampled` comes as a sampler of light
-/// paths gives it, path after path. The same bits for any executor.
+/// than `most` records some paths are looked at, evenly; error and counts are those of all.
+/// `sampled` comes as a sampler of light paths gives it, path after path. The same bits for any
+/// executor.
 template <Bsdf B, Visibility V, Executor E>
 [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
                                                  const ImageProbe<B, V>& probe, E& executor,
@@ -53,6 +54,8 @@ template <Bsdf B, Visibility V, Executor E>
     for (std::uint64_t dark = lit; dark < looked_at; ++dark) moments.add(0.0);
     PathLuminance estimate = moments.estimate();
     estimate.standard_error /= std::sqrt(static_cast<double>(stride));
+    estimate.paths = sampled.paths;
+    estimate.contributing = std::min(estimate.contributing * stride, sampled.paths);
     return estimate;
 }
 
