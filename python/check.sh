@@ -3,8 +3,8 @@
 #
 # python/check.sh [extended]   builds the wheel, installs it into a virtual environment and runs
 #                              python/tests; `extended` adds every built-in scene, the packages of
-#                              neighbours and, in an empty environment, the wheel that needs no Debian
-#                              packages
+#                              neighbours, in an empty environment the wheel that needs no Debian
+#                              packages, and the add-on for Blender with it
 #
 # What it downloads, and the environments of others' packages, stay in build/wheels. Skipped, with a
 # reason, where PyPI cannot be reached before that.
@@ -90,5 +90,6 @@ if [ "$kind" = extended ]; then
     marks=
     quiet sh python/wheel.sh "$tools/bin/python"
     environment build/venv-whole build/dist/whole mir
+    sh python/blender/check.sh
 fi
 exec "$tests/bin/python" -m pytest -q -rs -m "$marks"

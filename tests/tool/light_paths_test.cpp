@@ -8,12 +8,12 @@ using nlohmann::json;
 
 namespace {
 
-/// The JSON of a small picture by the usual number of VPLs.
+/// The JSON of a small picture by about a thousand VPLs.
 json rendered(const std::string& scene, const char* sampler) {
     const TemporaryFolder folder("light_paths");
     const Outcome outcome = run_mir({"render", scene, "-o", folder / "a.exr", "--no-png", "--width",
                                      "24", "--height", "18", "--luxels", "1", "--backend", "cpu",
-                                     "--quiet", "--json", "--sampler", sampler});
+                                     "--quiet", "--json", "--vpls", "1024", "--sampler", sampler});
     REQUIRE(outcome.exit_code == 0);
     return json::parse(outcome.out);
 }

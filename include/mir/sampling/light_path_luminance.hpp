@@ -36,7 +36,7 @@ inline std::vector<std::size_t> path_starts(const std::vector<VplRecord>& record
 template <Bsdf B, Visibility V, Executor E>
 [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
                                                  const ImageProbe<B, V>& probe, E& executor,
-                                                 std::size_t most = 2048) {
+                                                 std::size_t most = 1024) {
     const std::vector<std::size_t> starts = detail::path_starts(sampled.records);
     const std::size_t stride = sampled.records.size() / most + 1;
     const std::size_t lit = (starts.size() - 1 + stride - 1) / stride;
