@@ -4,6 +4,7 @@
 #include "denoising.hpp"
 #include "errors.hpp"
 #include "mir/denoise/denoiser.hpp"
+#include "mir/film/filter.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
 #include "render_attributes.hpp"

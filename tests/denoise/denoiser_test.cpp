@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <functional>
+#include <utility>
 
 // By libraries that the tests build, whose output says what they were given; the real one is met by
 // the tests of the program.

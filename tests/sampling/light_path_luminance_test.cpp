@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/sampling/light_path_luminance.hpp"
 
+#include "mir/scene/scene.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/analytic_sphere.hpp"
 #include "support/catch.hpp"

@@ -20,7 +20,7 @@ json rendered(const std::string& scene, const char* sampler) {
 
 bool warns(const json& told) {
     for (const json& warning : told.at("warnings"))
-        if (has(warning, "that bring the same); --sampler mir")) return true;
+        if (has(warning.get<std::string>(), "that bring the same); --sampler mir")) return true;
     return false;
 }
 

@@ -4,6 +4,7 @@
 #include "exit_code.hpp"
 #include "idle_options.hpp"
 #include "load_scene.hpp"
+#include "mir/film/filter.hpp"
 #include "mir/runtime/all_renderers.hpp"
 #include "prepare_scene.hpp"
 #include "print_result.hpp"
