@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "result.hpp"
 
+#include "denoising.hpp"
 #include "errors.hpp"
+#include "mir/denoise/denoiser.hpp"
+#include "mir/film/filter.hpp"
 #include "mir/io/exr.hpp"
 #include "mir/io/png.hpp"
 #include "render_attributes.hpp"
 #include "render_facts.hpp"
 #include "views.hpp"
 #include "vpls.hpp"
+#include "watch.hpp"
 
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
@@ -16,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace nb = nanobind;
@@ -78,6 +83,29 @@ nb::dict budget_of(const PyResult& self) {
           "residual_luminance", "gather_difference"})
         if (facts.contains(name)) budget[name] = facts[name];
     return to_python(budget);
+}
+
+/// Made once: arrays may look at it.
+NumpyArray<float> denoised_of(nb::handle self, const std::optional<std::string>& library) {
+    auto& r = nb::cast<PyResult&>(self).result;
+    if (r.denoised.pixels().empty()) {
+        const auto file =
+            library
+                ? *library
+                : nb::cast<std::string>(nb::module_::import_("mir._denoiser").attr("library")());
+        mir::Image<mir::Rgb> clean;
+        mir::Monitor monitor;
+        watched(monitor, nb::none(), [&] {
+            const mir::Denoiser denoiser(file);
+            clean = mir::denoise(r, denoiser, &monitor);
+            r.denoiser = denoiser.name();
+        });
+        r.denoised = std::move(clean);
+        const auto kind = nb::cast<PyResult&>(self).options.settings.filter.kind;
+        const std::string remark = mirtool::filter_remark(std::string(to_string(kind)));
+        if (!remark.empty()) r.warnings.push_back(remark);
+    }
+    return view_of(r.denoised, self);
 }
 
 std::vector<NumpyArray<float>> bounces_of(nb::handle self) {
@@ -171,6 +199,12 @@ void bind_result(nb::module_& m) {
                                bound > 0.0f ? bound : std::numeric_limits<float>::max());
             },
             "Copy of the VPLs that lit the picture.")
+        .def(
+            "denoised", denoised_of, nb::arg("library").none() = nb::none(),
+            "(h, w, 3): the beauty without noise, by Open Image Denoise; save() stores it, too.\n\n"
+            "Render with filter=\"box\": others spread noise, so that it looks like detail.\n"
+            "library: its file; None: that of an installed package such as pyoidn, else the "
+            "system's.")
         .def("save", save, nb::arg("path"),
              "Writes the file that `mir render` writes (.exr), or its preview (.png).")
         .def("_repr_png_", png_of)

@@ -31,6 +31,7 @@
 #include <exception>
 #include <fstream>
 #include <new>
+#include <set>
 #include <system_error>
 #include <variant>
 
@@ -158,6 +159,16 @@ std::array<std::string, 3> find_channels(const Imf::Header& header, const std::s
                 "name a layer of these channels: " + present);
 }
 
+std::vector<std::string> layers_of(const Imf::Header& header) {
+    std::set<std::string> names;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+        const std::string channel = c.name();
+        const std::size_t dot = channel.rfind('.');
+        names.insert(dot == std::string::npos ? "" : channel.substr(0, dot));
+    }
+    return {names.begin(), names.end()};
+}
+
 Image<Rgb> read_channels(std::ifstream& stream, const std::filesystem::path& path,
                          const Imf::Header& header, const std::string& layer) {
     const std::array<std::string, 3> names = find_channels(header, layer, path);
@@ -216,6 +227,7 @@ ExrImage read_exr(const std::filesystem::path& path, const std::string& layer,
         const Imf::Header header = detail::checked_header(stream, path, bytes, limits);
         ExrImage result;
         result.image = detail::read_channels(stream, path, header, layer);
+        result.layers = detail::layers_of(header);
         for (auto a = header.begin(); a != header.end(); ++a)
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
                 result.attributes.emplace_back(a.name(), text->value());

@@ -37,6 +37,7 @@ void keep_statistics(RenderJob& job, const SampledVpls& sampled) {
     s.path_luminance = records.path_luminance;
     s.states = records.states;
     s.health = records.health;
+    s.light_path_luminance = records.light_paths;
     const bool by_sampler = sampled.normalisation == Normalisation::none && !records.health;
     s.normalisation =
         to_string(by_sampler ? NormalisationPolicy::none : job.settings.normalisation_policy());

@@ -3,6 +3,7 @@
 
 #include "mir/sampling/bidirectional_sampler.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
+#include "mir/sampling/light_path_luminance.hpp"
 #include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/sampling/proposal_sampler.hpp"
 #include "mir/sampling/vpl_roulette.hpp"
@@ -99,9 +100,13 @@ SampledVpls sample_vpls(RenderFrame& frame, float bound) {
         return {frame.sample_chains(metropolis_options(s), bound), Normalisation::image_response};
     const AnyEngine& rays = frame.rays();
     return job.with_surfaces([&](const auto& surfaces) {
-        return with_sampler(job, surfaces, rays, bound, [&job](const auto& sampler) {
+        SampledVpls sampled = with_sampler(job, surfaces, rays, bound, [&job](const auto& sampler) {
             return SampledVpls{sampler.sample(job.executor), sampler.normalisation};
         });
+        if (s.sampler == SamplerKind::instant_radiosity && s.measure_missing)
+            sampled.records.light_paths = light_path_luminance(
+                sampled.records, image_probe(job, surfaces, rays, bound), job.executor);
+        return sampled;
     });
 }
 

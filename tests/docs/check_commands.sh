@@ -69,7 +69,7 @@ check_options() {
     *) return 0 ;;
     esac
     case ${2:-} in
-    render | info | export | compare | devices | manual) sub=$2 ;;
+    render | info | export | compare | denoise | devices | manual) sub=$2 ;;
     *) sub= ;;
     esac
     if [ ! -f "$work/help$sub" ]; then

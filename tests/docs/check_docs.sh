@@ -143,7 +143,7 @@ section() {
 }
 
 check_options() {
-    for command in '' render info export compare devices manual; do
+    for command in '' render info export compare denoise devices manual; do
         title=mir${command:+ $command}
         # Without a command --help-all would tell the options of all.
         help=--help${command:+-all}

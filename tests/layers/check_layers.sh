@@ -19,7 +19,7 @@ includes() {
             grep -ro '^#include "mir/[^"]*"' . | sed "s#^\./#mir/$component/#")
     done
     # What is compiled of a row counts as that row.
-    (cd src && grep -ro '^#include "mir/[^"]*"' io render runtime scenes | sed 's#^#mir/#')
+    (cd src && grep -ro '^#include "mir/[^"]*"' denoise io render runtime scenes | sed 's#^#mir/#')
     grep -ro '^#include "mir/[^"]*detail/[^"]*"' tools/mir examples docs |
         sed 's#^#outside/#' || true
 }

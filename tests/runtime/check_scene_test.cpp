@@ -132,6 +132,15 @@ TEST_CASE("lobes and noise of direct light that a picture bears are not warned o
           }).empty());
 }
 
+TEST_CASE("light paths that know their light to a tenth, or are merely few, are not warned of") {
+    for (const mir::PathLuminance known :
+         {mir::PathLuminance{1.0, 0.09, 300, 40}, mir::PathLuminance{1.0, 0.3, 20, 12}})
+        CHECK(warnings_after([&known](mir::RenderStatistics& s) {
+                  s.health.reset();
+                  s.light_path_luminance = known;
+              }).empty());
+}
+
 TEST_CASE("chains too short for a second estimate of the luminance are not warned of one") {
     CHECK(warnings_after([](mir::RenderStatistics& s) {
               s.health->mutations = 0;
@@ -157,6 +166,11 @@ TEST_CASE("each bad value of a render is one worded warning") {
     const Case cases[] = {
         {"none of 16384 paths", [](Statistics& s) { s.health->luminance.contributing = 0; }},
         {"known to 10 % only", [](Statistics& s) { s.health->luminance.standard_error = 0.1; }},
+        {"known to 30 % only, and is more often too dark (300 light paths are worth 11",
+         [](Statistics& s) {
+             s.health.reset();
+             s.light_path_luminance = mir::PathLuminance{1.0, 0.3, 300, 40};
+         }},
         {"disagree by", [](Statistics& s) { s.health->large_step_luminance.mean = 1.2; }},
         {"cut short", [](Statistics& s) { s.health->capped = true; }},
         {"no mutation was accepted",

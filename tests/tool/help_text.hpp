@@ -10,7 +10,8 @@
 namespace mirtest {
 
 /// The commands that have options of their own.
-inline const Words tool_commands{"render", "info", "export", "compare", "devices", "manual"};
+inline const Words tool_commands{"render",  "info",    "export", "compare",
+                                 "denoise", "devices", "manual"};
 
 /// Long options by the titles under which a help shows them.
 inline std::map<std::string, Words> groups_of(const std::string& help) {

@@ -6,8 +6,9 @@
 using namespace mirtest;
 
 TEST_CASE("help goes to standard output, also that of each command") {
-    for (const Words& command : {Words{}, Words{"render"}, Words{"info"}, Words{"export"},
-                                 Words{"compare"}, Words{"devices"}, Words{"manual"}}) {
+    for (const Words& command :
+         {Words{}, Words{"render"}, Words{"info"}, Words{"export"}, Words{"compare"},
+          Words{"denoise"}, Words{"devices"}, Words{"manual"}}) {
         const Outcome help = run_mir(command + Words{"--help"});
         CHECK(help.exit_code == 0);
         CHECK(has(help.out, "Usage: mir"));
@@ -109,6 +110,32 @@ TEST_CASE("values out of range are refused before any work") {
         INFO(wrong[0] << " " << wrong[1]);
         check_failing_render(Words{"builtin:sphere"} + wrong, 2, wrong[0]);
     }
+}
+
+TEST_CASE("goals that no pass can reach are refused by option, value, reason and remedy") {
+    struct Goal {
+        const char* option;
+        std::vector<const char*> values;
+        const char* rest;
+    };
+    for (const Goal& goal :
+         {Goal{"--target-error",
+               {"0", "-0", "-0.01", "nan", "1e-9", "-inf"},
+               " is out of range (the mean of passes comes near the true picture, but never to "
+               "it); give 0.000001 to 1"},
+          Goal{"--time",
+               {"0", "-1", "nan", "0.0001"},
+               " is out of range (a pass takes some time); give 0.001 to 32000000"},
+          Goal{"--passes",
+               {"0", "-1", "nan"},
+               " is out of range (without a pass there is no picture); give 1 to 1000000"}})
+        for (const char* value : goal.values) {
+            INFO(goal.option << " " << value);
+            check_failing_render({"builtin:sphere", std::string(goal.option) + "=" + value}, 2,
+                                 std::string(goal.option) + ": " + value + goal.rest);
+        }
+    check_failing_render({"builtin:sphere", "--target-error", "inf"}, 2,
+                         "--target-error: inf is out of range; give 0.000001 to 1");
 }
 
 TEST_CASE("the path tracer, which has no bound, refuses one") {

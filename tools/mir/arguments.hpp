@@ -31,4 +31,10 @@ void add_environment(CLI::App& app, EnvironmentOptions& options);
 /// Declares the arguments of `mir compare`.
 void add_compare(CLI::App& app, CompareOptions& options);
 
+/// Declares the argument that names the library of a denoiser.
+CLI::Option* add_denoiser(CLI::App& app, std::string& library);
+
+/// Declares the arguments of `mir denoise`.
+void add_denoise(CLI::App& app, DenoiseOptions& options);
+
 }  // namespace mirtool

@@ -26,9 +26,9 @@ int complain(const CLI::App& app, const CLI::ParseError& e) {
 
 /// The options that `mir render --help` shows.
 const std::vector<std::string> first_options{
-    "--output",  "--aov",  "--exposure",    "--width",  "--height",
-    "--quality", "--sun",  "--environment", "--luxels", "--vpls",
-    "--passes",  "--time", "--backend",     "--help",   "--help-all"};
+    "--output",  "--aov",     "--exposure",    "--denoise", "--width", "--height",
+    "--quality", "--sun",     "--environment", "--luxels",  "--vpls",  "--passes",
+    "--time",    "--backend", "--help",        "--help-all"};
 
 constexpr const char* help_examples =
     "Examples:\n"
@@ -51,6 +51,7 @@ struct CommandLine {
     InfoOptions info;
     ExportOptions exporting;
     CompareOptions compare;
+    DenoiseOptions denoise;
     DevicesOptions devices;
     ManualOptions manual;
     CLI::App app{"Metropolis Instant Radiosity: renders scenes with virtual point lights", "mir"};
@@ -87,6 +88,7 @@ CommandLine::CommandLine() {
         ->required()
         ->type_name("FILE");
     add_compare(*app.add_subcommand("compare", "Compare a picture with a reference"), compare);
+    add_denoise(*app.add_subcommand("denoise", "Take the noise out of a picture"), denoise);
     CLI::App* d = app.add_subcommand("devices", "List what can render on this machine");
     d->add_flag("--json", devices.json, "JSON on stdout");
     add_manual_command();
@@ -136,6 +138,7 @@ Command CommandLine::given() const {
     if (app.got_subcommand("info")) return info;
     if (app.got_subcommand("export")) return exporting;
     if (app.got_subcommand("compare")) return compare;
+    if (app.got_subcommand("denoise")) return denoise;
     if (app.got_subcommand("devices")) return devices;
     return manual;
 }

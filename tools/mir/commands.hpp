@@ -10,6 +10,7 @@ int run(const RenderOptions& options);
 int run(const InfoOptions& options);
 int run(const ExportOptions& options);
 int run(const CompareOptions& options);
+int run(const DenoiseOptions& options);
 int run(const DevicesOptions& options);
 int run(const ManualOptions& options);
 

@@ -27,7 +27,7 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {exit_usage, "Wrong usage: an unknown option, a value out of range"},
     {exit_input,
      "The scene or picture cannot be used: missing, broken, unsupported, without light"},
-    {exit_no_device, "The device that --backend names is not there"},
+    {exit_no_device, "The device that --backend names is not there, or no denoiser"},
     {exit_interrupted, "Interrupted; the picture of the finished passes is written"}};
 
 /// Exit code for a failure of the library.

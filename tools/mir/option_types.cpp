@@ -22,14 +22,17 @@ std::string misread(const std::string& value) {
 
 void begin_group(CLI::App& app, const std::string& title) { app.option_defaults()->group(title); }
 
-CLI::Validator between(double low, double high, const std::string& text) {
+CLI::Validator between(double low, double high, const std::string& text,
+                       const std::string& why_not_less) {
     return {[=](std::string& value) {
                 if (std::string why = misread(value); !why.empty()) return why;
                 double number = 0.0;
                 if (!CLI::detail::lexical_cast(value, number))
                     return "'" + value + "' is no number";
                 if (number >= low && number <= high) return std::string();
-                return value + " is out of range; give " + text;
+                const bool needs_reason = !why_not_less.empty() && !(number > high);
+                return value + " is out of range" +
+                       (needs_reason ? " (" + why_not_less + ")" : "") + "; give " + text;
             },
             text};
 }

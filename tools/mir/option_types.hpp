@@ -19,7 +19,9 @@ void begin_group(CLI::App& app, const std::string& title);
 
 /// A number within [low, high], which `text` says in words. CLI11's own check prints bounds with
 /// hundreds of digits.
-CLI::Validator between(double low, double high, const std::string& text);
+/// `why_not_less` is said of what is less, or no number at all.
+CLI::Validator between(double low, double high, const std::string& text,
+                       const std::string& why_not_less = "");
 
 /// Any number of 64 bits; CLI11 2.1 lets others wrap around.
 CLI::Validator seed_number();

@@ -59,6 +59,9 @@ struct RenderOptions {
     bool record_seconds = false;  ///< seconds in the EXR: its bytes then differ every time
     bool quiet = false;
     bool json = false;
+    bool denoise = false;
+    std::string denoiser;     ///< library; empty: found
+    bool has_filter = false;  ///< --filter was given
     PassOptions passes;
     AddedScene added;
     mir::RenderSettings settings;
@@ -98,6 +101,17 @@ struct CompareOptions {
     bool json = false;
 };
 
+/// `mir denoise`.
+struct DenoiseOptions {
+    std::string image;
+    std::string output;
+    std::string reference;  ///< EXR; empty: none
+    std::string denoiser;   ///< library; empty: found
+    std::uint32_t threads = 0;
+    bool json = false;
+    bool quiet = false;
+};
+
 /// `mir devices`.
 struct DevicesOptions {
     bool json = false;
@@ -111,6 +125,6 @@ struct ManualOptions {
 };
 
 using Command = std::variant<RenderOptions, InfoOptions, ExportOptions, CompareOptions,
-                             DevicesOptions, ManualOptions>;
+                             DenoiseOptions, DevicesOptions, ManualOptions>;
 
 }  // namespace mirtool

@@ -64,6 +64,16 @@ void add_output(CLI::App& app, RenderOptions& o) {
     app.add_flag("-q,--quiet", o.quiet, "No progress, remarks or summary");
 }
 
+/// A picture without noise beside the picture.
+void add_denoising(CLI::App& app, RenderOptions& o) {
+    begin_group(app, "Output");
+    CLI::Option* denoise = app.add_flag(
+        "--denoise", o.denoise,
+        "Add the layer denoised, the picture without its noise, by Open Image Denoise; the preview "
+        "shows it");
+    add_denoiser(app, o.denoiser)->needs(denoise);
+}
+
 /// Layers beside the picture.
 void add_layers(CLI::App& app, RenderOptions& o) {
     begin_group(app, "Output");
@@ -117,7 +127,8 @@ void add_image(CLI::App& app, RenderOptions& o) {
         filters.emplace(f.name, mir::default_filter(f.kind));
     add_choice<mir::Filter>(
         app, "--filter", s.filter, filters,
-        "Pixel filter (default gaussian; lanczos is the paper's windowed sinc)");
+        "Pixel filter (default gaussian, with --denoise box; lanczos is the paper's windowed sinc)")
+        ->each([&o](const std::string&) { o.has_filter = true; });
 }
 
 /// Light, ground and view for files that have none.
@@ -149,18 +160,18 @@ void add_scene_parts(CLI::App& app, RenderOptions& o) {
 
 void add_passes(CLI::App& app, PassOptions& p) {
     begin_group(app, "Time and machine");
-    const auto seconds = between(0.001, 3.2e7, "0.001 to 32000000");
     app.add_option("--passes", p.passes,
                    "Renders with random numbers of their own, whose mean is the picture (default "
                    "1; no limit with --time or --target-error)")
-        ->check(between(1, mir::max_passes, "1 to 1000000"));
+        ->check(between(1, mir::max_passes, "1 to 1000000", "without a pass there is no picture"));
     app.add_option("--time", p.seconds, "Start no further pass after so many seconds")
-        ->check(seconds)
+        ->check(between(0.001, 3.2e7, "0.001 to 32000000", "a pass takes some time"))
         ->type_name("SECONDS");
     app.add_option("--target-error", p.relative_error,
                    "Start no further pass once the relative error, from the spread of the passes, "
                    "is so small; 0.01 is one percent")
-        ->check(between(1e-6, 1, "0.000001 to 1"));
+        ->check(between(1e-6, 1, "0.000001 to 1",
+                        "the mean of passes comes near the true picture, but never to it"));
 }
 
 /// What of the passes is kept in files while they go on.
@@ -228,6 +239,7 @@ void add_picture(CLI::App& app, RenderOptions& options) {
 
 void add_render(CLI::App& app, RenderOptions& options) {
     add_output(app, options);
+    add_denoising(app, options);
     add_report(app, options);
     add_picture(app, options);
     add_kept_passes(app, options.passes);

@@ -78,6 +78,7 @@ std::vector<mir::ExrLayer> layers_of(const mir::RenderResult& r, const RenderOpt
     if (names(o, "pick_error"))
         layers.push_back(
             {"pick_error", &r.pick_error, ExrPrecision::single, mir::ExrScalar::luminance});
+    if (!r.denoised.pixels().empty()) layers.push_back({"denoised", &r.denoised});
     for (std::size_t i = 0; i < r.bounces.size(); ++i)
         layers.push_back({"bounce" + std::to_string(i + 1), &r.bounces[i]});
     return layers;
@@ -97,6 +98,7 @@ mir::ExrAttributes attributes_of(const mir::RenderResult& r, const RenderOptions
         {"mir:contributions", std::to_string(s.contributions)},
         {"mir:bound", s.bound},
     };
+    if (!r.denoiser.empty()) all.push_back({"mir:denoiser", r.denoiser});
     if (s.origin != mir::DVec3(0.0)) all.push_back({"mir:origin", s.origin});
     append_missing_attributes(s, all);
     append_pass_attributes(s, all);

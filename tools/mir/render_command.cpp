@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "denoising.hpp"
 #include "exit_code.hpp"
 #include "idle_options.hpp"
 #include "load_scene.hpp"
+#include "mir/film/filter.hpp"
 #include "mir/runtime/all_renderers.hpp"
 #include "prepare_scene.hpp"
 #include "print_result.hpp"
@@ -48,6 +50,32 @@ mir::RenderResult render(const RenderOptions& o, const mir::Scene& scene, const 
     return result;
 }
 
+/// Adds the picture without noise to the result, if there is a denoiser.
+Denoising denoised(const std::optional<mir::Denoiser>& denoiser, mir::RenderResult& result,
+                   const mir::Image<mir::Rgb>& reference, const RenderOptions& o,
+                   mir::Monitor& monitor) {
+    if (!denoiser) return {};
+    const std::string remark = filter_remark(std::string(to_string(o.settings.filter.kind)));
+    if (!remark.empty()) result.warnings.push_back(remark);
+    Denoising done = denoise_result(result, *denoiser, monitor);
+    if (!done.denoiser.empty())
+        done.measure(result.beauty, result.denoised, reference, o.report_reference);
+    return done;
+}
+
+/// The exit code; says what an interrupted render lacks.
+int ending(const RenderOptions& o, const mir::RenderResult& result) {
+    if (!result.statistics.complete) {
+        std::fprintf(stderr,
+                     "mir: interrupted; the picture is the mean of %u passes, marked incomplete\n",
+                     result.statistics.passes);
+        return exit_interrupted;
+    }
+    if (!o.denoise || !result.denoiser.empty()) return exit_done;
+    std::fprintf(stderr, "mir: interrupted; the picture is not denoised\n");
+    return exit_interrupted;
+}
+
 /// Does `work`; a failure that is the fault of the scene names it.
 template <class Work>
 auto blaming(const std::string& scene, const Work& work) {
@@ -68,6 +96,9 @@ int run(const RenderOptions& options) {
     check(o.passes);
     const OutputPaths paths = choose_outputs(o);
     const mir::Image<mir::Rgb> reference = read_report_reference(o);
+    std::optional<mir::Denoiser> denoiser;
+    if (o.denoise) denoiser.emplace(o.denoiser, o.settings.threads);
+    if (o.denoise && !o.has_filter) o.settings.filter = mir::default_filter(mir::FilterKind::box);
     // Bounds Embree's build too, which runs on the same library.
     std::optional<tbb::global_control> threads;
     if (o.settings.threads > 0)
@@ -83,20 +114,18 @@ int run(const RenderOptions& options) {
         blaming(o.scene, [&] { return render(o, loaded.scene, paths, monitor, convergence); });
     const std::vector<std::string>& remarks = loaded.report.remarks;
     result.warnings.insert(result.warnings.begin(), remarks.begin(), remarks.end());
+    const Denoising denoising = denoised(denoiser, result, reference, o, monitor);
     write_outputs(paths, result, o);
     write_render_report({o, loaded, result, reference, convergence});
     if (!o.quiet) print_summary(result);
+    if (!o.quiet) print(denoising);
     if (o.json) {
-        print_json(paths, result, o, convergence);
+        print_json(paths, result, o, convergence, denoising);
     } else {
         for (const std::string& name : {paths.exr, paths.png, o.report, o.vpls_out})
             if (!name.empty()) print_result(name);
     }
-    if (result.statistics.complete) return exit_done;
-    std::fprintf(stderr,
-                 "mir: interrupted; the picture is the mean of %u passes, marked incomplete\n",
-                 result.statistics.passes);
-    return exit_interrupted;
+    return ending(o, result);
 }
 
 }  // namespace mirtool

@@ -133,6 +133,7 @@ void add_facts(Json& out, const mir::RenderResult& r, const mir::RenderSettings&
     out["dropped_share"] = s.dropped_share;
     out["indirect_luminance"] = s.indirect_luminance;
     if (s.health) out["chains"] = health_of(*s.health);
+    if (s.light_path_luminance) out["light_path_luminance"] = luminance_of(*s.light_path_luminance);
     out["bound"] = s.bound;
     add_missing(out, s);
     out["removed_luminance"] = s.removed_luminance;

@@ -27,7 +27,7 @@ Json points_of(const Convergence& convergence) {
 }  // namespace
 
 void print_json(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o,
-                const Convergence& convergence) {
+                const Convergence& convergence, const Denoising& denoising) {
     Json out{{"version", mir::version},
              {"scene", o.scene},
              {"scene_hash", r.statistics.scene_hash},
@@ -41,6 +41,7 @@ void print_json(const OutputPaths& paths, const mir::RenderResult& r, const Rend
                               {"rotation", o.environment.rotation}};
     add_facts(out, r, o.settings);
     if (!convergence.points().empty()) out["convergence"] = points_of(convergence);
+    if (!denoising.denoiser.empty()) out["denoised"] = json_of(denoising);
     out["peak_memory_bytes"] = peak_memory_bytes();
     out["warnings"] = r.warnings;
     std::printf("%s\n", out.dump(2, ' ', true, Json::error_handler_t::replace).c_str());

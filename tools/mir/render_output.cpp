@@ -51,7 +51,7 @@ OutputPaths choose_outputs(const RenderOptions& o) {
     mir::expects(o.vpls_out.empty() || o.settings.integrator == mir::Integrator::vpl,
                  "this integrator places no VPLs (there would be none to write); leave --vpls-out "
                  "out or use --integrator vpl");
-    check_output_places({o.scene, o.environment.file, o.report_reference},
+    check_output_places({o.scene, o.environment.file, o.report_reference, o.denoiser},
                         {paths.exr, paths.png, o.report, o.vpls_out, journal_of(o, paths)},
                         "render");
     return paths;
@@ -67,11 +67,11 @@ mir::PreviewLook preview_look(const RenderOptions& o, const mir::Image<mir::Rgb>
 
 void write_outputs(const OutputPaths& paths, const mir::RenderResult& r, const RenderOptions& o) {
     compress_with(o.settings.threads);
+    const mir::Image<mir::Rgb>& seen = r.denoised.pixels().empty() ? r.beauty : r.denoised;
     // Each is made by few threads for most of its time. Without a thread it waits for get().
     std::future<void> preview;
     if (!paths.png.empty())
-        preview =
-            std::async([&] { mir::write_png(paths.png, r.beauty, preview_look(o, r.beauty)); });
+        preview = std::async([&] { mir::write_png(paths.png, seen, preview_look(o, seen)); });
     mir::write_exr(paths.exr, r.beauty.extent(), layers_of(r, o), attributes_of(r, o));
     if (preview.valid()) preview.get();
     if (o.vpls_out.ends_with(".glb")) mir::write_vpls_glb(o.vpls_out, r.vpls, r.statistics.origin);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "convergence.hpp"
+#include "denoising.hpp"
 #include "mir/io/png.hpp"
 #include "mir/runtime/result.hpp"
 #include "options.hpp"
@@ -38,6 +39,7 @@ void print_summary(const mir::RenderResult& result);
 
 /// Statistics for programs, on stdout.
 void print_json(const OutputPaths& paths, const mir::RenderResult& result,
-                const RenderOptions& options, const Convergence& convergence);
+                const RenderOptions& options, const Convergence& convergence,
+                const Denoising& denoising);
 
 }  // namespace mirtool

@@ -29,7 +29,7 @@ enum class ErrorCode {
     invalid_input,     ///< a file or scene cannot be read or breaks its format's rules
     limit_exceeded,    ///< a Limits bound would be passed; nothing was allocated
     unsupported,       ///< understood, but outside what this build or library does
-    no_device,         ///< the requested device does not exist
+    no_device,         ///< the requested device, or a denoiser, does not exist
     device,            ///< a device or its driver failed
     out_of_memory,     ///< a device has not enough memory; smaller tiles may help
     io,                ///< a file cannot be created or written

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/data/chain_health.hpp"
+#include "mir/data/path_luminance.hpp"
 #include "mir/data/vertex_attributes.hpp"
 #include "mir/data/vpl_list.hpp"
 
@@ -66,7 +67,9 @@ struct VplRecords {
                                   ///< for, W m^-2 sr^-1; only with Normalisation::image_response
     double states = 0.0;          ///< n: summed weights of all recorded states, the same
     std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
-    double bootstrap_seconds = 0.0;     ///< wall time that they took until chains started
+    /// P_c by light paths with final intensities, from a few luxels, where measured.
+    std::optional<PathLuminance> light_paths;
+    double bootstrap_seconds = 0.0;  ///< wall time that they took until chains started
 };
 
 /// What a sampler recorded, and what is left to do to it.

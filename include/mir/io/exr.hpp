@@ -34,6 +34,7 @@ struct ExrImage {
     Image<Rgb> image;                                             ///< as large as the data window
     std::vector<std::pair<std::string, std::string>> attributes;  ///< text only, sorted by name
     std::vector<std::pair<std::string, DVec3>> vectors;           ///< those of type v3d
+    std::vector<std::string> layers;  ///< names of all in the file, sorted; "" is the beauty
 };
 
 /// Reads one layer of a single-part OpenEXR file, the beauty when `layer` is empty. Channels are R

@@ -94,6 +94,20 @@ inline void add_luminance_warnings(const ChainHealth& h, std::vector<std::string
                            " standard errors: some light is found too rarely to be measured");
 }
 
+/// Where light paths find the light that the camera sees too rarely. Then few of them bring most of
+/// it, and more often than not too few. VPLs that are merely few are no reason.
+inline void add_light_path_warning(const PathLuminance& p, std::vector<std::string>& warnings) {
+    const double error = p.relative_error();
+    if (error <= 0.1) return;
+    const double equal_paths = 1.0 / (error * error);
+    if (equal_paths >= 0.2 * static_cast<double>(p.paths)) return;
+    warnings.push_back("the brightness of the VPLs' light is known to " +
+                       fixed_text(100.0 * error) + " % only, and is more often too dark (" +
+                       std::to_string(p.paths) + " light paths are worth " +
+                       fixed_text(equal_paths) +
+                       " that bring the same); --sampler mir finds it, more --vpls help");
+}
+
 inline void add_mixing_warnings(const ChainHealth& h, std::vector<std::string>& warnings) {
     if (h.capped)
         warnings.emplace_back(
@@ -194,6 +208,7 @@ inline void add_chain_warnings(const RenderStatistics& s, std::vector<std::strin
 inline void add_result_warnings(const RenderResult& result, std::vector<std::string>& warnings) {
     const RenderStatistics& s = result.statistics;
     add_chain_warnings(s, warnings);
+    if (s.light_path_luminance) detail::add_light_path_warning(*s.light_path_luminance, warnings);
     if (s.dropped_triangles > 0)
         warnings.push_back(std::to_string(s.dropped_triangles) +
                            " triangles without area were left out");

@@ -85,6 +85,8 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
         all.direct_noise =
             std::hypot(earlier * *all.direct_noise, *pass.direct_noise) / (earlier + 1.0);
     detail::add_pass(all.gather_difference, pass.gather_difference, earlier);
+    if (all.light_path_luminance && pass.light_path_luminance)
+        detail::add_pass(*all.light_path_luminance, *pass.light_path_luminance, earlier);
     if (all.health && pass.health) detail::add_pass(*all.health, *pass.health, earlier);
     for (const RenderStage& stage : render_stages)
         all.seconds.*stage.seconds += pass.seconds.*stage.seconds;

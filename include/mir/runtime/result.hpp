@@ -36,13 +36,15 @@ struct RenderStatistics {
     double path_luminance = 0.0;        ///< P_c: mean image luminance of all paths, W m^-2 sr^-1
     double dropped_share = 0.0;         ///< of the states, 0..1: light of VPLs that no luxel sees
     std::optional<ChainHealth> health;  ///< of samplers that run Markov chains
-    std::string normalisation;          ///< how intensities were made; "none": by the sampler
-    float bound = 0.0f;                 ///< largest geometry term, m^-2; 0: none
-    double indirect_luminance = 0.0;    ///< mean over luxels of the VPLs' or discs' light alone
-    double removed_luminance = 0.0;     ///< mean over luxels of what the bound removed, by the VPLs
-    double vsl_radius = 0.0;            ///< mean radius of spherical lights, m; 0: points
-    std::uint64_t residual_paths = 0;   ///< that traced back what the bound removed
-    double residual_luminance = 0.0;    ///< mean over luxels of what they found
+    /// P_c by light paths that are not chosen by the image, from a few luxels, where measured.
+    std::optional<PathLuminance> light_path_luminance;
+    std::string normalisation;         ///< how intensities were made; "none": by the sampler
+    float bound = 0.0f;                ///< largest geometry term, m^-2; 0: none
+    double indirect_luminance = 0.0;   ///< mean over luxels of the VPLs' or discs' light alone
+    double removed_luminance = 0.0;    ///< mean over luxels of what the bound removed, by the VPLs
+    double vsl_radius = 0.0;           ///< mean radius of spherical lights, m; 0: points
+    std::uint64_t residual_paths = 0;  ///< that traced back what the bound removed
+    double residual_luminance = 0.0;   ///< mean over luxels of what they found
     std::optional<ShareEstimate> removed;  ///< by the bound, by paths, where measured
     std::optional<ShareEstimate> cut;      ///< by the largest bounce, where measured
     std::optional<double> direct_noise;    ///< of a pixel, relative, where measured
@@ -91,6 +93,8 @@ struct RenderResult {
     /// Share of a pixel where the camera sees a surface, 0..1: its alpha. Through the filter of the
     /// beauty, which counts as multiplied by it; the environment counts as 0.
     Image<float> coverage{};
+    Image<Rgb> denoised{};   ///< the beauty by a Denoiser; empty unless asked for
+    std::string denoiser{};  ///< name and version of what made it
 };
 
 }  // namespace mir

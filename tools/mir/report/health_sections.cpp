@@ -40,6 +40,20 @@ std::string mean_text(const std::array<double, 3>& mean) {
     return number(mean[0]) + ", " + number(mean[1]) + ", " + number(mean[2]);
 }
 
+std::string metrics_table(const std::string& caption, const mir::Image<mir::Rgb>& picture,
+                          const mir::Image<mir::Rgb>& reference) {
+    const mir::ImageMetrics m = mir::compare_images(picture, reference);
+    return mir::detail::html_table(
+        {caption,
+         {},
+         {{"RMSE", number(m.rmse()) + " W/(m² sr)"},
+          {"relMSE", number(m.rel_mse) + " (epsilon " + number(mir::default_rel_mse_epsilon) + ")"},
+          {"MAE", number(m.mae) + " W/(m² sr)"},
+          {"mean R, G, B", mean_text(m.mean)},
+          {"mean of reference", mean_text(m.reference_mean)},
+          {"largest difference of means", percent(m.mean_difference())}}});
+}
+
 }  // namespace
 
 std::string warnings_section(const mir::RenderResult& result) {
@@ -85,18 +99,13 @@ std::string chains_section(const mir::RenderStatistics& s) {
 
 std::string reference_section(const ReportInput& in) {
     if (in.reference.extent().area() == 0) return "";
-    const mir::ImageMetrics m = mir::compare_images(in.result.beauty, in.reference);
-    return "<h2>Difference from the reference</h2>\n" +
-           mir::detail::html_table(
-               {"Beauty against " + in.options.report_reference,
-                {},
-                {{"RMSE", number(m.rmse()) + " W/(m² sr)"},
-                 {"relMSE",
-                  number(m.rel_mse) + " (epsilon " + number(mir::default_rel_mse_epsilon) + ")"},
-                 {"MAE", number(m.mae) + " W/(m² sr)"},
-                 {"mean R, G, B", mean_text(m.mean)},
-                 {"mean of reference", mean_text(m.reference_mean)},
-                 {"largest difference of means", percent(m.mean_difference())}}});
+    const std::string of = " against " + in.options.report_reference;
+    std::string section = "<h2>Difference from the reference</h2>\n" +
+                          metrics_table("Beauty" + of, in.result.beauty, in.reference);
+    if (!in.result.denoised.pixels().empty())
+        section +=
+            metrics_table("Beauty by " + in.result.denoiser + of, in.result.denoised, in.reference);
+    return section;
 }
 
 }  // namespace mirtool

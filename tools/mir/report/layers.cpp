@@ -24,6 +24,7 @@ std::vector<ReportLayer> shown_layers(const ReportInput& in) {
         const std::string n = std::to_string(i + 1);
         layers.push_back({"bounce" + n, "Bounce " + n, &r.bounces[i], ""});
     }
+    if (!r.denoised.pixels().empty()) layers.push_back({"denoised", "Denoised", &r.denoised, ""});
     if (in.reference.extent().area() > 0)
         layers.push_back({"reference", "Reference", &in.reference, ""});
     return layers;

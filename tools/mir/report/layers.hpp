@@ -26,11 +26,12 @@ struct ReportLayer {
 
 /// Everything of a report that is a picture, shrunk to fit a page.
 struct ReportPictures {
-    std::uint32_t shrink = 1;         ///< pixels of the render that one pixel of the page is across
-    std::vector<ReportLayer> layers;  ///< direct, emission, indirect or its bounces, reference
-    std::string still;                ///< beauty at the exposure, base64 of a PNG
-    std::string error;                ///< signed error, the same; empty without reference
-    float error_range = 0.0f;         ///< that of signed_error_picture()
+    std::uint32_t shrink = 1;  ///< pixels of the render that one pixel of the page is across
+    std::vector<ReportLayer>
+        layers;                ///< direct, emission, indirect or its bounces, denoised, reference
+    std::string still;         ///< beauty at the exposure, base64 of a PNG
+    std::string error;         ///< signed error, the same; empty without reference
+    float error_range = 0.0f;  ///< that of signed_error_picture()
 };
 
 /// Codes the pictures of a report, at the largest size that stays below `most_bytes`.

@@ -30,7 +30,7 @@ std::string layer_options(const ReportPictures& pictures) {
     std::string beauty, indirect, single;
     for (const ReportLayer& layer : pictures.layers) {
         single += option(layer.id, layer.label);
-        if (layer.id == "reference") continue;
+        if (layer.id == "reference" || layer.id == "denoised") continue;
         beauty += (beauty.empty() ? "" : " ") + layer.id;
         if (layer.id.starts_with("bounce")) indirect += (indirect.empty() ? "" : " ") + layer.id;
     }
