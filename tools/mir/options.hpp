@@ -5,6 +5,7 @@
 #include "mir/compare/metrics.hpp"
 #include "mir/io/tone_curve.hpp"
 #include "mir/runtime/settings.hpp"
+#include "mir/runtime/shard_number.hpp"
 
 #include <optional>
 #include <string>
@@ -59,9 +60,21 @@ struct RenderOptions {
     bool record_seconds = false;  ///< seconds in the EXR: its bytes then differ every time
     bool quiet = false;
     bool json = false;
+    std::optional<mir::ShardNumber> shard;  ///< part of the picture to render; none: all
+    std::vector<std::string> words;         ///< of the command line, for a shard
     PassOptions passes;
     AddedScene added;
     mir::RenderSettings settings;
+};
+
+/// `mir merge`.
+struct MergeOptions {
+    std::vector<std::string> shards;
+    std::string output;   ///< EXR; empty: named after the scene
+    std::string preview;  ///< PNG; empty: beside the EXR
+    bool no_preview = false;
+    bool quiet = false;
+    bool json = false;
 };
 
 /// `mir info`.
@@ -110,7 +123,7 @@ struct ManualOptions {
     Language language = Language::man;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, ExportOptions, CompareOptions,
-                             DevicesOptions, ManualOptions>;
+using Command = std::variant<RenderOptions, MergeOptions, InfoOptions, ExportOptions,
+                             CompareOptions, DevicesOptions, ManualOptions>;
 
 }  // namespace mirtool

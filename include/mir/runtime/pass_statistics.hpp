@@ -86,9 +86,7 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
             std::hypot(earlier * *all.direct_noise, *pass.direct_noise) / (earlier + 1.0);
     detail::add_pass(all.gather_difference, pass.gather_difference, earlier);
     if (all.health && pass.health) detail::add_pass(*all.health, *pass.health, earlier);
-    for (const RenderStage& stage : render_stages)
-        all.seconds.*stage.seconds += pass.seconds.*stage.seconds;
-    all.seconds.total += pass.seconds.total;
+    add_seconds(all.seconds, pass.seconds);
     all.passes = earlier + 1;
 }
 

@@ -70,6 +70,13 @@ struct RenderStatistics {
     }
 };
 
+/// Luminances of a row of luxels, each added up from left to right, W m^-2 sr^-1.
+struct RowLuminances {
+    double indirect = 0.0;  ///< of the VPLs' or discs' light
+    double removed = 0.0;   ///< of what the bound removed, by the VPLs
+    double residual = 0.0;  ///< of what paths traced back of that
+};
+
 /// A finished picture. Radiance in W m^-2 sr^-1; beauty = emission + direct + indirect.
 struct RenderResult {
     Image<Rgb> beauty;                ///< the sum of the next three
@@ -91,6 +98,9 @@ struct RenderResult {
     /// Share of a pixel where the camera sees a surface, 0..1: its alpha. Through the filter of the
     /// beauty, which counts as multiplied by it; the environment counts as 0.
     Image<float> coverage{};
+    /// Of the luxels of RenderSettings::rows, from top to bottom. Their sums over a whole image
+    /// make the mean luminances of its statistics; empty where an integrator counts none.
+    std::vector<RowLuminances> luminances{};
 };
 
 }  // namespace mir
