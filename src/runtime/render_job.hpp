@@ -42,7 +42,7 @@ struct RenderJob {
           surfaces(surfaces_of(scene)),
           rays{scene.cameras[settings.camera],
                luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits,
-                          settings.only_luxel),
+                          {settings.only_luxel.x, settings.only_luxel.y}),
                settings.seed},
           result{{}, {}, {}, {}, {}, Guides::unwritten(settings.image), {}, {}, {}} {}
     RenderJob(const RenderJob&) = delete;

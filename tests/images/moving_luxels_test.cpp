@@ -94,7 +94,8 @@ TEST_CASE("passes of one luxel are renders of the luxel moved, whatever filter")
     const mir::RenderResult two = passes(scene, s, 2);
     const mir::RenderResult first = render(scene, s);
     s.seed = mir::pass_seed(s.seed, 1);
-    s.only_luxel = mir::moved_luxel({0.5f, 0.5f}, 1);
+    const mir::Vec2 moved = mir::moved_luxel({0.5f, 0.5f}, 1);
+    s.only_luxel = {moved.x, moved.y};
     const mir::RenderResult second = render(scene, s);
     CHECK_FALSE(same_bits(first.emission, second.emission));
     for (std::size_t i = 0; i < two.emission.pixels().size(); ++i)
@@ -116,7 +117,8 @@ TEST_CASE("luxels move alike for any threads and tiles, and where passes go on f
     mir::PassSums two;
     for (std::uint64_t pass = 0; pass < 2; ++pass) {
         other.seed = mir::pass_seed(s.seed, pass);
-        other.only_luxel = mir::moved_luxel(s.only_luxel, pass);
+        const mir::Vec2 place = mir::moved_luxel({0.5f, 0.5f}, pass);
+        other.only_luxel = {place.x, place.y};
         two.add(render(scene, other));
     }
     CHECK(same_bits(passes(scene, s, 3, std::move(two)).beauty, wanted.beauty));

@@ -4,6 +4,7 @@
 // but not lost while they are large, the same bits however the work is cut.
 #include "bounce_means.hpp"
 #include "however_cut.hpp"
+#include "mir/film/moved_luxel.hpp"
 #include "mir/runtime/progressive_render.hpp"
 #include "support/catch.hpp"
 
@@ -119,6 +120,8 @@ TEST_CASE("spheres shrink from pass to pass") {
         passes.next_pass();
         mir::RenderSettings own = s;
         own.seed = mir::pass_seed(s.seed, pass);
+        const mir::Vec2 place = mir::moved_luxel({0.5f, 0.5f}, pass);
+        own.only_luxel = {place.x, place.y};
         own.vsl.scale *= static_cast<float>(mir::vsl_radius_share(pass));
         const auto image = render(scene, own).indirect;
         for (std::size_t i = 0; i < mean.pixels().size(); ++i)

@@ -101,3 +101,25 @@ TEST_CASE("A backend refuses VPLs of which no tree can be made") {
                         backend, queue, mir::span_of(vpls))),
                     mir::Error);
 }
+
+TEST_CASE("A backend finds the VPLs that shine as the host does") {
+    mir::InlineExecutor executor;
+    const mir::host::Backend<mir::InlineExecutor> backend(executor);
+    auto queue = backend.queue();
+    for (const std::uint32_t count : {1u, 31u, 2047u, 2048u, 2049u, 4100u}) {
+        CAPTURE(count);
+        auto vpls = vpls_on_walls(count);
+        vpls.front().intensity = {0.0f, 0.0f, 0.0f};
+        const mir::ShiningVpls here(mir::span_of(vpls));
+        const mir::BackendShiningVpls there(backend, queue, mir::span_of(vpls));
+        REQUIRE(there.span().size() == here.order.size());
+        if (here.order.empty()) continue;
+        CHECK(there.most() == here.most);
+        CHECK(there.normal_scale() == here.normal_scale);
+        bool same = true;
+        for (std::size_t i = 0; i < here.order.size(); ++i)
+            same = same &&
+                   std::memcmp(&there.span().first[i], &vpls[here.order[i]], sizeof(mir::Vpl)) == 0;
+        CHECK(same);
+    }
+}

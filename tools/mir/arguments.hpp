@@ -13,6 +13,12 @@ void add_render(CLI::App& app, RenderOptions& options);
 /// Declares those of them that say what the picture is, and not where it goes.
 void add_picture(CLI::App& app, RenderOptions& options);
 
+/// Declares the one that chooses for others.
+void add_quality(CLI::App& app, RenderOptions& options);
+
+/// Title of the options of --sampler mir.
+inline constexpr const char* group_of_chains = "Markov chains (--sampler mir)";
+
 /// Declares those of them that say how light is found.
 void add_light(CLI::App& app, mir::RenderSettings& settings);
 

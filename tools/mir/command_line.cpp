@@ -26,9 +26,9 @@ int complain(const CLI::App& app, const CLI::ParseError& e) {
 
 /// The options that `mir render --help` shows.
 const std::vector<std::string> first_options{
-    "--output", "--aov",  "--exposure",    "--width", "--height",
-    "--luxels", "--sun",  "--environment", "--vpls",  "--sampler",
-    "--passes", "--time", "--backend",     "--help",  "--help-all"};
+    "--output",  "--aov",  "--exposure",    "--width",  "--height",
+    "--quality", "--sun",  "--environment", "--luxels", "--vpls",
+    "--passes",  "--time", "--backend",     "--help",   "--help-all"};
 
 constexpr const char* help_examples =
     "Examples:\n"

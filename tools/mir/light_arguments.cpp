@@ -36,17 +36,14 @@ void add_sampler(CLI::App& app, mir::RenderSettings& s) {
                s.vpl_roulette = found->second.vpl_roulette;
            },
            "How VPLs are placed: mir, where they matter to the image, by Metropolis sampling "
-           "(default, except with --sum cuts); bir, where they matter, by paths from both ends; "
-           "ir, "
-           "wherever light goes "
-           "(instant radiosity, default with --sum cuts); roulette, the same, kept by what they "
-           "give to the image; keller, "
-           "a fixed share survives each bounce")
+           "(default for --vpls up to 8192); bir, where they matter, by paths from both ends; ir, "
+           "wherever light goes (instant radiosity, default otherwise); roulette, the same, kept "
+           "by what they give to the image; keller, a fixed share survives each bounce")
         ->type_name("mir|bir|ir|roulette|keller");
 }
 
 void add_chains(CLI::App& app, mir::RenderSettings& s) {
-    begin_group(app, "Markov chains (--sampler mir)");
+    begin_group(app, group_of_chains);
     mir::MetropolisTuning& m = s.metropolis;
     add_choice<mir::NormalisationPolicy>(
         app, "--normalise", s.normalisation,
@@ -141,18 +138,11 @@ void add_micro(CLI::App& app, mir::RenderSettings& s) {
                                  "measure, at 2048 places; correct, in the picture too (default)");
 }
 
-/// Fills in what --sum cuts leaves open. Light paths bring many VPLs at next to no cost.
-void choose_for_cuts(const CLI::App& app, mir::RenderSettings& s) {
-    if (s.sum != mir::LightSum::cuts) return;
-    if (app.count("--vpls") == 0) s.vpls = 1u << 18;
-    if (app.count("--sampler") == 0) s.sampler = mir::SamplerKind::instant_radiosity;
-}
-
 void add_sampling(CLI::App& app, mir::RenderSettings& s) {
     begin_group(app, "Light");
     app.add_option("--vpls", s.vpls,
-                   "Virtual point lights wanted: more give smoother light (default 1024; 262144 "
-                   "with --sum cuts)")
+                   "Virtual point lights wanted: more give smoother light (default: by --quality, "
+                   "262144; 1024 with --sampler, --sum all, --vsl or --glossy)")
         ->check(between(1, 4e6, "1 to 4000000"));
     add_sampler(app, s);
     add_choice<mir::Integrator>(app, "--integrator", s.integrator,
@@ -172,14 +162,15 @@ void add_sampling(CLI::App& app, mir::RenderSettings& s) {
          {"cuts", mir::LightSum::cuts}},
         "VPLs that a luxel gathers: all; a few of many, picked from cuts of a tree (cuts); or what "
         "suits their number (auto, default)");
-    add_count(app, "--picks", s.picks, 1, 65536, "VPLs of a luxel by cuts (default 128)");
-    app.parse_complete_callback([&app, &s] { choose_for_cuts(app, s); });
+    add_count(app, "--picks", s.picks, 1, 65536,
+              "VPLs of a luxel by cuts (default: by --quality, 256)");
     add_choice<mir::DirectLight>(
         app, "--direct", s.direct,
         {{"separate", mir::DirectLight::separate}, {"vpl", mir::DirectLight::vpl}},
         "Direct light by samples of the lamps (separate, default), or by VPLs on them and, of an "
         "environment, at infinity (vpl)");
-    app.add_option("--direct-samples", s.direct_samples, "Lamp samples per pixel (default 32)")
+    app.add_option("--direct-samples", s.direct_samples,
+                   "Lamp samples per pixel (default: by --quality, 32)")
         ->check(between(1, 65536, "1 to 65536"));
     add_count(app, "--bounces", s.max_bounce, 1, 254,
               "Most reflections of light on its way to the camera (default 32; no limit with "

@@ -119,7 +119,7 @@ void add_image(CLI::App& app, RenderOptions& o) {
     app.add_option("--height", o.height, "Pixels down (default: the scene's, else 480)")
         ->check(side);
     app.add_option("--luxels", s.luxels_per_pixel,
-                   "Camera rays per pixel: more give smoother edges (default 4)")
+                   "Camera rays per pixel: more give smoother edges (default: by --quality, 4)")
         ->check(between(1, 64, "1 to 64"));
     app.add_option("--camera", o.camera,
                    "Camera of the scene, by name or by number from 0 on (default: the first that "
@@ -239,6 +239,7 @@ void add_allow_outside(CLI::App& app, mir::Limits& limits) {
 }
 
 void add_picture(CLI::App& app, RenderOptions& options) {
+    add_quality(app, options);
     add_image(app, options);
     add_layers(app, options);
     add_scene_parts(app, options);

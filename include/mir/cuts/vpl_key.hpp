@@ -31,27 +31,42 @@ MIR_HD inline std::uint64_t pick_weight(const Vpl& vpl, float most) {
     return 1 + static_cast<std::uint64_t>(share * steps);
 }
 
+/// Whether a VPL has bounds: its intensity, place and normal are finite.
+MIR_HD inline bool can_be_bounded(const Vpl& vpl) {
+    return is_finite(vpl.intensity) &&
+           is_finite(static_cast<double>(glm::dot(vpl.position, vpl.normal)));
+}
+
+/// @throws Error(invalid_argument) unless `all` VPLs can be bounded.
+inline void expect_bounded(bool all) {
+    expects(all,
+            "a VPL has an intensity, a place or a normal that is not finite (a cut cannot bound "
+            "it); leave such VPLs out");
+}
+
+/// The scale of normals on which opposite ones lie as far apart as a part of the scene.
+inline float normal_scale_of(const VplBounds& all) {
+    return 0.125f * glm::length(all.high - all.low);
+}
+
 /// The VPLs of a list that shine.
 struct ShiningVpls {
     std::vector<VplIndex> order;  ///< in the list's order
     float most = 0.0f;            ///< root of the largest luminance
-    float normal_scale = 0.0f;    ///< on which opposite normals lie as far apart as a part of the
-                                  ///< scene
+    float normal_scale = 0.0f;    ///< see normal_scale_of()
 
     /// @throws Error(invalid_argument) for an intensity, place or normal that is not finite.
     explicit ShiningVpls(VplSpan<Space::host> vpls) {
         VplBounds all;
         for (VplIndex j = 0; j < vpls.size(); ++j) {
             const Vpl& v = vpls[j];
-            expects(is_finite(v.intensity) && std::isfinite(glm::dot(v.position, v.normal)),
-                    "a VPL has an intensity, a place or a normal that is not finite (a cut cannot "
-                    "bound it); leave such VPLs out");
+            expect_bounded(can_be_bounded(v));
             if (is_black(v.intensity)) continue;
             order.push_back(j);
-            most = larger(std::sqrt(luminance(v.intensity)), most);
-            all = all.with({v.position, v.position, 0.0f});
+            all = all.with({v.position, v.position, luminance(v.intensity)});
         }
-        normal_scale = 0.125f * glm::length(all.high - all.low);
+        most = std::sqrt(all.most);
+        normal_scale = normal_scale_of(all);
     }
 };
 

@@ -7,6 +7,7 @@
 #include "mir/film/film_seam.hpp"
 #include "mir/film/tap_table.hpp"
 #include "mir/resident/backend_layer.hpp"
+#include "mir/resident/bring_rows.hpp"
 #include "mir/resident/uploaded_array.hpp"
 #include "mir/resident/wait_at_end.hpp"
 
@@ -100,8 +101,6 @@ class BackendFilm {
     std::uint32_t home_ = 0;        ///< rows of pixels in the images
     std::uint32_t developed_ = 0;   ///< rows of pixels, those included
     std::optional<typename B::template Buffer<Rgb>> pixels_;
-    /// What came home last. Kept: backends find memory of a size again that was used beside others.
-    std::optional<typename B::template HostBuffer<Rgb>> here_;
     std::vector<Image<Rgb>> images_;
 };
 
@@ -187,17 +186,13 @@ template <Executor E>
 void BackendFilm<B>::bring_home(Queue& queue, E& executor) {
     const std::uint32_t rows = developed_ - home_;
     if (rows == 0) return;
-    here_.emplace(backend_.template host_buffer<Rgb>(pixels_->size()));
-    const std::span<Rgb> here = here_->span();
-    queue.download(*pixels_, here);
-    queue.record().sync();
-    pixels_.reset();
     const std::size_t width = grid_.pixels.width;
-    executor.for_each(std::size_t{rows} * layers_, [&](std::size_t i) {
-        std::span<Rgb> image = images_[i / rows].pixels();
-        const std::span<const Rgb> row = std::span<const Rgb>(here).subspan(i * width, width);
-        std::copy(row.begin(), row.end(), image.begin() + (home_ + i % rows) * width);
-    });
+    bring_rows(backend_, queue, executor, std::as_const(*pixels_).data(),
+               std::size_t{rows} * layers_, width, [&](std::size_t i, std::span<const Rgb> row) {
+                   std::copy(row.begin(), row.end(),
+                             images_[i / rows].pixels().begin() + (home_ + i % rows) * width);
+               });
+    pixels_.reset();
     home_ = developed_;
 }
 

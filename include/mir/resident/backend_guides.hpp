@@ -3,8 +3,11 @@
 
 #include "mir/film/guides.hpp"
 #include "mir/resident/backend_gbuffer.hpp"
+#include "mir/resident/bring_rows.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <span>
 
 namespace mir {
 
@@ -65,16 +68,12 @@ class BackendGuides {
 
     template <Executor E, class T>
     void bring_home(Queue& queue, E& executor, const Buffer<T>& from, Image<T>& to) {
-        auto here = backend_.template host_buffer<T>(from.size());
-        queue.download(from, here.span());
-        queue.record().sync();
         const std::size_t width = grid_.pixels.width;
-        executor.for_each(rows_, [&](std::size_t row) {
-            const std::span<const T> pixels =
-                std::span<const T>(here.span()).subspan(row * width, width);
-            std::copy(pixels.begin(), pixels.end(),
-                      to.pixels().begin() + (first_row_ + row) * width);
-        });
+        bring_rows(backend_, queue, executor, from.data(), rows_, width,
+                   [&](std::size_t i, std::span<const T> row) {
+                       std::copy(row.begin(), row.end(),
+                                 to.pixels().begin() + (first_row_ + i) * width);
+                   });
     }
 
     B backend_;

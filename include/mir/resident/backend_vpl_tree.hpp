@@ -3,11 +3,8 @@
 
 #include "mir/cuts/tree_levels.hpp"
 #include "mir/cuts/vpl_tree_view.hpp"
-#include "mir/resident/uploaded_array.hpp"
+#include "mir/resident/backend_shining_vpls.hpp"
 #include "mir/resident/wait_at_end.hpp"
-
-#include <string>
-#include <vector>
 
 namespace mir {
 
@@ -21,7 +18,7 @@ class BackendVplTree {
     /// @throws Error(invalid_argument) for an intensity, place or normal that is not finite;
     ///         Error(limit_exceeded) for 2^22 VPLs and more; what the backend throws.
     BackendVplTree(const B& backend, typename B::Queue& queue, VplSpan<Space::host> vpls)
-        : BackendVplTree(backend, queue, vpls, ShiningVpls(vpls)) {}
+        : BackendVplTree(backend, queue, BackendShiningVpls<B>(backend, queue, vpls)) {}
 
     /// For kernels on any queue; valid until this is moved or ends.
     [[nodiscard]] VplTreeView<B::space> view() const {
@@ -34,31 +31,15 @@ class BackendVplTree {
     template <class T>
     using Buffer = typename B::template Buffer<T>;
 
-    BackendVplTree(const B& backend, typename B::Queue& queue, VplSpan<Space::host> vpls,
-                   const ShiningVpls& shining)
-        : leaves_(backend.template buffer<Vpl>(checked(shining.order.size()))),
-          sums_(backend.template buffer<std::uint64_t>(shining.order.size() + 1)),
-          bounds_(backend.template buffer<VplBounds>(2 * shining.order.size())) {
+    BackendVplTree(const B& backend, typename B::Queue& queue, const BackendShiningVpls<B>& shining)
+        : leaves_(backend.template buffer<Vpl>(shining.span().size())),
+          sums_(backend.template buffer<std::uint64_t>(leaves_.size() + 1)),
+          bounds_(backend.template buffer<VplBounds>(2 * leaves_.size())) {
         if (size() == 0) return;
-        std::vector<Vpl> here;
-        here.reserve(shining.order.size());
-        for (const VplIndex j : shining.order) here.push_back(vpls[j]);
-        const UploadedArray<B, Vpl> there(backend, queue, here);
-        const WaitAtEnd wait(queue);
         auto order = backend.template buffer<std::uint32_t>(size());
         auto scratch = backend.template buffer<std::byte>(queue.scratch_bytes(size() + 1));
-        const VplSpan<B::space> shines{there.data(), size()};
-        halve(backend, queue, shines, shining.normal_scale, order, scratch);
-        weigh(backend, queue, shines, shining.most, order, scratch);
-    }
-
-    static std::size_t checked(std::size_t count) {
-        if (count >> 22 != 0)
-            throw Error(ErrorCode::limit_exceeded,
-                        "there are " + std::to_string(count) +
-                            " VPLs in a tree on a backend (it can add up the weights of 4194303); "
-                            "ask for fewer, or sum all of them without a tree");
-        return count;
+        halve(backend, queue, shining.span(), shining.normal_scale(), order, scratch);
+        weigh(backend, queue, shining.span(), shining.most(), order, scratch);
     }
 
     /// Brings `order` into leaf order and finds the bounds of all nodes.

@@ -199,9 +199,10 @@ inline void check(const RenderSettings& settings) {
     detail::check_image(settings);
     detail::check_samples(settings);
     detail::check_sampler(settings);
-    detail::check_tile(settings.tile, luxel_grid(settings.image, settings.luxels_per_pixel,
-                                                 settings.limits, settings.only_luxel)
-                                          .luxels());
+    detail::check_tile(settings.tile,
+                       luxel_grid(settings.image, settings.luxels_per_pixel, settings.limits,
+                                  {settings.only_luxel.x, settings.only_luxel.y})
+                           .luxels());
     detail::check_devices(settings.devices);
     detail::check_bound(settings);
     detail::check_removed(settings);

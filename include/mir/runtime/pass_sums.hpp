@@ -42,7 +42,8 @@ class PassSums {
     [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
 
     /// LuminanceSpread::relative_error() of the mean picture. It sees what differs between passes,
-    /// and no bias that they share.
+    /// and no bias that they share. It is too large where pixels have one luxel, which moves evenly
+    /// through them (moved_luxel()).
     [[nodiscard]] std::optional<double> relative_error() const {
         return spread_.relative_error(passes());
     }

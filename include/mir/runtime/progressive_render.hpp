@@ -53,7 +53,8 @@ class ProgressiveRender {
             monitor_->begin_pass(sums_.passes());
         }
         settings_.seed = pass_seed(seed_, sums_.passes());
-        settings_.only_luxel = moved_luxel(only_luxel_, sums_.passes());
+        const Vec2 place = moved_luxel({only_luxel_.x, only_luxel_.y}, sums_.passes());
+        settings_.only_luxel = {place.x, place.y};
         settings_.vsl.scale = vsl_scale_ * static_cast<float>(vsl_radius_share(sums_.passes()));
         sums_.add(renderer_.render(scene_, settings_, monitor_));
         look_at_goal();
@@ -80,7 +81,7 @@ class ProgressiveRender {
     RenderSettings settings_;
     std::uint64_t seed_;
     float vsl_scale_;
-    Vec2 only_luxel_;
+    PixelPlace only_luxel_;
     PassGoal goal_;
     Monitor* monitor_;
     PassSums sums_;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mir/core/limit_values.hpp"
-#include "mir/core/math.hpp"
 #include "mir/data/extent.hpp"
 #include "mir/film/filter_options.hpp"
 #include "mir/metropolis/metropolis_tuning.hpp"
@@ -153,14 +152,19 @@ struct GlossySettings {
     [[nodiscard]] float least_alpha() const { return least_roughness * least_roughness; }
 };
 
+/// A place in a pixel, (0, 1)^2.
+struct PixelPlace {
+    float x = 0.5f;  ///< from its left side
+    float y = 0.5f;  ///< from its upper side
+};
+
 /// What to render and how. Plain values with working defaults; designated initialisers may change
 /// some. validate() tells what is wrong.
 struct RenderSettings {
     Extent image{640, 480};              ///< pixels
     std::uint32_t luxels_per_pixel = 4;  ///< 1..64
-    Vec2 only_luxel{0.5f, 0.5f};         ///< place in the pixel where it has one luxel, (0, 1)^2
-    PixelRows rows{};          ///< that are rendered, the same pixels as of the whole image; others
-                               ///< are black
+    PixelPlace only_luxel{};             ///< of the luxel of pixels that have one
+    PixelRows rows{};          ///< rendered, as of the whole image; pixels of others are black
     std::uint32_t camera = 0;  ///< index into Scene::cameras
     Integrator integrator = Integrator::vpl;        ///< says which of the settings below count
     PathSettings path{};                            ///< of Integrator::path
