@@ -6,6 +6,7 @@
 #include "mir/io/shard_file.hpp"
 #include "mir/version.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -68,10 +69,10 @@ class ShardReader {
     }
 
  private:
-    template <class Read>
-    void parse(const Read& read) const {
+    template <class Use>
+    void parse(const Use& use) const {
         try {
-            read();
+            use();
         } catch (const BrokenJournal&) {
             refuse_damaged();
         }
