@@ -19,6 +19,7 @@
 #include "runtime/pick_variance.hpp"
 #include "runtime/residual_light.hpp"
 #include "runtime/sample_vpls.hpp"
+#include "runtime/seam_above.hpp"
 
 #include <optional>
 #include <type_traits>
@@ -238,7 +239,8 @@ void HostFrame<B>::put(const FrameBand& band, std::vector<LayerPtr> layers, Film
             film_.emplace(job_.rays.grid, job_.settings.filter, job_.settings.seed, layers.size());
         std::vector<const Image<Rgb>*> images;
         for (const LayerPtr& layer : layers) images.push_back(&HostLayer::of(*layer));
-        if (seam != nullptr && seam->luxel_rows != film_->rows()) film_->go_on(*seam);
+        if (film_->rows() != band.first_row)
+            film_->go_on(seam_above(job_, band.first_row, images.size(), seam));
         film_->add_rows(job_.executor, band.first_row, std::span<const Image<Rgb>* const>(images));
         if (seam != nullptr) *seam = film_->seam();
     }

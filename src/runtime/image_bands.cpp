@@ -4,8 +4,10 @@
 #include "mir/core/limits.hpp"
 #include "mir/data/blocked_layout.hpp"
 #include "mir/data/visibility_matrix.hpp"
+#include "mir/film/tap_table.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace mir {
 namespace {
@@ -34,10 +36,29 @@ class LoopingPairs {
 
 }  // namespace
 
-ImageBands::ImageBands(const RenderFrame& frame, std::uint32_t vpls)
+ImageBands::ImageBands(const RenderFrame& frame, std::uint32_t vpls, std::uint32_t end,
+                       std::uint32_t first)
     : frame_(frame),
       tile_(whole_blocks(frame.job().settings.tile.value_or(default_tile))),
+      first_(first),
+      end_(end),
       rows_(choose_rows(vpls)) {}
+
+ImageBands ImageBands::of_rows(const RenderFrame& frame, std::uint32_t vpls) {
+    const RenderJob& job = frame.job();
+    const LuxelGrid& grid = job.rays.grid;
+    const PixelRows& rows = job.settings.rows;
+    if (rows.count == 0) return {frame, vpls};
+    // Luxels of other rows shine into these through the filter. Whole blocks and pixels, as of the
+    // whole image: what is found block by block is the same.
+    const std::uint32_t reach = detail::TapTable(grid, job.settings.filter).reach();
+    const std::uint32_t grain = std::lcm(grid.per_pixel_y, BlockedLayout::side);
+    const std::uint32_t first = (rows.first - std::min(rows.first, reach)) * grid.per_pixel_y;
+    const std::uint32_t last =
+        std::min(rows.first + rows.count + reach, grid.pixels.height) * grid.per_pixel_y;
+    return {frame, vpls, std::min((last + grain - 1) / grain * grain, grid.luxels().height),
+            first / grain * grain};
+}
 
 std::uint32_t ImageBands::choose_rows(std::uint32_t vpls) const {
     // Some 2 million luxels at a time, fewer where parts of a frame would have few bands each or
@@ -47,7 +68,8 @@ std::uint32_t ImageBands::choose_rows(std::uint32_t vpls) const {
     const bool has_paths = settings.integrator == Integrator::path;
     const std::uint64_t most = has_paths ? 1u << 18 : 1u << 21;
     const std::uint64_t luxels_per_band =
-        parts == 1 ? most : std::min<std::uint64_t>(most, luxels().area() / (4 * parts));
+        parts == 1 ? most
+                   : std::min(most, std::uint64_t{luxels().width} * (end_ - first_) / (4 * parts));
     const std::uint64_t pixel = frame_.job().rays.grid.per_pixel_y;
     const bool cuts_tiles = parts > 1 || has_paths;
     const std::uint64_t grain =
@@ -59,8 +81,7 @@ std::uint32_t ImageBands::choose_rows(std::uint32_t vpls) const {
         VisibilityMatrix::bytes_for({{0, 0, luxels().width, BlockedLayout::side}}, vpls), pixel);
     const std::uint64_t fitting = matrix_bytes(vpls) / std::max<std::uint64_t>(least_bytes, 1);
     const std::uint64_t fitting_rows = saturating_mul(std::max<std::uint64_t>(fitting, 1), least);
-    return static_cast<std::uint32_t>(
-        std::min({rows, fitting_rows, std::uint64_t{luxels().height}}));
+    return static_cast<std::uint32_t>(std::min({rows, fitting_rows, std::uint64_t{end_ - first_}}));
 }
 
 /// Of the matrix of one band. The host gains nothing by larger ones when bands are not kept.
@@ -72,9 +93,8 @@ std::uint64_t ImageBands::matrix_bytes(std::uint32_t vpls) const {
 
 BandPtr ImageBands::make(RenderFrame& by, std::uint32_t i) const {
     const auto stage = by.job().clock.measure(&StageSeconds::gbuffer);
-    const std::uint32_t first_row = i * rows_;
-    return by.trace({luxels().width, std::min(rows_, luxels().height - first_row)}, tile_,
-                    first_row);
+    const std::uint32_t first_row = first_ + i * rows_;
+    return by.trace({luxels().width, std::min(rows_, end_ - first_row)}, tile_, first_row);
 }
 
 bool ImageBands::fit_together(std::uint32_t vpls) const {

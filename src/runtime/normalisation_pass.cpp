@@ -24,8 +24,9 @@ void NormalisationPass::add(RenderFrame& by, const FrameBand& band, VplSpan<Spac
 std::vector<ImageResponse> NormalisationPass::over_image(VplSpan<Space::host> vpls) {
     const RenderJob& job = frame_.job();
     ResponseSum sum(bands_.luxels(), vpls.size());
-    const bool keep =
-        job.settings.normalisation == NormalisationPolicy::full && bands_.fit_together(vpls.size());
+    // Bands of some rows alone are others.
+    const bool keep = job.settings.normalisation == NormalisationPolicy::full &&
+                      job.settings.rows.count == 0 && bands_.fit_together(vpls.size());
     if (keep) kept_.resize(bands_.count());
     frame_.for_each_band(bands_.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
         BandPtr band = bands_.make(by, i);

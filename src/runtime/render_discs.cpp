@@ -16,6 +16,7 @@
 #include "runtime/image_bands.hpp"
 #include "runtime/indirect_probes.hpp"
 #include "runtime/light_correction.hpp"
+#include "runtime/row_luminances.hpp"
 
 namespace mir {
 namespace {
@@ -93,12 +94,13 @@ RenderResult DiscRender<B>::run() {
     Sources sources{make_discs(), {}};
     sources.light = light(sources.discs);
     s.surfels = sources.discs.tree.surfels().size();
+    const ImageBands bands = ImageBands::of_rows(frame_, 0);
     if (job_.monitor != nullptr)
-        job_.monitor->planned_gathers = saturating_mul(s.luxels, sources.light.size());
+        job_.monitor->planned_gathers = static_cast<std::uint64_t>(
+            bands.share() * static_cast<double>(saturating_mul(s.luxels, sources.light.size())));
     if (job_.settings.micro.check != GatherCheck::none && !sources.light.empty()) check(sources);
     const std::size_t bounces = job_.settings.bounce_layers ? sources.light.size() + 1 : 0;
     check_picture(job_.settings, std::size_t{first_bounce_layer} + bounces);
-    const ImageBands bands(frame_, 0);
     if (job_.settings.measure_missing) {
         const auto stage = job_.clock.measure(&StageSeconds::light_budget);
         s.direct_noise = direct_noise(frame_, job_.settings.direct_samples_per_luxel());
@@ -216,9 +218,7 @@ void DiscRender<B>::render_band(const FrameBand& band, const Sources& sources) {
         layers.push_back(frame_.coverage(band));
     }
     append_indirect(band, sources, layers);
-    RenderStatistics& s = job_.result.statistics;
-    for (const double row : frame_.row_luminances(*layers[indirect_layer]))
-        s.indirect_luminance += row / static_cast<double>(s.luxels);
+    add_luminances(job_, band, frame_.row_luminances(*layers[indirect_layer]), {}, {});
     frame_.put(band, std::move(layers), nullptr);
 }
 

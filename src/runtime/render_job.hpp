@@ -10,6 +10,7 @@
 #include "mir/runtime/stage_clock.hpp"
 #include "mir/scene/light_table.hpp"
 #include "mir/scene/world_geometry.hpp"
+#include "runtime/blacken_rows.hpp"
 #include "runtime/compiled_bsdfs.hpp"
 
 namespace mir {
@@ -71,6 +72,7 @@ struct RenderJob {
     /// The finished result; leaves the job without it.
     [[nodiscard]] RenderResult take_result() {
         result.statistics.seconds = clock.seconds();
+        blacken_other_rows(settings.rows, result);
         return std::move(result);
     }
 

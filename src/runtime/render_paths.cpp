@@ -59,7 +59,7 @@ RenderResult render_paths(RenderFrame& frame) {
     s.luxels = job.rays.grid.luxels().area();
     s.camera_paths = saturating_mul(s.luxels, job.settings.path.samples);
     s.emitted_power = static_cast<float>(job.lights.power());
-    const ImageBands bands(frame, 0);
+    const ImageBands bands = ImageBands::of_rows(frame, 0);
     job.begin_bands(bands.count());
     frame.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
         job.begin_band();

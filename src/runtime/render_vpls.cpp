@@ -9,6 +9,7 @@
 #include "runtime/missing_light.hpp"
 #include "runtime/normalisation_pass.hpp"
 #include "runtime/pick_variance.hpp"
+#include "runtime/row_luminances.hpp"
 #include "runtime/sample_vpls.hpp"
 #include "runtime/vpl_light.hpp"
 
@@ -43,6 +44,7 @@ void keep_statistics(RenderJob& job, const SampledVpls& sampled) {
         to_string(by_sampler ? NormalisationPolicy::none : job.settings.normalisation_policy());
     s.vpls = job.result.vpls.size();
     s.luxels = job.rays.grid.luxels().area();
+    s.residual_paths = saturating_mul(s.luxels, job.settings.compensate_per_luxel());
     const std::uint64_t gathered =
         job.settings.wants_cuts() ? std::min<std::uint64_t>(s.vpls, job.settings.picks) : s.vpls;
     s.contributions = saturating_mul(s.luxels, gathered);
@@ -54,14 +56,17 @@ bool must_normalise(const RenderSettings& settings, Normalisation normalisation)
             settings.normalisation_policy() == NormalisationPolicy::prepass);
 }
 
-/// Every VPL meets every luxel once per layer, and once per finding of bits.
-void plan_progress(RenderJob& job, bool stored, bool kept) {
+/// Every VPL meets every luxel once per layer, and once per finding of bits. Luxels of `share` are
+/// shown.
+void plan_progress(RenderJob& job, bool normalised, bool stored, bool kept, double share) {
     if (job.monitor == nullptr) return;
     const std::uint64_t layers =
         job.settings.bounce_layers ? std::max<std::uint64_t>(job.result.vpls.max_bounce(), 1) : 1;
-    const std::uint64_t passes = !stored ? 0 : kept ? 1 : 2;
+    const std::uint64_t shown = layers + (stored && !kept ? 1 : 0);
+    const std::uint64_t all = job.result.statistics.contributions;
     job.monitor->planned_contributions =
-        saturating_mul(job.result.statistics.contributions, layers + passes);
+        (normalised ? all : 0) +
+        static_cast<std::uint64_t>(share * static_cast<double>(saturating_mul(all, shown)));
 }
 
 std::vector<BandPtr> normalise_vpls(RenderFrame& frame, const ImageBands& bands, float bound,
@@ -162,17 +167,6 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
     return made;
 }
 
-/// Adds what a band brings to mean luminances over the image. Row by row from top to bottom, so
-/// that bands change nothing.
-void add_means(RenderJob& job, const FrameBand& band, const BandLight& made) {
-    RenderStatistics& s = job.result.statistics;
-    const double share = 1.0 / static_cast<double>(s.luxels);
-    for (const double row : made.indirect) s.indirect_luminance += row * share;
-    for (const double row : made.removed) s.removed_luminance += row * share;
-    for (const double row : made.residual) s.residual_luminance += row * share;
-    s.residual_paths += band.extent().area() * job.settings.compensate_per_luxel();
-}
-
 void develop(RenderFrame& frame) {
     RenderJob& job = frame.job();
     const auto stage = job.clock.measure(&StageSeconds::film);
@@ -205,10 +199,13 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
     const bool normalises = must_normalise(s, sampled.normalisation);
     const bool over_image = normalises && s.normalisation == NormalisationPolicy::full;
     const bool stores = over_image || s.vsl.enabled || s.glossy.enabled;
-    const ImageBands bands(frame, normalises || stores ? vpls.size() : 0);
-    plan_progress(job, stores, !over_image || bands.fit_together(vpls.size()));
+    const std::uint32_t seen = normalises || stores ? vpls.size() : 0;
+    const ImageBands bands = ImageBands::of_rows(frame, seen);
+    plan_progress(job, over_image, stores,
+                  over_image && s.rows.count == 0 && bands.fit_together(vpls.size()),
+                  bands.share());
     std::vector<BandPtr> kept;
-    if (normalises) kept = normalise_vpls(frame, bands, bound, sampled.records);
+    if (normalises) kept = normalise_vpls(frame, {frame, seen}, bound, sampled.records);
     keep_radii(frame);
     keep_lobes(frame, sampled.records, normalises);
     const VplLight light(s, bound, vpls, job.executor);
@@ -221,7 +218,7 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
         if (stores && !band->knows_visibility()) find_visible(by, *band, vpls.span());
         BandLight made = light_band(by, *band, bound, light);
         turn.wait();
-        add_means(job, *band, made);
+        add_luminances(job, *band, made.indirect, made.removed, made.residual);
         by.put(*band, std::move(made.layers), turn.seam());
     });
     develop(frame);

@@ -6,6 +6,7 @@
 #include "mir/io/html_report.hpp"
 #include "mir/io/pass_journal.hpp"
 #include "mir/io/png.hpp"
+#include "mir/io/shard_file.hpp"
 #include "mir/io/vpl_ply.hpp"
 #include "mir/runtime/progressive_render.hpp"
 #include "mir/scenes.hpp"
@@ -70,6 +71,12 @@ std::vector<Writer> all_writers(int variant) {
                        mir::Scene scene = c.scene;
                        scene.name = "seed " + std::to_string(c.settings.seed);
                        mir::write_glb(scene, path);
+                   }),
+            writer("a.shard",
+                   [](const Contents& c, const Path& path) {
+                       const mir::ShardPass pass = mir::shard_pass(*c.result);
+                       mir::ShardFile(path, mir::shard_manifest(c.scene, c.settings, 2, {2, 3}))
+                           .write(c.sums, {pass, pass});
                    }),
             writer("a.journal", [](const Contents& c, const Path& path) {
                 mir::PassJournal(path, c.scene, c.settings).write(c.sums);

@@ -131,13 +131,14 @@ TEST_CASE("A frame in a backend's memory has the bits of the host's, whatever it
     }
 }
 
-TEST_CASE("Bands and luxels per pixel change nothing between backend and host") {
+TEST_CASE("Bands, luxels per pixel and rows change nothing between backend and host") {
     const Scene scene = lit_room();
     RenderSettings settings = small_picture();
     settings.luxels_per_pixel = 6;
     settings.filter = mir::default_filter(mir::FilterKind::mitchell);
     // Visibility of one row of blocks: several bands.
     settings.limits.visibility_bytes = std::uint64_t{2400} * settings.luxels_per_pixel;
+    if (GENERATE(false, true)) settings.rows = {14, 9};
     check_same(draw_on_host(scene, settings), draw_on_backend(scene, settings, {}));
 }
 

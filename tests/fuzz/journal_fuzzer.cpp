@@ -32,7 +32,7 @@ std::string start_of_journal(const std::filesystem::path& path) {
 /// The hash that makes a file of these bytes one that was not damaged.
 std::string hash_behind(std::string_view start, std::string_view sums) {
     constexpr std::size_t magic = sizeof("mir passes 1\n") - 1;
-    mir::detail::ByteHash hash;
+    mir::ByteHash hash;
     hash.add(start.data() + magic, start.size() - magic);
     hash.add(sums.data(), sums.size());
     const std::uint64_t value = hash.value();

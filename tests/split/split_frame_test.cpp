@@ -4,6 +4,7 @@
 #include "runtime/split_frame.hpp"
 
 #include "frame/same_result.hpp"
+#include "mir/runtime/mean_luminances.hpp"
 #include "mir/scenes.hpp"
 #include "runtime/host_frame.hpp"
 #include "runtime/render_paths.hpp"
@@ -75,6 +76,12 @@ RenderSettings small_picture() {
     return s;
 }
 
+/// The same picture with all rows.
+RenderSettings small_whole(RenderSettings s) {
+    s.rows = {};
+    return s;
+}
+
 }  // namespace
 
 TEST_CASE("Frames that share a picture give the bytes of one") {
@@ -125,6 +132,25 @@ TEST_CASE("More frames than bands, stored visibility and passes change nothing")
     SECTION("passes of other seeds") {
         s.seed = 7;
         check_same(drawn(s, 2), drawn_by_one(s));
+    }
+}
+
+TEST_CASE("Rows of a picture have its bits, by one frame or several") {
+    RenderSettings s = small_picture();
+    s.bounce_layers = true;
+    const RenderResult whole = drawn_by_one(s);
+    for (const mir::PixelRows rows :
+         {mir::PixelRows{0, 1}, mir::PixelRows{9, 17}, mir::PixelRows{36, 1}}) {
+        s.rows = rows;
+        RenderResult cut = drawn_by_one(small_whole(s));
+        mir::blacken_other_rows(rows, cut);
+        cut.statistics.indirect_luminance = cut.statistics.removed_luminance = 0.0;
+        for (std::uint32_t y = rows.first * 2; y < (rows.first + rows.count) * 2; ++y)
+            mir::add_row(cut.statistics, whole.luminances[y]);
+        for (const std::size_t parts : {0u, 1u, 3u}) {
+            CAPTURE(rows.first, rows.count, parts);
+            check_same(parts == 0 ? drawn_by_one(s) : drawn(s, parts), cut);
+        }
     }
 }
 

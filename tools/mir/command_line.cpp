@@ -48,6 +48,7 @@ struct CommandLine {
     [[nodiscard]] Command given() const;
 
     RenderOptions render;
+    MergeOptions merge;
     InfoOptions info;
     ExportOptions exporting;
     CompareOptions compare;
@@ -58,6 +59,7 @@ struct CommandLine {
 
  private:
     void add_render_command();
+    void add_merge_command();
     void add_info_command();
     void add_manual_command();
 };
@@ -79,6 +81,7 @@ CommandLine::CommandLine() {
         "Print the version, and how the processor traces rays");
     app.require_subcommand(1);
     add_render_command();
+    add_merge_command();
     add_info_command();
 
     CLI::App* x = app.add_subcommand("export", "Write a scene as glTF binary");
@@ -109,6 +112,22 @@ void CommandLine::add_render_command() {
     add_render(command, render);
 }
 
+void CommandLine::add_merge_command() {
+    CLI::App& command = *app.add_subcommand("merge", "Put the shards of a picture together");
+    command.add_option("shards", merge.shards, "All shards of one picture, in any order")
+        ->required()
+        ->type_name("SHARD");
+    command
+        .add_option("-o,--output", merge.output,
+                    "Picture to write (default: SCENE.exr in this folder)")
+        ->type_name("FILE");
+    command.add_option("--png", merge.preview, "Preview to write (default: beside the picture)")
+        ->type_name("FILE");
+    command.add_flag("--no-png", merge.no_preview, "Write no preview");
+    command.add_flag("--json", merge.json, "Print statistics as JSON on stdout");
+    command.add_flag("-q,--quiet", merge.quiet, "No summary");
+}
+
 void CommandLine::add_info_command() {
     CLI::App& command =
         *app.add_subcommand("info", "Tell what a scene holds and what is not supported");
@@ -135,6 +154,7 @@ void CommandLine::add_manual_command() {
 
 Command CommandLine::given() const {
     if (app.got_subcommand("render")) return render;
+    if (app.got_subcommand("merge")) return merge;
     if (app.got_subcommand("info")) return info;
     if (app.got_subcommand("export")) return exporting;
     if (app.got_subcommand("compare")) return compare;
@@ -156,6 +176,7 @@ Parsed parse(int argc, char** argv) {
     }
     if (line.render.no_layers && line.render.layers.size() > 1)
         return complain(line.app, CLI::ValidationError("--aov", "none goes with no other layer"));
+    if (line.render.shard) line.render.words.assign(argv + 1, argv + argc);
     return line.given();
 }
 

@@ -7,6 +7,7 @@ namespace mirtool {
 
 // Each runs one command and returns the exit code. They throw mir::Error, which main() reports.
 int run(const RenderOptions& options);
+int run(const MergeOptions& options);
 int run(const InfoOptions& options);
 int run(const ExportOptions& options);
 int run(const CompareOptions& options);

@@ -5,6 +5,7 @@
 #include "mir/compare/metrics.hpp"
 #include "mir/io/tone_curve.hpp"
 #include "mir/runtime/settings.hpp"
+#include "mir/runtime/shard_number.hpp"
 
 #include <optional>
 #include <string>
@@ -60,11 +61,23 @@ struct RenderOptions {
     bool quiet = false;
     bool json = false;
     bool denoise = false;
-    std::string denoiser;     ///< library; empty: found
-    bool has_filter = false;  ///< --filter was given
+    std::string denoiser;                   ///< library; empty: found
+    bool has_filter = false;                ///< --filter was given
+    std::optional<mir::ShardNumber> shard;  ///< part of the picture to render; none: all
+    std::vector<std::string> words;         ///< of the command line, for a shard
     PassOptions passes;
     AddedScene added;
     mir::RenderSettings settings;
+};
+
+/// `mir merge`.
+struct MergeOptions {
+    std::vector<std::string> shards;
+    std::string output;   ///< EXR; empty: named after the scene
+    std::string preview;  ///< PNG; empty: beside the EXR
+    bool no_preview = false;
+    bool quiet = false;
+    bool json = false;
 };
 
 /// `mir info`.
@@ -124,7 +137,7 @@ struct ManualOptions {
     Language language = Language::man;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, ExportOptions, CompareOptions,
-                             DenoiseOptions, DevicesOptions, ManualOptions>;
+using Command = std::variant<RenderOptions, MergeOptions, InfoOptions, ExportOptions,
+                             CompareOptions, DenoiseOptions, DevicesOptions, ManualOptions>;
 
 }  // namespace mirtool

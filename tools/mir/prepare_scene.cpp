@@ -84,6 +84,15 @@ bool adds_to_scene(const RenderOptions& o, const mir::SceneReport& report) {
     return a.sun || a.ground || a.eye || !has_view;
 }
 
+void choose_layers(RenderOptions& o) {
+    const auto wants = [&o](const char* layer) {
+        return std::find(o.layers.begin(), o.layers.end(), layer) != o.layers.end();
+    };
+    o.settings.bounce_layers = wants("bounces");
+    o.settings.removed_layer = wants("removed");
+    o.settings.pick_error_layer = wants("pick_error");
+}
+
 ChosenView prepare_scene(RenderOptions& o, SceneAndReport& loaded) {
     add_sun_and_camera(o.added, loaded);
     const auto camera = choose_camera(o, loaded);
@@ -98,12 +107,7 @@ ChosenView prepare_scene(RenderOptions& o, SceneAndReport& loaded) {
     }
     // The view is of what the file holds: the ground is many times larger.
     add_ground(o.added, loaded);
-    const auto wants = [&o](const char* layer) {
-        return std::find(o.layers.begin(), o.layers.end(), layer) != o.layers.end();
-    };
-    o.settings.bounce_layers = wants("bounces");
-    o.settings.removed_layer = wants("removed");
-    o.settings.pick_error_layer = wants("pick_error");
+    choose_layers(o);
     mir::check_scene(loaded.scene, o.settings);
     return view;
 }

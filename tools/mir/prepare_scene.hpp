@@ -15,6 +15,9 @@ struct ChosenView {
 /// True when prepare_scene() would add something to the scene.
 bool adds_to_scene(const RenderOptions& options, const mir::SceneReport& report);
 
+/// Asks the render for the layers of the picture that it does not make anyway.
+void choose_layers(RenderOptions& options);
+
 /// Adds what was asked for to a scene, chooses camera and size, and checks that it can be rendered.
 /// @throws mir::Error for cameras that are not there and scenes that cannot be rendered.
 ChosenView prepare_scene(RenderOptions& options, SceneAndReport& loaded);

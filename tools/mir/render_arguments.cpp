@@ -41,6 +41,19 @@ mir::DeviceChoice read_devices(const std::string& text) {
     return devices;
 }
 
+/// Reads "2/5".
+mir::ShardNumber read_shard(const std::string& text) {
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    mir::ShardNumber shard;
+    if (slash < text.size() && read_whole(text.substr(0, slash), shard.number) &&
+        read_whole(text.substr(slash + 1), shard.count) && shard.number >= 1 &&
+        shard.number <= shard.count && shard.count <= mir::max_shards)
+        return shard;
+    throw CLI::ValidationError("--shard", "'" + text +
+                                              "' is no part of a picture; give I/N, such as 2/5, "
+                                              "with I from 1 to N and N to 65536");
+}
+
 void add_output(CLI::App& app, RenderOptions& o) {
     begin_group(app, "Output");
     app.add_option("-o,--output", o.output, "Picture to write (default: SCENE.exr in this folder)")
@@ -185,6 +198,15 @@ void add_kept_passes(CLI::App& app, PassOptions& p) {
                  "Keep the passes in PICTURE.journal, and go on from those that are in it");
 }
 
+void add_shard(CLI::App& app, std::optional<mir::ShardNumber>& shard) {
+    begin_group(app, "Time and machine");
+    app.add_option_function<std::string>(
+           "--shard", [&shard](const std::string& text) { shard = read_shard(text); },
+           "Render part I of N of the picture to a shard, for mir merge; several machines make "
+           "one picture so")
+        ->type_name("I/N");
+}
+
 void add_execution(CLI::App& app, RenderOptions& o) {
     mir::RenderSettings& s = o.settings;
     add_choice<mir::BackendKind>(app, "--backend", s.backend,
@@ -243,6 +265,7 @@ void add_render(CLI::App& app, RenderOptions& options) {
     add_report(app, options);
     add_picture(app, options);
     add_kept_passes(app, options.passes);
+    add_shard(app, options.shard);
 }
 
 }  // namespace mirtool

@@ -11,6 +11,7 @@
 #include "progress.hpp"
 #include "render_output.hpp"
 #include "render_passes.hpp"
+#include "render_shard.hpp"
 #include "report/render_report.hpp"
 #include "text.hpp"
 
@@ -36,11 +37,9 @@ void prepare(RenderOptions& o, SceneAndReport& loaded) {
                      view.inside ? "it is a room, seen from inside" : "it is seen from outside");
 }
 
-mir::RenderResult render(const RenderOptions& o, const mir::Scene& scene, const OutputPaths& paths,
-                         mir::Monitor& monitor, Convergence& convergence) {
-    mir::Registry registry;
-    mir::add_all_to(registry);
-    const mir::Registry::Choice choice = registry.make_for(o.settings);
+mir::RenderResult render(const mir::Registry::Choice& choice, const RenderOptions& o,
+                         const mir::Scene& scene, const OutputPaths& paths, mir::Monitor& monitor,
+                         Convergence& convergence) {
     std::optional<Progress> progress;
     if (!o.quiet) progress.emplace(monitor);
     mir::RenderResult result =
@@ -94,7 +93,8 @@ int run(const RenderOptions& options) {
     RenderOptions o = options;
     o.settings.validate();
     check(o.passes);
-    const OutputPaths paths = choose_outputs(o);
+    const std::string shard = o.shard ? choose_shard(o) : std::string();
+    const OutputPaths paths = o.shard ? OutputPaths{} : choose_outputs(o);
     const mir::Image<mir::Rgb> reference = read_report_reference(o);
     std::optional<mir::Denoiser> denoiser;
     if (o.denoise) denoiser.emplace(o.denoiser, o.settings.threads);
@@ -109,9 +109,14 @@ int run(const RenderOptions& options) {
     // Also while files are written, since a signal that ended the program there would leave halves.
     mir::Monitor monitor;
     const CancelOnInterrupt cancel(monitor);
+    mir::Registry registry;
+    mir::add_all_to(registry);
+    const mir::Registry::Choice choice = registry.make_for(o.settings);
+    if (o.shard)
+        return blaming(o.scene, [&] { return render_shard(shard, choice, o, loaded, monitor); });
     Convergence convergence(reference);
-    mir::RenderResult result =
-        blaming(o.scene, [&] { return render(o, loaded.scene, paths, monitor, convergence); });
+    mir::RenderResult result = blaming(
+        o.scene, [&] { return render(choice, o, loaded.scene, paths, monitor, convergence); });
     const std::vector<std::string>& remarks = loaded.report.remarks;
     result.warnings.insert(result.warnings.begin(), remarks.begin(), remarks.end());
     const Denoising denoising = denoised(denoiser, result, reference, o, monitor);

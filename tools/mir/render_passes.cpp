@@ -1,34 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "render_passes.hpp"
 
+#include "alarm.hpp"
 #include "mir/io/pass_journal.hpp"
 #include "mir/runtime/progressive_render.hpp"
 
-#include <chrono>
-
 namespace mirtool {
 namespace {
-
-constexpr double default_save_every = 10.0;
-
-/// Tells when so many seconds have passed since the last time, or since it was made.
-class Alarm {
- public:
-    explicit Alarm(double seconds) : period_(seconds) {}
-
-    [[nodiscard]] bool rings() {
-        const auto now = Clock::now();
-        if (std::chrono::duration<double>(now - last_).count() < period_) return false;
-        last_ = now;
-        return true;
-    }
-
- private:
-    using Clock = std::chrono::steady_clock;
-
-    double period_;
-    Clock::time_point last_ = Clock::now();
-};
 
 /// The journal of --resume.
 std::optional<mir::PassJournal> open_journal(const RenderOptions& o, const mir::Scene& scene,

@@ -118,6 +118,11 @@ inline void check_image(const RenderSettings& s) {
             "an image of zero pixels was asked for (there is nothing to compute); give --width and "
             "--height of at least 1");
     check_limit(s.image.area(), s.limits.pixels, "pixels");
+    expects(s.rows.count == 0
+                ? s.rows.first == 0
+                : s.rows.first < s.image.height && s.rows.count <= s.image.height - s.rows.first,
+            "rows of pixels were asked for that the image does not have (there is nothing to see); "
+            "ask for rows between its top and its bottom, or for all");
     expects(s.luxels_per_pixel >= 1 && s.luxels_per_pixel <= max_luxels_per_pixel,
             "luxels per pixel must be 1 to 64");
     check_picture(s, first_bounce_layer + extra_layers(s));

@@ -88,9 +88,7 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
     if (all.light_path_luminance && pass.light_path_luminance)
         detail::add_pass(*all.light_path_luminance, *pass.light_path_luminance, earlier);
     if (all.health && pass.health) detail::add_pass(*all.health, *pass.health, earlier);
-    for (const RenderStage& stage : render_stages)
-        all.seconds.*stage.seconds += pass.seconds.*stage.seconds;
-    all.seconds.total += pass.seconds.total;
+    add_seconds(all.seconds, pass.seconds);
     all.passes = earlier + 1;
 }
 

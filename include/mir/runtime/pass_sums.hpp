@@ -53,6 +53,13 @@ class PassSums {
     /// are those of the last. `complete` says whether further passes were wanted.
     [[nodiscard]] RenderResult result(bool complete = true) const;
 
+    /// Replaces the numbers by those of the same passes, at least one. For sums that were put
+    /// together of parts of pictures.
+    void restate(const std::vector<RenderStatistics>& passes) {
+        statistics_ = passes.front();
+        for (std::uint32_t i = 1; i < passes.size(); ++i) add_pass(statistics_, passes[i], i);
+    }
+
     /// Hands all of `self` except the VPLs to `archive`. The archive reads or, unless const,
     /// replaces it.
     template <class Self, class Archive>

@@ -72,6 +72,13 @@ struct RenderStatistics {
     }
 };
 
+/// Luminances of a row of luxels, each added up from left to right, W m^-2 sr^-1.
+struct RowLuminances {
+    double indirect = 0.0;  ///< of the VPLs' or discs' light
+    double removed = 0.0;   ///< of what the bound removed, by the VPLs
+    double residual = 0.0;  ///< of what paths traced back of that
+};
+
 /// A finished picture. Radiance in W m^-2 sr^-1; beauty = emission + direct + indirect.
 struct RenderResult {
     Image<Rgb> beauty;                ///< the sum of the next three
@@ -95,6 +102,9 @@ struct RenderResult {
     Image<float> coverage{};
     Image<Rgb> denoised{};   ///< the beauty by a Denoiser; empty unless asked for
     std::string denoiser{};  ///< name and version of what made it
+    /// Of the luxels of RenderSettings::rows, from top to bottom. Their sums over a whole image
+    /// make the mean luminances of its statistics; empty where an integrator counts none.
+    std::vector<RowLuminances> luminances{};
 };
 
 }  // namespace mir

@@ -17,6 +17,17 @@
 
 namespace mir {
 
+/// Rows of pixels of an image.
+struct PixelRows {
+    std::uint32_t first = 0;  ///< from the top, which is 0
+    std::uint32_t count = 0;  ///< 0: all rows of the image
+
+    /// Whether pixels of row `y` belong to them.
+    [[nodiscard]] bool hold(std::uint32_t y) const {
+        return count == 0 || (y >= first && y - first < count);
+    }
+};
+
 /// Which machine renders.
 enum class BackendKind {
     automatic,  ///< a GPU where the build and the machine have one, else the processor
@@ -150,10 +161,11 @@ struct PixelPlace {
 /// What to render and how. Plain values with working defaults; designated initialisers may change
 /// some. validate() tells what is wrong.
 struct RenderSettings {
-    Extent image{640, 480};                         ///< pixels
-    std::uint32_t luxels_per_pixel = 4;             ///< 1..64
-    PixelPlace only_luxel{};                        ///< of the luxel of pixels that have one
-    std::uint32_t camera = 0;                       ///< index into Scene::cameras
+    Extent image{640, 480};              ///< pixels
+    std::uint32_t luxels_per_pixel = 4;  ///< 1..64
+    PixelPlace only_luxel{};             ///< of the luxel of pixels that have one
+    PixelRows rows{};          ///< rendered, as of the whole image; pixels of others are black
+    std::uint32_t camera = 0;  ///< index into Scene::cameras
     Integrator integrator = Integrator::vpl;        ///< says which of the settings below count
     PathSettings path{};                            ///< of Integrator::path
     MicroSettings micro{};                          ///< of Integrator::micro

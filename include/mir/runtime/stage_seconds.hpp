@@ -68,6 +68,12 @@ inline constexpr std::array<RenderStage, 21> render_stages{
      {"hash", &StageSeconds::hash, "fingerprint of the scene"},
      {"other", &StageSeconds::other, "preparing"}}};
 
+/// Adds the seconds of each stage, and of all.
+inline void add_seconds(StageSeconds& all, const StageSeconds& more) {
+    for (const RenderStage& stage : render_stages) all.*stage.seconds += more.*stage.seconds;
+    all.total += more.total;
+}
+
 /// What a person reads of a stage.
 constexpr const char* title_of(StageMember stage) {
     for (const RenderStage& known : render_stages)

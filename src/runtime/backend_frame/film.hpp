@@ -5,6 +5,7 @@
 
 #include "mir/resident/wait_at_end.hpp"
 #include "runtime/backend_frame.hpp"
+#include "runtime/seam_above.hpp"
 
 namespace mir {
 
@@ -39,8 +40,8 @@ void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers
                 Picture{{machine_, queue_, job_.rays.grid, job_.settings.filter, job_.rays.seed,
                          static_cast<std::uint32_t>(images.size()), band.extent().height},
                         {machine_, job_.rays.grid, job_.rays.camera}});
-        if (seam != nullptr && seam->luxel_rows != picture_->film.rows())
-            picture_->film.go_on(queue_, *seam);
+        if (picture_->film.rows() != band.first_row)
+            picture_->film.go_on(queue_, seam_above(job_, band.first_row, images.size(), seam));
         picture_->film.add_rows(queue_, band.first_row, images);
         if (seam != nullptr) *seam = picture_->film.seam(queue_);
     }

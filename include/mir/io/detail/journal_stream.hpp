@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/byte_hash.hpp"
 #include "mir/data/image.hpp"
 #include "mir/runtime/result.hpp"
 
@@ -14,27 +15,25 @@
 
 namespace mir::detail {
 
-/// FNV-1a, 64 bits, over bytes; it finds what was cut off or overwritten.
-class ByteHash {
- public:
-    void add(const void* data, std::size_t size) {
-        const auto* bytes = static_cast<const unsigned char*>(data);
-        for (std::size_t i = 0; i < size; ++i) state_ = (state_ ^ bytes[i]) * 0x100000001b3ull;
-    }
-    [[nodiscard]] std::uint64_t value() const { return state_; }
-
- private:
-    std::uint64_t state_ = 0xcbf29ce484222325ull;
-};
-
-/// Takes apart what is no plain value. `Stream` reads or writes bytes() and resizes with sized().
-/// Bytes are those of memory, so files are good on machines of one kind.
+/// Takes apart what is no plain value. `Stream` reads or writes bytes() and resizes with sized();
+/// it may have an image() of its own. Bytes are those of memory, so files are good on machines of
+/// one kind.
 template <class Stream>
 class Transfer {
  public:
     template <class... T>
     void operator()(T&... values) {
         (one(values), ...);
+    }
+    template <class I>
+    void image(I& image) {
+        const std::uint64_t width = self().sized(image.width(), 0);
+        const std::uint64_t bytes_of_row = width * sizeof(image.pixels()[0]);
+        const std::uint64_t height = self().sized(image.height(), bytes_of_row);
+        if constexpr (!std::is_const_v<I>)
+            image = I::unwritten(
+                {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)});
+        self().bytes(image.pixels().data(), image.pixels().size_bytes());
     }
 
  private:
@@ -50,7 +49,7 @@ class Transfer {
         else if constexpr (std::is_same_v<Value, std::string>)
             text(value);
         else if constexpr (requires { value.extent(); })
-            image(value);
+            self().image(value);
         else if constexpr (requires { value.size(); })
             each(value);
         else
@@ -70,16 +69,6 @@ class Transfer {
         const std::uint64_t size = self().sized(text.size(), 1);
         if constexpr (!std::is_const_v<S>) text.resize(size);
         self().bytes(text.data(), size);
-    }
-    template <class I>
-    void image(I& image) {
-        const std::uint64_t width = self().sized(image.width(), 0);
-        const std::uint64_t bytes_of_row = width * sizeof(image.pixels()[0]);
-        const std::uint64_t height = self().sized(image.height(), bytes_of_row);
-        if constexpr (!std::is_const_v<I>)
-            image = I::unwritten(
-                {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)});
-        self().bytes(image.pixels().data(), image.pixels().size_bytes());
     }
     template <class S>
     void statistics(S& s) {
