@@ -190,7 +190,8 @@ TEST_CASE("a side that is not given follows from the camera") {
     const TemporaryFolder folder("render_size");
     const auto size = [&](const Words& sides) {
         const Words scene{"render", "builtin:sphere", "-o", (folder / "a.exr").string()};
-        render(scene + sides + Words{"--vpls", "1", "--direct-samples", "1", "-q"});
+        render(scene + sides +
+               Words{"--vpls", "1", "--direct-samples", "1", "--luxels", "1", "-q"});
         return exr_size(folder / "a.exr");
     };
     CHECK(size({"--width", "40"}) == "40x30");
