@@ -21,9 +21,9 @@ using Paths = std::vector<std::filesystem::path>;
 namespace {
 
 const mir::Scene scene;
-const std::string build = "a build";
+const std::string this_build = "a build";
 
-mir::RenderSettings settings() {
+mir::RenderSettings small_settings() {
     mir::RenderSettings s;
     s.image = {3, 5};
     s.seed = 5;
@@ -33,10 +33,10 @@ mir::RenderSettings settings() {
 /// What of a shard a test wants otherwise.
 struct Wanted {
     mir::ShardNumber shard{1, 1};
-    mir::RenderSettings settings = ::settings();
+    mir::RenderSettings settings = small_settings();
     std::uint32_t passes = 2;
     std::uint32_t stop = 2;  ///< passes that are done
-    std::string build = ::build;
+    std::string build = this_build;
     std::string version = mir::version;
     std::string look = "plain";
 };
@@ -70,7 +70,7 @@ void write_shard(const std::filesystem::path& path, const Wanted& w) {
 
 mir::RenderResult whole() {
     const NoiseRenderer noise = renderer();
-    mir::ProgressiveRender render(noise, scene, settings(), {.passes = 2});
+    mir::ProgressiveRender render(noise, scene, small_settings(), {.passes = 2});
     while (!render.is_complete()) render.next_pass();
     return render.result();
 }
@@ -97,7 +97,7 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
 /// Checks that a merge is refused in a sentence with these words.
 void check_refused(const Paths& paths, const std::string& part) {
     try {
-        static_cast<void>(mir::merge_shards(paths, build));
+        static_cast<void>(mir::merge_shards(paths, this_build));
         FAIL("they were merged");
     } catch (const mir::Error& e) {
         INFO(e.what());
@@ -126,7 +126,7 @@ TEST_CASE("shards in any order make the bits of a whole picture") {
         CAPTURE(count);
         Paths paths = all_shards(folder, count);
         std::rotate(paths.begin(), paths.begin() + count / 2, paths.end());
-        const mir::MergedPicture merged = mir::merge_shards(paths, build);
+        const mir::MergedPicture merged = mir::merge_shards(paths, this_build);
         const mir::RenderResult& b = merged.result;
         for (const auto layer : {&mir::RenderResult::beauty, &mir::RenderResult::emission,
                                  &mir::RenderResult::direct, &mir::RenderResult::indirect})
@@ -151,7 +151,7 @@ TEST_CASE("a shard goes on from the passes in its file, to the same bits") {
     Paths paths = all_shards(folder, 2);
     write_shard(folder / "b.shard", {.shard = {2, 2}, .stop = 1});
     write_shard(folder / "b.shard", {.shard = {2, 2}});
-    CHECK(same_bits(mir::merge_shards({paths[0], folder / "b.shard"}, build).result.beauty,
+    CHECK(same_bits(mir::merge_shards({paths[0], folder / "b.shard"}, this_build).result.beauty,
                     whole().beauty));
     CHECK(folder.files() == 3);
     // Another part, other passes.
@@ -171,12 +171,12 @@ TEST_CASE("a merge refuses shards that are missing, there twice, or of different
     check_refused({good[0]}, "missing (2, 3 of 3)");
     check_refused({good[0], good[1], good[2], good[1]}, "it is shard 2 of 3, as is");
     check_refused(other({.shard = third, .stop = 1}), "it holds 1 of 2 passes");
-    mir::RenderSettings seed = settings();
+    mir::RenderSettings seed = small_settings();
     seed.seed = 6;
     std::filesystem::remove(folder / "other.shard");
     check_refused(other({.shard = third, .settings = seed}), "rendered with other settings than");
     std::filesystem::remove(folder / "other.shard");
-    mir::RenderSettings size = settings();
+    mir::RenderSettings size = small_settings();
     size.image = {4, 5};
     check_refused(other({.shard = third, .settings = size}), "a picture of another size than");
     std::filesystem::remove(folder / "other.shard");
@@ -190,7 +190,7 @@ TEST_CASE("a merge refuses shards that are missing, there twice, or of different
     std::filesystem::remove(folder / "other.shard");
     check_refused(other({.shard = third, .version = "0.0.1"}), "it is of version 0.0.1");
     check_refused({folder / "none.shard"}, "it cannot be read");
-    CHECK_THROWS_AS(mir::merge_shards({}, build), mir::Error);
+    CHECK_THROWS_AS(mir::merge_shards({}, this_build), mir::Error);
 }
 
 TEST_CASE("a shard that was cut or altered anywhere is refused") {
@@ -225,7 +225,7 @@ TEST_CASE("sizes that lie in a shard whose hash is right are refused") {
             std::copy_n(reinterpret_cast<const char*>(&lie), sizeof lie, bad.begin() + i);
             write_bytes(path, rehashed(bad));
             try {
-                static_cast<void>(mir::merge_shards({path}, build));
+                static_cast<void>(mir::merge_shards({path}, this_build));
             } catch (const mir::Error& e) {
                 CHECK(e.code() == mir::ErrorCode::invalid_input);
             }
