@@ -81,6 +81,8 @@ TEST_CASE("a shard says what it is, and is refused where it does not belong") {
     check_failure(run_mir(shard(folder / "3.shard", "1/2", {"--time", "1"})), 2, "--passes");
     check_failure(run_mir(shard(folder / "3.shard", "1/2", {"--report", folder / "a.html"})), 2,
                   "a shard has no preview, report or VPLs of its own");
+    check_failure(run_mir(shard(folder / "3.shard", "1/2", {"--denoise"})), 2,
+                  "a shard is not denoised");
     CHECK_FALSE(std::filesystem::exists(folder / "3.shard"));
 }
 

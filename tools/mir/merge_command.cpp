@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
+#include "denoising.hpp"
 #include "exit_code.hpp"
 #include "idle_options.hpp"
 #include "mir/io/merge_shards.hpp"
@@ -29,7 +30,7 @@ int run(const MergeOptions& options) {
     if (!options.quiet) print_summary(merged.result);
     if (options.json) {
         const mir::Image<mir::Rgb> no_reference;
-        print_json(paths, merged.result, o, Convergence(no_reference));
+        print_json(paths, merged.result, o, Convergence(no_reference), Denoising{});
     } else {
         for (const std::string& name : {paths.exr, paths.png})
             if (!name.empty()) print_result(name);

@@ -67,6 +67,9 @@ std::string choose_shard(const RenderOptions& o) {
     mir::expects(o.preview.empty() && o.report.empty() && o.vpls_out.empty(),
                  "a shard has no preview, report or VPLs of its own (they are of the whole "
                  "picture); give --png to mir merge, and the others to a whole render");
+    mir::expects(!o.denoise,
+                 "a shard is not denoised (a denoiser needs the whole picture); leave --denoise "
+                 "out and give the merged picture to mir denoise");
     const std::string number =
         std::to_string(o.shard->number) + "-of-" + std::to_string(o.shard->count);
     std::string file = o.output.empty() ? stem_of(o.scene) + "." + number + ".shard" : o.output;
