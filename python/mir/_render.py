@@ -66,9 +66,10 @@ def micro(scene, *, progress: ProgressCallback = None, **settings) -> Result:
 def sample_vpls(scene, *, progress: ProgressCallback = None, **settings) -> Vpls:
     """The VPLs that render() would place, with their intensities, W sr^-1, without a picture.
 
-    settings: those of render(), but 1024 VPLs by Metropolis sampling unless told otherwise.
+    settings: those of render(). Without any of vpls, sampler, sum and quality there are 1024 VPLs
+    by Metropolis sampling.
     """
-    if not {"vpls", "sampler"} & settings.keys():
+    if not {"vpls", "sampler", "sum", "quality"} & settings.keys():
         settings = {"vpls": 1024, **settings}
     return _core._sample_vpls(_scene_of(scene), words_of(settings), callback_of(progress))
 

@@ -95,12 +95,16 @@ NumpyArray<float> denoised_of(nb::handle self, const std::optional<std::string>&
                 : nb::cast<std::string>(nb::module_::import_("mir._denoiser").attr("library")());
         mir::Image<mir::Rgb> clean;
         mir::Monitor monitor;
+        std::string name;
         watched(monitor, nb::none(), [&] {
             const mir::Denoiser denoiser(file);
             clean = mir::denoise(r, denoiser, &monitor);
-            r.denoiser = denoiser.name();
+            name = denoiser.name();
         });
+        // Another thread may have been sooner, and arrays look at its picture.
+        if (!r.denoised.pixels().empty()) return view_of(r.denoised, self);
         r.denoised = std::move(clean);
+        r.denoiser = std::move(name);
         const auto kind = nb::cast<PyResult&>(self).options.settings.filter.kind;
         const std::string remark = mirtool::filter_remark(std::string(to_string(kind)));
         if (!remark.empty()) r.warnings.push_back(remark);

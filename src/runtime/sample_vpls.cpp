@@ -103,7 +103,7 @@ SampledVpls sample_vpls(RenderFrame& frame, float bound) {
         SampledVpls sampled = with_sampler(job, surfaces, rays, bound, [&job](const auto& sampler) {
             return SampledVpls{sampler.sample(job.executor), sampler.normalisation};
         });
-        if (s.sampler == SamplerKind::instant_radiosity && s.measure_missing)
+        if (s.sampler == SamplerKind::instant_radiosity && !s.vpl_roulette && s.measure_missing)
             sampled.records.light_paths = light_path_luminance(
                 sampled.records, image_probe(job, surfaces, rays, bound), job.executor);
         return sampled;

@@ -107,6 +107,7 @@ TEST_CASE("a quality chooses what was left open") {
     CHECK(found({"--sampler", "mir"}) == Found{4, 0, thousand});
     CHECK(found({"--chains", "64"}) == Found{4, 0, thousand});
     CHECK(found({"--sum", "all"}) == Found{4, 0, thousand});
+    CHECK(found({"--direct", "vpl"}) == Found{4, 0, thousand});
     CHECK(found({"--vsl"}) == Found{4, 0, thousand});
     CHECK(found({"--aov", "removed"}) == Found{4, 0, thousand});
 }

@@ -99,7 +99,8 @@ mir::Image<mir::Rgb> read_reference(const DenoiseOptions& o, const NoisyPicture&
 
 std::string filter_of(const mir::ExrAttributes& attributes) {
     for (const mir::ExrAttribute& a : attributes)
-        if (a.name == "mir:filter") return std::get<std::string>(a.value);
+        if (const auto* text = std::get_if<std::string>(&a.value); text && a.name == "mir:filter")
+            return *text;
     return "";
 }
 

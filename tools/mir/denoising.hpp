@@ -15,6 +15,7 @@ namespace mirtool {
 /// What taking the noise out of a picture came to.
 struct Denoising {
     std::string denoiser;  ///< name and version; empty: nothing was denoised
+    std::string failure;   ///< why nothing was; empty where all went well
     double seconds = 0.0;
     std::string reference;  ///< its file; empty: none
     std::optional<mir::ImageMetrics> before;

@@ -17,6 +17,7 @@ bool chooses_vpls(const CLI::App& app, const RenderOptions& o) {
     const mir::RenderSettings& s = o.settings;
     if (s.integrator != mir::Integrator::vpl || s.vsl.enabled || s.glossy.enabled) return true;
     if (std::find(o.layers.begin(), o.layers.end(), "removed") != o.layers.end()) return true;
+    if (s.direct == mir::DirectLight::vpl) return true;  // each luxel asks all VPLs at infinity
     if (is_given(app, "--sampler") || s.sum == mir::LightSum::all) return true;
     if (is_given(app, "--vpls") && s.vpls <= mir::most_vpls_summed) return true;
     const auto options = app.get_options();

@@ -18,6 +18,7 @@
 #include <tbb/global_control.h>
 
 #include <cstdio>
+#include <exception>
 #include <optional>
 #include <vector>
 
@@ -56,19 +57,29 @@ Denoising denoised(const std::optional<mir::Denoiser>& denoiser, mir::RenderResu
     if (!denoiser) return {};
     const std::string remark = filter_remark(std::string(to_string(o.settings.filter.kind)));
     if (!remark.empty()) result.warnings.push_back(remark);
-    Denoising done = denoise_result(result, *denoiser, monitor);
+    Denoising done;
+    try {
+        done = denoise_result(result, *denoiser, monitor);
+    } catch (const std::exception& e) {  // the picture with its noise is written all the same
+        done.failure = e.what();
+    }
     if (!done.denoiser.empty())
         done.measure(result.beauty, result.denoised, reference, o.report_reference);
     return done;
 }
 
-/// The exit code; says what an interrupted render lacks.
-int ending(const RenderOptions& o, const mir::RenderResult& result) {
+/// The exit code; says what a render lacks that was interrupted, or its denoiser failed.
+int ending(const RenderOptions& o, const mir::RenderResult& result, const Denoising& denoising) {
     if (!result.statistics.complete) {
         std::fprintf(stderr,
                      "mir: interrupted; the picture is the mean of %u passes, marked incomplete\n",
                      result.statistics.passes);
         return exit_interrupted;
+    }
+    if (!denoising.failure.empty()) {
+        std::fprintf(stderr, "mir: the picture is not denoised: %s\n",
+                     shown(denoising.failure).c_str());
+        return exit_failure;
     }
     if (!o.denoise || !result.denoiser.empty()) return exit_done;
     std::fprintf(stderr, "mir: interrupted; the picture is not denoised\n");
@@ -130,7 +141,7 @@ int run(const RenderOptions& options) {
         for (const std::string& name : {paths.exr, paths.png, o.report, o.vpls_out})
             if (!name.empty()) print_result(name);
     }
-    return ending(o, result);
+    return ending(o, result, denoising);
 }
 
 }  // namespace mirtool

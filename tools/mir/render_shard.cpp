@@ -91,7 +91,7 @@ int render_shard(const std::string& name, const mir::Registry::Choice& choice,
         if (!o.quiet) progress.emplace(monitor);
         render_passes(render, file, o.passes);
     }
-    if (!was_complete) file.write(render.sums(), render.passes());
+    file.write(render.sums(), render.passes());  // a complete one too: its look may be another
     if (!o.quiet)
         std::fprintf(stderr, "mir: shard %s %s, %.2f s\n", to_string(*o.shard).c_str(),
                      was_complete ? "was complete" : "is complete",

@@ -78,7 +78,7 @@ inline void check_glossy(const RenderSettings& s) {
 /// alone.
 inline void check_cuts(const RenderSettings& s) {
     expects(s.picks >= 1 && s.picks <= 65536,
-            "VPLs that a luxel picks must be 1 to 65536; 128 are usual");
+            "VPLs that a luxel picks must be 1 to 65536; 256 are usual");
     expects(!s.pick_error_layer || (s.integrator == Integrator::vpl && s.wants_cuts()),
             "luxels gather all VPLs and pick none (there is no error of picks to show); leave the "
             "layer pick_error out or use --sum cuts");

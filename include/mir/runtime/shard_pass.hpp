@@ -33,7 +33,8 @@ inline ShardPass shard_pass(const RenderResult& pass) {
           double{s.emitted_power}, s.direct_noise.value_or(0.0), s.removed ? s.removed->share : 0.0,
           s.cut ? s.cut->share : 0.0, s.gather_difference ? s.gather_difference->mean : 0.0})
         hash.add(&number, sizeof number);
-    // All others give the same bits.
+    hash.add(s.backend.data(), s.backend.size());
+    // All other structures give the same bits.
     const bool embree = s.acceleration == "embree";
     hash.add(&embree, sizeof embree);
     return {s, pass.luminances, hash.value()};

@@ -21,7 +21,7 @@ namespace mir::detail {
 /// How shards begin.
 inline constexpr std::string_view shard_magic = "mir shard 1\n";
 
-/// An open shard. What it holds is read once its hash has confirmed all of it.
+/// A shard. What it holds is read once its hash has confirmed all of it.
 class ShardReader {
  public:
     /// Reads the manifest.
@@ -45,6 +45,7 @@ class ShardReader {
             refuse("another build made it: " + manifest_.build + ", this is " + build,
                    "render and merge with one program on machines of one kind");
         left_ = all.left();
+        stream_.close();  // pictures may have more shards than a process may have open files
     }
 
     [[nodiscard]] const ShardManifest& manifest() const { return manifest_; }
@@ -53,6 +54,12 @@ class ShardReader {
     /// Reads what follows, once. Pixels go to their rows of `to.sums`, numbers replace others.
     /// @throws Error(invalid_input) when it is not what the manifest says.
     void read(ShardPasses& to) {
+        const std::uint64_t manifest = whole_ - left_;
+        open();
+        confirm();
+        rewind();
+        stream_.seekg(static_cast<std::streamoff>(manifest), std::ios::cur);
+        left_ -= manifest;
         JournalReader in(stream_, left_);
         parse([&] {
             to.passes.clear();
@@ -60,6 +67,7 @@ class ShardReader {
             RowsReader(in, manifest_.image, manifest_.rows())(to.sums);
             if (to.sums.passes() != to.passes.size() || in.left() != 0) throw BrokenJournal{};
         });
+        stream_.close();
     }
 
     /// @throws Error(invalid_input) that says why the file is of no use.

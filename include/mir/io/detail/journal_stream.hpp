@@ -63,6 +63,9 @@ class Transfer {
                 if (i == values.size()) values.emplace_back();
             one(values[i]);
         }
+        // Sentences replace others. Images stay, because only rows of them may be read.
+        if constexpr (!std::is_const_v<V> && std::is_same_v<typename V::value_type, std::string>)
+            values.resize(size);
     }
     template <class S>
     void text(S& text) {
