@@ -56,6 +56,8 @@ if ! python3 -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))'; then
     say "bpy $bpy_version skipped: it needs Python 3.11"
 elif ! bpy_is_here; then
     say "bpy $bpy_version skipped: PyPI cannot be reached, or lacks it (see $log)"
+elif ! missing=$("$cache/bin/python" -c 'import bpy' 2>&1); then
+    say "bpy $bpy_version skipped: a library of the system is missing ($(echo "$missing" | tail -n 1))"
 else
     checked extension env BLENDER_USER_RESOURCES="$out/resources" "$cache/bin/python" \
         "$here/tests/install_extension.py" "$(find "$out/zip" -name '*.zip' ! -name '*blender3*')"
