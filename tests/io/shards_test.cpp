@@ -120,10 +120,10 @@ std::string rehashed(std::string bytes) {
 }  // namespace
 
 TEST_CASE("shards in any order make the bits of a whole picture") {
-    const mirtest::TemporaryFolder folder("shards");
     const mir::RenderResult a = whole();
     for (const std::uint32_t count : {1u, 2u, 3u, 5u}) {
         CAPTURE(count);
+        const mirtest::TemporaryFolder folder("shards");
         Paths paths = all_shards(folder, count);
         std::rotate(paths.begin(), paths.begin() + count / 2, paths.end());
         const mir::MergedPicture merged = mir::merge_shards(paths, this_build);
