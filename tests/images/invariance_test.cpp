@@ -181,7 +181,9 @@ TEST_CASE("vertices that floats rounded far away are among the warnings of a ren
 }
 
 TEST_CASE("a picture does not depend on a rigid motion of scene and camera") {
-    const mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    // How a tree divides several lamps follows the axes, and so do the lamps that it picks.
+    scene.meshes.back().triangles.resize(1);
     const auto settings = settings_of(mir::SamplerKind::instant_radiosity, 48, 64);
     const auto reference = render(scene, settings);
     // The turned frames around normals send the same numbers into other directions: only the light

@@ -36,11 +36,13 @@ mir::Scene lit_box() {
     return scene;
 }
 
-/// The box as read from a file in which `root`, a node of that scale, holds everything.
-mir::Scene below(nlohmann::json root, double scale) {
+/// The box as read from a file in which `root`, a node of that scale, holds everything. Of its lamp
+/// so many triangles.
+mir::Scene below(nlohmann::json root, double scale, std::size_t lamp_triangles = 2) {
     const mirtest::TemporaryFolder folder("scaled_nodes");
     const auto file = folder / "box.glb";
     mir::Scene scene = lit_box();
+    scene.meshes.back().triangles.resize(lamp_triangles);
     const auto square = static_cast<float>(scale * scale);
     for (mir::PointLight& light : scene.point_lights) light.intensity = light.intensity * square;
     for (mir::SpotLight& light : scene.spot_lights) light.intensity = light.intensity * square;
@@ -133,10 +135,11 @@ TEST_CASE("a scene below a node that scales it by a power of ten looks the same 
 }
 
 TEST_CASE("a scene below a node that turns it shows the same emission and direct light") {
-    const mir::Scene home = below({}, 1.0);
+    // How a tree divides several lamps follows the axes, and so do the lamps that it picks.
+    const mir::Scene home = below({}, 1.0, 1);
     for (const Way& way : ways()) {
         const mir::RenderResult reference = picture(home, way.settings);
-        const mir::RenderResult turned = picture(below(turn(), 1.0), way.settings);
+        const mir::RenderResult turned = picture(below(turn(), 1.0, 1), way.settings);
         CAPTURE(way.name, int(way.settings.sampler));
         CHECK(mirtest::share_of_changed_pixels(turned.emission, reference.emission, 1e-3f) < 0.005);
         CHECK(std::fabs(excess(turned.direct, reference.direct)) < 5e-3);

@@ -24,7 +24,7 @@ TEST_CASE("the version is that of the headers") {
 }
 
 TEST_CASE("a command is required and mistyped ones are recognised") {
-    check_failure(run_mir({}), 2, "no command is given (commands are render, info,");
+    check_failure(run_mir({}), 2, "no command is given (commands are render, merge, info,");
     check_failure(run_mir({"convert", "a.glb"}), 2, "unknown command 'convert'");
     check_failure(run_mir({"rendr", "builtin:sphere"}), 2, "did you mean render?");
     check_failure(run_mir({"render"}), 2, "scene is required");

@@ -26,8 +26,8 @@ int complain(const CLI::App& app, const CLI::ParseError& e) {
 
 /// The options that `mir render --help` shows.
 const std::vector<std::string> first_options{
-    "--output",  "--aov",     "--exposure",    "--denoise", "--width", "--height",
-    "--quality", "--sun",     "--environment", "--luxels",  "--vpls",  "--passes",
+    "--output",  "--aov",     "--exposure",    "--denoise", "--width",   "--height",
+    "--quality", "--sun",     "--environment", "--vpls",    "--sampler", "--passes",
     "--time",    "--backend", "--help",        "--help-all"};
 
 constexpr const char* help_examples =
