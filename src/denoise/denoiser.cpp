@@ -6,14 +6,15 @@
 #include <cstdint>
 
 namespace mir {
+namespace oidn {
 namespace {
 
 /// @throws Error for what the library has to say of the last calls.
-void check(const oidn::Api& api, oidn::Device device) {
+void check(const Api& api, Device device) {
     const char* message = nullptr;
     const int code = api.get_device_error(device, &message);
-    if (code == oidn::error_none) return;
-    if (code == oidn::error_cancelled)
+    if (code == error_none) return;
+    if (code == error_cancelled)
         throw Error(ErrorCode::cancelled, "the denoising was cancelled; nothing was written");
     throw Error(ErrorCode::device, "Open Image Denoise failed (" +
                                        std::string(message != nullptr ? message : "") +
@@ -26,11 +27,13 @@ std::string version_text(int version) {
            std::to_string(version % 100);
 }
 
+}  // namespace
+
 /// A device of the library, committed.
-class Device {
+class OpenDevice {
  public:
-    Device(const oidn::Api& api, unsigned threads)
-        : api_(api), device_(api.new_device(oidn::processor_device)) {
+    OpenDevice(const Api& api, unsigned threads)
+        : api_(api), device_(api.new_device(processor_device)) {
         check(api_, device_);
         if (device_ == nullptr)
             throw Error(ErrorCode::device,
@@ -41,37 +44,37 @@ class Device {
         if (threads > 0) api_.set_device_int(device_, "numThreads", static_cast<int>(threads));
         api_.commit_device(device_);
     }
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
-    ~Device() {
+    OpenDevice(const OpenDevice&) = delete;
+    OpenDevice& operator=(const OpenDevice&) = delete;
+    ~OpenDevice() {
         if (device_ != nullptr) api_.release_device(device_);
     }
 
-    [[nodiscard]] oidn::Device get() const { return device_; }
+    [[nodiscard]] Device get() const { return device_; }
 
  private:
-    const oidn::Api& api_;
-    oidn::Device device_;
+    const Api& api_;
+    Device device_;
 };
 
 /// A filter for noise of path-traced and like pictures.
-class Filter {
+class OpenFilter {
  public:
-    Filter(const oidn::Api& api, oidn::Device device)
+    OpenFilter(const Api& api, Device device)
         : api_(api), device_(device), filter_(api.new_filter(device, "RT")) {
         check(api_, device_);
     }
-    Filter(const Filter&) = delete;
-    Filter& operator=(const Filter&) = delete;
-    ~Filter() { api_.release_filter(filter_); }
+    OpenFilter(const OpenFilter&) = delete;
+    OpenFilter& operator=(const OpenFilter&) = delete;
+    ~OpenFilter() { api_.release_filter(filter_); }
 
     /// Reads or writes `image`, which has three floats a pixel.
     template <class T>
     void use(const char* name, const Image<T>& image) {
         static_assert(sizeof(T) == 3 * sizeof(float));
         // One function for what is read and for what is written.
-        api_.set_filter_image(filter_, name, const_cast<T*>(image.pixels().data()),
-                              oidn::three_floats, image.width(), image.height(), 0, 0, 0);
+        api_.set_filter_image(filter_, name, const_cast<T*>(image.pixels().data()), three_floats,
+                              image.width(), image.height(), 0, 0, 0);
     }
     void switch_on(const char* name) { api_.set_filter_bool(filter_, name, true); }
     void run(Monitor* monitor) {
@@ -87,19 +90,23 @@ class Filter {
         return !static_cast<const Monitor*>(monitor)->cancelled.load(std::memory_order_relaxed);
     }
 
-    const oidn::Api& api_;
-    oidn::Device device_;
-    oidn::Filter filter_;
+    const Api& api_;
+    Device device_;
+    Filter filter_;
 };
 
+}  // namespace oidn
+
+namespace {
+
 template <class T>
-bool fits(const Image<T>* guide, Extent size) {
+bool fits_picture(const Image<T>* guide, Extent size) {
     return guide == nullptr || guide->extent() == size;
 }
 
 /// Null for an empty guide.
 template <class T>
-const Image<T>* present(const Image<T>& guide) {
+const Image<T>* filled(const Image<T>& guide) {
     return guide.extent().area() > 0 ? &guide : nullptr;
 }
 
@@ -108,12 +115,13 @@ const Image<T>* present(const Image<T>& guide) {
 struct Denoiser::Parts {
     Parts(const std::filesystem::path& library, unsigned threads)
         : api(oidn::load(library)), device(api, threads) {
-        check(api, device.get());
-        name = "Open Image Denoise " + version_text(api.get_device_int(device.get(), "version"));
+        oidn::check(api, device.get());
+        name =
+            "Open Image Denoise " + oidn::version_text(api.get_device_int(device.get(), "version"));
     }
 
     oidn::Api api;
-    Device device;
+    oidn::OpenDevice device;
     std::string name;
 };
 
@@ -129,12 +137,12 @@ Image<Rgb> Denoiser::denoise(const Image<Rgb>& picture, const DenoiseGuides& gui
     const Extent size = picture.extent();
     expects(size.area() > 0,
             "a picture without pixels was to be denoised (there is nothing in it); render one");
-    expects(fits(guides.albedo, size) && fits(guides.normal, size),
+    expects(fits_picture(guides.albedo, size) && fits_picture(guides.normal, size),
             "guides of another size than the picture were given (they tell of each of its pixels); "
             "render both together");
     if (monitor != nullptr) monitor->stage = "denoising";
     auto clean = Image<Rgb>::unwritten(size);
-    Filter filter(parts_->api, parts_->device.get());
+    oidn::OpenFilter filter(parts_->api, parts_->device.get());
     filter.use("color", picture);
     if (guides.albedo != nullptr) {
         filter.use("albedo", *guides.albedo);
@@ -147,7 +155,7 @@ Image<Rgb> Denoiser::denoise(const Image<Rgb>& picture, const DenoiseGuides& gui
 }
 
 Image<Rgb> denoise(const RenderResult& result, const Denoiser& denoiser, Monitor* monitor) {
-    const DenoiseGuides guides{present(result.guides.albedo), present(result.guides.normal)};
+    const DenoiseGuides guides{filled(result.guides.albedo), filled(result.guides.normal)};
     Image<Rgb> sum = denoiser.denoise(result.direct, guides, monitor);
     const Image<Rgb> indirect = denoiser.denoise(result.indirect, guides, monitor);
     for (std::size_t i = 0; i < sum.pixels().size(); ++i)

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-MESH_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+MESH_TYPES = {"MESH", "META"}
+# The dependency graph hands out their surfaces beside them, as objects of type MESH.
+TYPES_BESIDE_MESHES = {"CURVE", "SURFACE", "FONT"}
 
 
 @dataclass
@@ -110,7 +112,8 @@ class Meshes:
 
     @staticmethod
     def _key(source) -> tuple:
-        shape = source.data if source.type == "MESH" else source
+        # Instances that are no meshes take turns in one object of Blender's.
+        shape = source.data if source.type == "MESH" else source.original
         names = tuple(s.material.name_full if s.material else "" for s in source.material_slots)
         return shape.as_pointer(), names
 

@@ -7,10 +7,11 @@ from .coordinates import to_world
 from .export_camera import Window, add_camera
 from .export_light import Lights
 from .export_material import Materials
-from .export_mesh import MESH_TYPES, Meshes
+from .export_mesh import MESH_TYPES, TYPES_BESIDE_MESHES, Meshes
 from .export_world import add_world
 
-_RENDERED_TYPES = MESH_TYPES | {"LIGHT", "CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER"}
+_OTHER_TYPES = {"LIGHT", "CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER"}
+_RENDERED_TYPES = MESH_TYPES | TYPES_BESIDE_MESHES | _OTHER_TYPES
 _RAYS = ("camera", "diffuse", "glossy", "shadow")
 
 

@@ -88,6 +88,25 @@ def _mixed() -> None:
     camera((0, 0, 3), (0, 0, 0), 30)
 
 
+def _words() -> None:
+    """Two texts in a collection that is placed twice."""
+    empty()
+    words = bpy.data.collections.new("words")
+    for text, place in (("o", 0.0), ("XX", 0.7)):
+        curve = bpy.data.curves.new(text, "FONT")
+        curve.body = text
+        curve.materials.append(shader(text, "ShaderNodeEmission", Color=(1, place, 0, 1)))
+        thing = bpy.data.objects.new(text, curve)
+        thing.location.x = place
+        words.objects.link(thing)
+    for height in (0.0, -1.0):
+        holder = bpy.data.objects.new("holder", None)
+        holder.instance_type, holder.instance_collection = "COLLECTION", words
+        holder.location = (-0.9, height, 0)
+        bpy.context.scene.collection.objects.link(holder)
+    camera((0, 0, 4), (0, -0.2, 0), 40)
+
+
 def _around(turn: float):
     def build() -> None:
         empty()
@@ -105,6 +124,7 @@ VIEWS = {
     "depth of field": _lens,
     "vertical sensor": _portrait,
     "mixed shaders": _mixed,
+    "texts": _words,
     "world": _around(0.0),
     "turned world": _around(math.radians(50)),
 }
