@@ -92,10 +92,11 @@ def _words() -> None:
     """Two texts in a collection that is placed twice."""
     empty()
     words = bpy.data.collections.new("words")
+    light = shader("light", "ShaderNodeEmission")
     for text, place in (("o", 0.0), ("XX", 0.7)):
         curve = bpy.data.curves.new(text, "FONT")
         curve.body = text
-        curve.materials.append(shader(text, "ShaderNodeEmission", Color=(1, place, 0, 1)))
+        curve.materials.append(light)
         thing = bpy.data.objects.new(text, curve)
         thing.location.x = place
         words.objects.link(thing)
