@@ -24,8 +24,9 @@ inline mir::Scene hall_of_lamps(bool are_points) {
             scene.place(box("wall", wall, {x, 0, z}, {0.2f, 0, 0}, {0, 3, 0}, {0, 0, 6}));
         }
     for (int i = 0; i < 256; ++i) {
+        const int row = i / 16;
         const Vec3 at(static_cast<float>(2 * (i % 16)) - 15.0f, 3.8f,
-                      static_cast<float>(2 * (i / 16)) - 15.0f);
+                      static_cast<float>(2 * row) - 15.0f);
         if (are_points)
             scene.point_lights.push_back({"bulb", at, {1, 0.9f, 0.7f}});
         else

@@ -73,6 +73,7 @@ class OpenFilter {
     void use(const char* name, const Image<T>& image) {
         static_assert(sizeof(T) == 3 * sizeof(float));
         // One function for what is read and for what is written.
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
         api_.set_filter_image(filter_, name, const_cast<T*>(image.pixels().data()), three_floats,
                               image.width(), image.height(), 0, 0, 0);
     }

@@ -9,6 +9,8 @@
 #include <map>
 #include <string>
 
+// NOLINTBEGIN(*-avoid-non-const-global-variables, readability-identifier-naming): a C API that
+// others named.
 namespace {
 
 int live_objects = 0;
@@ -129,3 +131,4 @@ void oidnExecuteFilter(Filter* filter) {
 }
 
 }  // extern "C"
+// NOLINTEND(*-avoid-non-const-global-variables, readability-identifier-naming)

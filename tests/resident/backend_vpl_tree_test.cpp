@@ -9,6 +9,7 @@
 
 #include <cstring>
 #include <limits>
+#include <vector>
 
 namespace {
 
@@ -116,10 +117,8 @@ TEST_CASE("A backend finds the VPLs that shine as the host does") {
         if (here.order.empty()) continue;
         CHECK(there.most() == here.most);
         CHECK(there.normal_scale() == here.normal_scale);
-        bool same = true;
-        for (std::size_t i = 0; i < here.order.size(); ++i)
-            same = same &&
-                   std::memcmp(&there.span().first[i], &vpls[here.order[i]], sizeof(mir::Vpl)) == 0;
-        CHECK(same);
+        std::vector<mir::Vpl> kept;
+        for (const mir::VplIndex j : here.order) kept.push_back(vpls[j]);
+        CHECK(std::memcmp(there.span().first, kept.data(), kept.size() * sizeof(mir::Vpl)) == 0);
     }
 }

@@ -158,7 +158,7 @@ TEST_CASE("without a denoiser nothing is rendered, and one sentence says what to
 TEST_CASE("the real denoiser brings a noisy picture nearer to its reference", "[extended]") {
     const TemporaryFolder folder("denoise_real");
     const auto room = [&](const char* name, const Words& more) {
-        const Outcome outcome =
+        Outcome outcome =
             run_mir(small_render(folder / name, "builtin:cornell-box", 96, 72) + more);
         REQUIRE(outcome.exit_code != 1);
         return outcome;

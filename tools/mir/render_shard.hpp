@@ -15,7 +15,7 @@ namespace mirtool {
 std::string choose_shard(const RenderOptions& options);
 
 /// Renders a shard into its file, or what --resume finds missing in it. Returns the exit code.
-int render_shard(const std::string& file, const mir::Registry::Choice& choice,
+int render_shard(const std::string& name, const mir::Registry::Choice& choice,
                  const RenderOptions& options, const SceneAndReport& loaded, mir::Monitor& monitor);
 
 }  // namespace mirtool
