@@ -70,7 +70,7 @@ check_files() {
 }
 
 cd -- "$root"
-cp -RL ./*.md ./*.sh CMakeLists.txt LICENSE pyproject.toml .ci backends bench cmake docs examples \
+cp -RL ./*.md ./*.sh CMakeLists.txt LICENSE pyproject.toml .ci backends bench cmake docs examples farm \
     include python src tests tools "$copy"
 patches=0
 for file in tests/recipes/*.patch; do

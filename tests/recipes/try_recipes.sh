@@ -14,7 +14,7 @@ fresh() {
     rm -rf "$work/tree"
     mkdir -p "$work/tree/docs" "$work/tree/tests"
     cd -- "$work/tree"
-    for entry in .ci backends bench cmake examples include python src tools; do ln -s "$root/$entry" .; done
+    for entry in .ci backends bench cmake examples farm include python src tools; do ln -s "$root/$entry" .; done
     for entry in CMakeLists.txt LICENSE pyproject.toml "$root"/*.md "$root"/*.sh; do
         ln -s "$root/$(basename "$entry")" .
     done
