@@ -8,7 +8,7 @@ import pathlib
 PACKAGES = ("pyoidn", "oidn", "pyOpenImageDenoise")
 
 
-def library() -> str:
+def find_library() -> str:
     """The library of Open Image Denoise in an installed package.
 
     Empty without one, and where the environment names a library.

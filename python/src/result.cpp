@@ -89,10 +89,10 @@ nb::dict budget_of(const PyResult& self) {
 NumpyArray<float> denoised_of(nb::handle self, const std::optional<std::string>& library) {
     auto& r = nb::cast<PyResult&>(self).result;
     if (r.denoised.pixels().empty()) {
-        const auto file =
-            library
-                ? *library
-                : nb::cast<std::string>(nb::module_::import_("mir._denoiser").attr("library")());
+        const auto file = library
+                              ? *library
+                              : nb::cast<std::string>(
+                                    nb::module_::import_("mir._denoiser").attr("find_library")());
         mir::Image<mir::Rgb> clean;
         mir::Monitor monitor;
         std::string name;

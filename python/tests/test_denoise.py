@@ -17,7 +17,7 @@ def test_a_library_that_is_missing_is_an_error_with_a_remedy(small):
 
 def test_the_environment_comes_before_packages(monkeypatch):
     monkeypatch.setenv("MIR_OIDN_LIBRARY", "/nowhere/libOpenImageDenoise.so")
-    assert _denoiser.library() == ""
+    assert _denoiser.find_library() == ""
 
 
 @pytest.mark.extended

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/denoise/denoiser.hpp"
 
+#include "denoise/told.hpp"
 #include "support/catch.hpp"
 
 #include <dlfcn.h>
@@ -22,14 +23,6 @@ using mirtest::Approx;
 constexpr mir::Extent size{5, 3};
 
 Image<Rgb> plain(float r, float g, float b) { return Image<Rgb>(size, {r, g, b}); }
-
-/// What the library does as long as this lives.
-struct Told {
-    explicit Told(const char* word) { setenv("MIR_FAKE_OIDN", word, 1); }
-    Told(const Told&) = delete;
-    Told& operator=(const Told&) = delete;
-    ~Told() { unsetenv("MIR_FAKE_OIDN"); }
-};
 
 int live_objects() {
     void* library = dlopen(MIR_FAKE_OIDN_2, RTLD_NOW);
@@ -113,18 +106,18 @@ TEST_CASE("failures of a denoiser come with its words, and nothing of it stays b
     const int before = live_objects();
     const auto failed = mir::ErrorCode::device;
     {
-        const Told told("no device");
+        const mirtest::Told told("no device");
         check_refused([] { Denoiser denoiser(MIR_FAKE_OIDN_2); }, failed, "(no such processor)");
     }
     {
-        const Told told("null device");
+        const mirtest::Told told("null device");
         check_refused([] { Denoiser denoiser(MIR_FAKE_OIDN_2); }, failed, "gives no reason");
     }
     {
         const Denoiser denoiser(MIR_FAKE_OIDN_2);
         const Image<Rgb> picture = plain(1.0f, 1.0f, 1.0f);
         {
-            const Told told("failure");
+            const mirtest::Told told("failure");
             check_refused([&] { static_cast<void>(denoiser.denoise(picture)); }, failed,
                           "(out of memory)");
         }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "denoise/told.hpp"
 #include "mir/compare/metrics.hpp"
 #include "tool/exr_file.hpp"
 #include "tool/mir_program.hpp"
@@ -140,6 +141,21 @@ TEST_CASE("a pixel filter that hides noise from a denoiser is named, and is not 
     CHECK(attribute_of(folder / "a.exr", "mir:filter") == "gaussian");
     const Outcome outcome = denoise(Words{folder / "a.exr", folder / "b.exr"} + by_fake);
     CHECK(has(outcome.err, "a.exr: the pixel filter gaussian spreads noise"));
+}
+
+TEST_CASE("a denoiser that fails leaves the picture with its noise") {
+    const TemporaryFolder folder("denoise_failure");
+    const Words plain = small_render(folder / "a.exr");
+    REQUIRE(run_mir(plain + Words{"--filter", "box"}).exit_code == 0);
+    const Picture noisy = layer(folder / "a.exr");
+    std::filesystem::remove(folder / "a.exr");
+    const Told failure("failure");
+    const Outcome outcome = run_mir(plain + Words{"--denoise"} + by_fake);
+    CHECK(outcome.exit_code == 1);
+    CHECK(has(outcome.err, "the picture is not denoised: "));
+    CHECK(has(outcome.err, "out of memory"));
+    CHECK(rmse(layer(folder / "a.exr"), noisy) == 0.0);
+    CHECK(std::filesystem::exists(folder / "a.png"));
 }
 
 TEST_CASE("without a denoiser nothing is rendered, and one sentence says what to do") {
