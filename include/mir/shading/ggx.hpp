@@ -3,12 +3,9 @@
 
 #include "mir/core/rounding.hpp"
 #include "mir/core/unit_circle.hpp"
+#include "mir/scene/see_through.hpp"
 
 namespace mir {
-
-/// Smallest GGX width. Below it a cosine in single precision loses the shape of the lobe (here D is
-/// off by 0.7 % at worst, at 1e-3 by 12 %).
-inline constexpr float min_ggx_alpha = 4e-3f;
 
 /// GGX distribution of microfacet normals, per steradian: int D cos(theta_h) dw = 1.
 /// Source: Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007.
