@@ -42,7 +42,7 @@ concept Bsdf = WordCopyable<typename B::Params> &&
 /// `p`; without_lobe(p) leaves out what mirrors and clear glass do, because chains carry that. Of
 /// another Bsdf all surfaces are opaque and rough.
 template <class B>
-concept ChainBsdf = Bsdf<B> && requires(const typename B::Params& p, Rgb c) {
+concept SpecularEndBsdf = Bsdf<B> && requires(const typename B::Params& p, Rgb c) {
     { B::scaled(p, c) } -> std::same_as<typename B::Params>;
     { B::without_lobe(p) } -> std::same_as<typename B::Params>;
 };

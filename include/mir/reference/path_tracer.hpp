@@ -96,14 +96,14 @@ class PathTracer {
     [[nodiscard]] std::uint32_t directions_at(std::uint32_t bounce) const;
     [[nodiscard]] Rgb sampled_light(const Vertex& at, std::uint32_t bounce, Random& random) const;
     [[nodiscard]] Rgb light_sample(const Vertex& at, std::uint32_t bounce, Random& random) const;
-    [[nodiscard]] ChainEnd met_along(const Walk& walk, Vec3 direction, Random& random) const;
-    [[nodiscard]] Rgb found_light(const Walk& walk, const BsdfSample& sample, const ChainEnd& met,
-                                  const Vertex& next) const;
+    [[nodiscard]] SpecularEnd met_along(const Walk& walk, Vec3 direction, Random& random) const;
+    [[nodiscard]] Rgb found_light(const Walk& walk, const BsdfSample& sample,
+                                  const SpecularEnd& met, const Vertex& next) const;
     [[nodiscard]] std::optional<SurfacePoint> next_point(const Walk& walk, Vec3 direction) const;
     [[nodiscard]] Rgb environment_sample(const Vertex& at, std::uint32_t bounce,
                                          Random& random) const;
     [[nodiscard]] Rgb found_environment(const Walk& walk, const BsdfSample& sample,
-                                        const ChainEnd& met) const;
+                                        const SpecularEnd& met) const;
     [[nodiscard]] bool is_all_wanted(std::uint32_t bounce) const;
     bool advance(Walk& walk, Random& random, std::span<RgbSum> bounces) const;
     static RgbSum& sum_of(std::span<RgbSum> bounces, std::uint32_t bounce) {
@@ -175,14 +175,15 @@ std::optional<SurfacePoint> PathTracer<B, R, V, Rules>::next_point(const Walk& w
 
 /// Where a path goes on to: the end of a specular chain, or the first surface.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-ChainEnd PathTracer<B, R, V, Rules>::met_along(const Walk& walk, Vec3 direction,
-                                               Random& random) const {
-    ChainEnd met;
+SpecularEnd PathTracer<B, R, V, Rules>::met_along(const Walk& walk, Vec3 direction,
+                                                  Random& random) const {
+    SpecularEnd met;
     met.ray = {walk.at.hit.position, direction};
     if (const auto point = next_point(walk, direction)) {
         met.point = *point;
         met.is_background = false;
-        ChainTracer{world_.caster, world_.surfaces.view()}.follow(met, Transport::radiance, random);
+        SpecularTracer{world_.caster, world_.surfaces.view()}.follow(met, Transport::radiance,
+                                                                     random);
     }
     return met;
 }
@@ -202,7 +203,7 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
         B::sample(surface.bsdf, surface.normal, surface.wo, uv, random.next());
     walk.throughput = walk.throughput * sample.weight;
     if (is_black(walk.throughput) || !(glm::dot(sample.wi, hit.normal) > 0.0f)) return false;
-    const ChainEnd met = met_along(walk, sample.wi, random);
+    const SpecularEnd met = met_along(walk, sample.wi, random);
     if (walk.bounce == 1 && !options_.residual && !met.is_straight) return false;
     if (met.is_background) {
         sum_of(bounces, walk.bounce) +=
@@ -305,7 +306,7 @@ Rgb PathTracer<B, R, V, Rules>::environment_sample(const Vertex& at, std::uint32
 /// Weighted radiance of the environment that a direction escaped to, W m^-2 sr^-1.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 Rgb PathTracer<B, R, V, Rules>::found_environment(const Walk& walk, const BsdfSample& sample,
-                                                  const ChainEnd& met) const {
+                                                  const SpecularEnd& met) const {
     if (environment_.empty() || !is_all_wanted(walk.bounce)) return {};
     const Rgb radiance = environment_.radiance(met.ray.direction) * met.light;
     if (!met.is_straight) return radiance;
@@ -319,7 +320,7 @@ Rgb PathTracer<B, R, V, Rules>::found_environment(const Walk& walk, const BsdfSa
 /// Weighted emission of what a direction met, W m^-2 sr^-1.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 Rgb PathTracer<B, R, V, Rules>::found_light(const Walk& walk, const BsdfSample& sample,
-                                            const ChainEnd& met, const Vertex& next) const {
+                                            const SpecularEnd& met, const Vertex& next) const {
     const auto& [hit, surface] = walk.at;
     if (!met.is_straight) return next.surface.emission * split_.unbounded();
     const SurfacePoint& point = met.point;

@@ -6,7 +6,7 @@
 #include "mir/sampling/light_path.hpp"
 #include "mir/sampling/light_path_options.hpp"
 #include "mir/sampling/survivor_counts.hpp"
-#include "mir/shading/chain_tracer.hpp"
+#include "mir/shading/specular_tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -194,11 +194,11 @@ bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bo
     const auto point = world_.caster.closest_hit(light.ray);
     if (!point || is_black(light.power)) return false;
     const SurfaceTableView<Space::host, B> surfaces = world_.surfaces.view();
-    ChainEnd met;
+    SpecularEnd met;
     met.ray = light.ray;
     met.point = *point;
     met.is_background = false;
-    ChainTracer{world_.caster, surfaces}.follow(met, Transport::power, numbers);
+    SpecularTracer{world_.caster, surfaces}.follow(met, Transport::power, numbers);
     if (met.is_background || is_black(met.reflection)) return false;
     Arrival<B> at{met.point, -met.ray.direction, light.power * met.reflection * (1.0f / survival)};
     at.point.shading_normal = surfaces.shading_normal(at.point);

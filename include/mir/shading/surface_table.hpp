@@ -25,9 +25,9 @@ class SurfaceTable {
     /// @throws Error(invalid_input) as TextureTable does.
     explicit SurfaceTable(const Scene& scene) : textures_(scene) {
         for (const Material& m : scene.materials)
-            entries_.push_back({chain_end_params<B>(m), m.emission, m.emits_from_both_sides,
+            entries_.push_back({specular_end_params<B>(m), m.emission, m.emits_from_both_sides,
                                 lobe_share(scene, m), mean_albedo(scene, m), m.factors(),
-                                m.textures, is_chained(scene, m), m.is_blended, m.alpha,
+                                m.textures, is_specular(scene, m), m.is_blended, m.alpha,
                                 absorption(m)});
     }
 
@@ -64,7 +64,7 @@ class SurfaceTable {
 
  private:
     /// Whether some of what it reflects, or lets through, goes in one direction.
-    static bool is_chained(const Scene& scene, const Material& m) {
+    static bool is_specular(const Scene& scene, const Material& m) {
         if (m.is_blended || (m.transmission > 0.0f && m.metallic < 1.0f)) return true;
         const bool reflects = m.metallic > 0.0f || m.specular > 0.0f;
         return reflects && is_smooth(m.roughness * least_green(scene, m));

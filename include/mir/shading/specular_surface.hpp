@@ -16,7 +16,7 @@ enum class Transport : std::uint8_t {
 };
 
 /// A point of a surface where a ray may go on as a specular chain.
-struct ChainSurface {
+struct SpecularSurface {
     MaterialFactors factors;   ///< of the material there
     float cover = 1.0f;        ///< covered share, 0..1
     Vec3 normal{0};            ///< unit shading normal, on the side of `wo`
@@ -43,8 +43,8 @@ struct ChainSurface {
 };
 
 /// The shares of light that leave a surface other than by its Bsdf. Of all that is reflected and
-/// let through they leave `rest` times what chain_end_params() says.
-struct ChainShares {
+/// let through they leave `rest` times what specular_end_params() says.
+struct SpecularShares {
     Rgb pass;           ///< goes straight on
     Rgb mirrored;       ///< reflected by an interface without a lobe of its own
     Rgb transmitted;    ///< refracted, or spread by a rough sheet
@@ -53,8 +53,8 @@ struct ChainShares {
 
 /// What a surface does to a ray. The interface of opaque materials has the Fresnel term of their
 /// Bsdf, so that mirrors and base together keep the energy of CookTorrance. That of glass has the
-/// exact one. Of rough glass the shares are what chain_step() draws by, and no more.
-[[nodiscard]] MIR_HD inline ChainShares chain_shares(const ChainSurface& s) {
+/// exact one. Of rough glass the shares are what specular_step() draws by, and no more.
+[[nodiscard]] MIR_HD inline SpecularShares specular_shares(const SpecularSurface& s) {
     const MaterialFactors& f = s.factors;
     const bool smooth = is_smooth(f.roughness);
     const float clear = s.clear();
@@ -66,7 +66,7 @@ struct ChainShares {
     // one does.
     if (!smooth) reflected = smaller(larger(reflected, 0.1f), 0.9f);
 
-    ChainShares shares;
+    SpecularShares shares;
     shares.rest = s.cover;
     shares.pass = straight_transmittance(f, s.cover, cosine);
     if (clear > 0.0f && !(is_sheet && smooth))
