@@ -17,12 +17,13 @@ enum class Transport : std::uint8_t {
 
 /// A point of a surface where a ray may go on as a specular chain.
 struct SpecularSurface {
-    MaterialFactors factors;   ///< of the material there
-    float cover = 1.0f;        ///< covered share, 0..1
-    Vec3 normal{0};            ///< unit shading normal, on the side of `wo`
-    Vec3 geometric_normal{0};  ///< unit, the same side
-    Vec3 wo{0};                ///< unit, where the ray came from
-    bool front = true;         ///< `wo` lies outside of a body
+    MaterialFactors factors;    ///< of the material there
+    float cover = 1.0f;         ///< covered share, 0..1
+    Vec3 normal{0};             ///< unit shading normal, on the side of `wo`
+    Vec3 geometric_normal{0};   ///< unit, the same side
+    Vec3 wo{0};                 ///< unit, where the ray came from
+    bool front = true;          ///< `wo` lies outside of a body
+    bool has_interface = true;  ///< what is opaque and smooth is a mirror
 
     /// True for the surface of a body that light enters.
     [[nodiscard]] MIR_HD bool bounds_body() const { return !factors.is_thin && clear() > 0.0f; }
@@ -71,7 +72,8 @@ struct SpecularShares {
     shares.pass = straight_transmittance(f, s.cover, cosine);
     if (clear > 0.0f && !(is_sheet && smooth))
         shares.transmitted = f.base_color * (s.cover * clear * (1.0f - reflected));
-    if (!smooth && !(s.bounds_body() && !s.front)) return shares;
+    const bool is_mirror = smooth && (clear > 0.0f || s.has_interface);
+    if (!is_mirror && !(s.bounds_body() && !s.front)) return shares;
     const CookTorrance::Params p = material_params(f, CookTorrance{});
     const Rgb opaque = CookTorrance::schlick(p, larger(cosine, 0.0f));
     const Rgb white{1.0f, 1.0f, 1.0f};

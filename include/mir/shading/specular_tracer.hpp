@@ -71,7 +71,8 @@ struct SpecularTracer {
                 surfaces.seen_normal(p, wo),
                 p.geometric_normal,
                 wo,
-                p.front};
+                p.front,
+                B::has_interface};
     }
 
     template <class Numbers>
