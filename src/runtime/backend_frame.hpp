@@ -28,7 +28,7 @@ class BackendCuts;
 enum class BackendScheduler { os, rc, rcvp };
 
 /// What a BackendFrame is to build and how it is to work. Pictures are the same for all of them,
-/// bit for bit. Shafts are decided by whole triangles: where some are masked, every ray is a single
+/// bit for bit. Shafts are decided by opaque triangles: where some are not, every ray is a single
 /// one through a wide hierarchy, whatever the options say.
 struct BackendFrameOptions {
     /// How VPLs light luxels whose visibility is not stored.
@@ -40,8 +40,8 @@ struct BackendFrameOptions {
 
     /// True when a wide hierarchy is to be built.
     [[nodiscard]] bool needs_bvh() const { return shafts || !kd_tree; }
-    /// The same for a scene with masks.
-    [[nodiscard]] BackendFrameOptions masked() const {
+    /// The same for a scene that is not opaque.
+    [[nodiscard]] BackendFrameOptions see_through() const {
         return {scheduler, false, false, chain_bytes};
     }
 };
@@ -138,8 +138,10 @@ class BackendFrame final : public RenderFrame {
 
     void build_bvh();
     [[nodiscard]] const KdTree& host_tree();
-    [[nodiscard]] AlphaMaskView<space> masks_there() const {
-        return {geometry_there_.view(), masks_.data(), surfaces_.view().textures};
+    [[nodiscard]] OpacityView<space> opacity_there() const {
+        return {geometry_there_.view(), masks_.size() == 0 ? nullptr : masks_.data(),
+                see_through_.size() == 0 ? nullptr : see_through_.data(),
+                surfaces_.view().textures};
     }
     [[nodiscard]] BackendLayer<M> layer_for(const Band& band) const {
         return {machine_, band.gbuffer.grid()};
@@ -163,6 +165,7 @@ class BackendFrame final : public RenderFrame {
     UploadedLights<M> lights_;
     UploadedSurfaces<M, B> surfaces_;
     UploadedArray<M, AlphaMask> masks_;
+    UploadedArray<M, SeeThrough> see_through_;
     std::shared_ptr<const KdTree> host_tree_;  ///< null until it is asked for
     std::optional<AnyEngine> rays_;
     std::optional<UploadedKdTree<M>> tree_;

@@ -24,7 +24,7 @@ Acceleration structure_of(const WorldGeometry& geometry, const RenderSettings& s
     if (s.acceleration != Acceleration::automatic) return s.acceleration;
     if (embree_tracing() == nullptr) return Acceleration::bvh;
     const double triangles = static_cast<double>(geometry.triangles().size());
-    const bool asks_blocks = s.integrator == Integrator::vpl && !geometry.is_masked();
+    const bool asks_blocks = s.integrator == Integrator::vpl && geometry.is_opaque();
     return asks_blocks && pairs(s) >= pairs_that_pay(triangles) ? Acceleration::bvh
                                                                 : Acceleration::embree;
 }

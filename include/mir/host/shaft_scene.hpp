@@ -31,9 +31,9 @@ class ShaftScene {
     [[nodiscard]] const WideBvh& bvh() const { return scene_.tree(); }
 
  private:
-    /// None where triangles are masked: no shaft is traced then.
+    /// None where some triangle is not opaque: no shaft is traced then.
     static std::vector<TriangleLanes> lanes_of(const WideBvh& bvh, const WorldGeometry& geometry) {
-        if (geometry.is_masked()) return {};
+        if (!geometry.is_opaque()) return {};
         return make_triangle_lanes(bvh.triangles());
     }
 

@@ -14,13 +14,14 @@ BackendFrame<M, B>::BackendFrame(RenderJob& job, const M& machine, MakeTree make
       job_(job),
       machine_(machine),
       make_tree_(std::move(make_tree)),
-      options_(job.geometry.is_masked() ? options.masked() : options),
+      options_(job.geometry.is_opaque() ? options : options.see_through()),
       sigma_(static_cast<float>(sigma_of(magnitude_of(job.geometry.bounds())))),
       queue_(machine.queue()),
       geometry_there_(machine, queue_, job.geometry),
       lights_(machine, queue_, job.lights),
       surfaces_(machine, queue_, std::get<SurfaceTable<B>>(job.surfaces)),
-      masks_(machine, queue_, job.geometry.masks()) {
+      masks_(machine, queue_, job.geometry.masks()),
+      see_through_(machine, queue_, job.geometry.see_through()) {
     queue_.record().sync();
     if (options_.kd_tree) {
         tree_.emplace(machine, queue_, host_tree());
@@ -55,7 +56,7 @@ const AnyEngine& BackendFrame<M, B>::rays() {
         const WorldGeometry& geometry;
 
         [[nodiscard]] KdTreeVisibility<Space::host> visibility() const {
-            return {tree.view(), geometry.alpha_masks()};
+            return {tree.view(), geometry.opacity()};
         }
         [[nodiscard]] KdRayCaster<Space::host> ray_caster() const {
             return {geometry, tree.view(), geometry.alpha_masks()};

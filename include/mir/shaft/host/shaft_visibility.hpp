@@ -8,8 +8,8 @@ namespace mir {
 
 /// Answers from a wide bounding volume hierarchy in host memory. Segment by segment, for packets,
 /// and for blocks of luxels by shafts. Model of BlockVisibility. All faces give the bits of
-/// hits_segment() asked of every triangle. A shaft is decided by whole triangles, so where some are
-/// masked blocks are asked by packets. The hierarchy must outlive it. Thread-safe.
+/// hits_segment() asked of every triangle. A shaft is decided by opaque triangles, so where some
+/// are not, blocks are asked by packets. The hierarchy must outlive it. Thread-safe.
 struct ShaftVisibility {
     static constexpr Space space = Space::host;  ///< of the hierarchy
 
@@ -21,19 +21,19 @@ struct ShaftVisibility {
 
     WideBvhView<Space::host> bvh;          ///< of the scene
     const TriangleLanes* lanes = nullptr;  ///< make_triangle_lanes() of its triangles; not read
-                                           ///< where some are masked
+                                           ///< where some are not opaque
     CascadeLimits limits;                  ///< of the searches of shafts; change no bit
-    AlphaMaskView<Space::host> mask{};     ///< which points of triangles are there
+    OpacityView<Space::host> opacity{};    ///< which triangles stop a segment
 
     /// True when no triangle hides the points (metres) from each other: !is_hidden(). The same
     /// bit when they change places.
-    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b, mask); }
+    [[nodiscard]] bool visible(Vec3 a, Vec3 b) const { return !is_hidden(bvh, a, b, opacity); }
 
     /// As PacketVisibility says, bit k being visible(origin, point k). By the widest registers of
     /// the processor.
     [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
                                                std::uint32_t active) const {
-        return detail::ask_packet(bvh, origin, points, active, mask);
+        return detail::ask_packet(bvh, origin, points, active, opacity);
     }
 
     /// What visible_block() wants to know of 256 luxels. A copy: nothing of `luxels` is kept.
@@ -45,7 +45,7 @@ struct ShaftVisibility {
     /// Not inlined: compiled once for each instruction set, not for every caller.
     [[gnu::noinline]] void visible_block(const Block& b, Vec3 origin, BlockMask& seen) const {
         run_with(b.instructions, [&](auto set) {
-            if (mask.exists())
+            if (opacity.exists())
                 ask_packets(b, origin, seen);
             else
                 BlockCascade<set.value>(bvh, lanes, b.records, origin).decide(seen, limits);
