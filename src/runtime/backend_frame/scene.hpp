@@ -35,8 +35,22 @@ void BackendFrame<M, B>::build_bvh() {
     const auto stage = job_.clock.measure(&StageSeconds::build);
     bvh_.emplace(machine_, queue_, job_.geometry, geometry_there_.view());
     if (!options_.shafts) return;
-    short_bvh_.emplace(machine_, queue_, bvh_->view(), bvh_->node_count());
+    if (job_.geometry.is_opaque())
+        short_bvh_.emplace(machine_, queue_, bvh_->view(), bvh_->node_count());
+    else
+        build_parts();
     queue_.record().sync();
+}
+
+template <Backend M, Bsdf B>
+void BackendFrame<M, B>::build_parts() {
+    const TrianglesByOpacity parts = triangles_by_opacity(job_.geometry);
+    const UploadedTriangles<M> opaque(machine_, queue_, parts.opaque);
+    const UploadedTriangles<M> open(machine_, queue_, parts.open);
+    opaque_bvh_.emplace(machine_, queue_, job_.geometry, geometry_there_.view(), opaque.view());
+    open_bvh_.emplace(machine_, queue_, job_.geometry, geometry_there_.view(), open.view());
+    short_bvh_.emplace(machine_, queue_, opaque_bvh_->view(), opaque_bvh_->node_count());
+    short_open_bvh_.emplace(machine_, queue_, open_bvh_->view(), open_bvh_->node_count());
 }
 
 template <Backend M, Bsdf B>

@@ -23,6 +23,15 @@ auto BackendFrame<M, B>::with_rays(const Use& use) const {
 template <Backend M, Bsdf B>
 template <class Use>
 auto BackendFrame<M, B>::with_tile_visibility(const Use& use) const {
+    if (short_open_bvh_) {
+        using Sight = WideBvhVisibility<space, Opaque>;
+        using Veil = WideBvhVisibility<space, OpacityView<space>>;
+        return use(VeiledClusterVisibility<Sight, Veil>{short_bvh_->view(),
+                                                        sigma_,
+                                                        {opaque_bvh_->view(), {}},
+                                                        short_open_bvh_->view(),
+                                                        {open_bvh_->view(), opacity_there()}});
+    }
     return with_rays([&](const auto& rays) {
         const auto sight = rays.sight();
         using Sight = std::remove_const_t<decltype(sight)>;
