@@ -6,6 +6,7 @@
 #include "mir/sampling/light_path.hpp"
 #include "mir/sampling/light_path_options.hpp"
 #include "mir/sampling/survivor_counts.hpp"
+#include "mir/shading/chain_tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -192,14 +193,20 @@ bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bo
                                                 Path& path) const {
     const auto point = world_.caster.closest_hit(light.ray);
     if (!point || is_black(light.power)) return false;
-    Arrival<B> at{*point, -light.ray.direction, light.power * (1.0f / survival)};
     const SurfaceTableView<Space::host, B> surfaces = world_.surfaces.view();
-    at.point.shading_normal = surfaces.shading_normal(*point);
+    ChainEnd met;
+    met.ray = light.ray;
+    met.point = *point;
+    met.is_background = false;
+    ChainTracer{world_.caster, surfaces}.follow(met, Transport::power, numbers);
+    if (met.is_background || is_black(met.reflection)) return false;
+    Arrival<B> at{met.point, -met.ray.direction, light.power * met.reflection * (1.0f / survival)};
+    at.point.shading_normal = surfaces.shading_normal(at.point);
     const Vec2 uv = numbers.next_2d();
-    const typename B::Params bsdf = surfaces.params(point->material, attributes_of(*point));
+    const typename B::Params bsdf = surfaces.params(at.point.material, attributes_of(at.point));
     // What reflects alike in all directions does so below its shading normal, too.
-    const Vec3 n = surfaces.is_lambertian(point->material) ? at.point.geometric_normal
-                                                           : at.point.shading_normal;
+    const Vec3 n = surfaces.is_lambertian(at.point.material) ? at.point.geometric_normal
+                                                             : at.point.shading_normal;
     const BsdfSample sample = B::sample(bsdf, n, at.towards_light, uv, numbers.next());
     record(at, bsdf, sample, bounce, light.light_group, path);
 

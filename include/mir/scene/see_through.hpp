@@ -21,7 +21,7 @@ inline constexpr float min_ggx_alpha = 4e-3f;
 /// behind the interface over that in front of it, `cosine` in [0, 1] that of the angle of
 /// incidence. 1 where all light is reflected.
 [[nodiscard]] MIR_HD inline float dielectric_reflectance(float eta, float cosine) {
-    if (eta == 1.0f) return 0.0f;  // by rounding it would not be, where the cosine is small
+    if (eta == 1.0f) return 0.0f;
     const float sin2 = (1.0f - cosine * cosine) / (eta * eta);
     if (sin2 >= 1.0f) return 1.0f;
     const float cos_t = sqrtf(1.0f - sin2);

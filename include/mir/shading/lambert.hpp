@@ -29,6 +29,12 @@ struct Lambert {
     /// True when nothing is reflected in any direction.
     MIR_HD static bool is_black(const Params& p) { return mir::is_black(p.reflectance); }
 
+    /// Reflection `c` times as strong, which a point has at the end of a specular chain that
+    /// leaves `c` of the light.
+    MIR_HD static Params scaled(const Params& p, Rgb c) { return {p.reflectance * c}; }
+    /// The same parameters: there is no interface.
+    MIR_HD static Params without_lobe(const Params& p) { return p; }
+
     /// Hemispherical reflectance.
     MIR_HD static Rgb albedo(const Params& p, Vec3 /*n*/, Vec3 /*wo*/) { return p.reflectance; }
 
