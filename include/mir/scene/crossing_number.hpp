@@ -4,8 +4,8 @@
 #include "mir/core/math.hpp"
 #include "mir/core/mix_bits.hpp"
 
-#include <bit>
 #include <cstdint>
+#include <cstring>
 
 namespace mir {
 
@@ -14,7 +14,9 @@ namespace detail {
 /// A number for each point, the same for both zeros.
 MIR_HD inline std::uint64_t number_of_point(Vec3 p) {
     const auto word = [](float x) {
-        return x == 0.0f ? std::uint64_t{0} : std::uint64_t{std::bit_cast<std::uint32_t>(x)};
+        std::uint32_t bits = 0;
+        memcpy(&bits, &x, sizeof bits);
+        return x == 0.0f ? std::uint64_t{0} : std::uint64_t{bits};
     };
     constexpr std::uint64_t salt = 0x6D69722D676C6173u;
     return mix_bits(mix_bits((word(p.x) | word(p.y) << 32) + salt) + word(p.z));

@@ -21,10 +21,7 @@ struct SeeThrough {
     template <Space S>
     [[nodiscard]] MIR_HD float transmittance(const TextureView<S>& textures,
                                              const VertexAttributes& at, float cosine) const {
-        float covered = is_blended ? alpha : 1.0f;
-        if (is_blended && base_color.is_set())
-            covered *=
-                textures.look_up(base_color, at.texture_coordinates, TexelEncoding::linear).w;
+        const float covered = is_blended ? covered_share(alpha, base_color, textures, at) : 1.0f;
         const MaterialFactors there =
             textured_factors(factors, base_color, metallic_roughness, textures, at);
         return luminance(straight_transmittance(there, covered, cosine));

@@ -27,4 +27,13 @@ template <Space S>
     return factors;
 }
 
+/// Share of a blended surface that is covered at a point, 0..1: `alpha` times that of the texture.
+template <Space S>
+[[nodiscard]] MIR_HD float covered_share(float alpha, const Texture& base_color,
+                                         const TextureView<S>& textures,
+                                         const VertexAttributes& at) {
+    if (!base_color.is_set()) return alpha;
+    return alpha * textures.look_up(base_color, at.texture_coordinates, TexelEncoding::linear).w;
+}
+
 }  // namespace mir
