@@ -72,7 +72,7 @@ struct PathWorld {
     [[nodiscard]] MIR_HD_CALL bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find_point(luxels.caster, ray, p)) return false;
-        if (luxels.surfaces.is_chained(p.material) && !pass_straight(ray, p)) return false;
+        if (luxels.surfaces.is_specular(p.material) && !pass_straight(ray, p)) return false;
         vertex = vertex_at(p, luxels.surfaces.shading_normal(p));
         return true;
     }
@@ -98,7 +98,7 @@ struct PathWorld {
     /// on glass.
     [[nodiscard]] MIR_HD bool pass_straight(Ray ray, SurfacePoint& p) const {
         RayNumbers numbers(ray);
-        for (std::uint32_t events = 0; luxels.surfaces.is_chained(p.material); ++events) {
+        for (std::uint32_t events = 0; luxels.surfaces.is_specular(p.material); ++events) {
             const VertexAttributes at = attributes_of(p);
             const MaterialFactors factors = luxels.surfaces.factors(p.material, at);
             const float cosine = -glm::dot(ray.direction, p.geometric_normal);
@@ -106,7 +106,7 @@ struct PathWorld {
                 straight_transmittance(factors, luxels.surfaces.coverage(p.material, at), cosine));
             if (!(numbers.next() < passed))
                 return factors.transmission == 0.0f || factors.metallic == 1.0f;
-            if (events == ChainTracer<R, S, B>::longest) return false;
+            if (events == SpecularTracer<R, S, B>::longest) return false;
             ray.origin =
                 lift(p.position, -p.geometric_normal, larger(p.offset, least_offset(p.position)));
             if (!find_point(luxels.caster, ray, p)) return false;

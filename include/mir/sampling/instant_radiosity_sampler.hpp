@@ -3,10 +3,9 @@
 
 #include "mir/concepts/sampler.hpp"
 #include "mir/core/limits.hpp"
-#include "mir/sampling/light_path.hpp"
 #include "mir/sampling/light_path_options.hpp"
+#include "mir/sampling/light_walk.hpp"
 #include "mir/sampling/survivor_counts.hpp"
-#include "mir/shading/chain_tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -191,34 +190,20 @@ template <Bsdf B, RayCaster R>
 bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bounce,
                                                 float survival, PathNumbers& numbers,
                                                 Path& path) const {
-    const auto point = world_.caster.closest_hit(light.ray);
-    if (!point || is_black(light.power)) return false;
-    const SurfaceTableView<Space::host, B> surfaces = world_.surfaces.view();
-    ChainEnd met;
-    met.ray = light.ray;
-    met.point = *point;
-    met.is_background = false;
-    ChainTracer{world_.caster, surfaces}.follow(met, Transport::power, numbers);
-    if (met.is_background || is_black(met.reflection)) return false;
-    Arrival<B> at{met.point, -met.ray.direction, light.power * met.reflection * (1.0f / survival)};
-    at.point.shading_normal = surfaces.shading_normal(at.point);
+    auto v = LightWalk<B, R>{world_.surfaces.view(), world_.caster}.next(light, numbers);
+    if (!v) return false;
+    v->at.power = v->at.power * (1.0f / survival);
     const Vec2 uv = numbers.next_2d();
-    const typename B::Params bsdf = surfaces.params(at.point.material, attributes_of(at.point));
-    // What reflects alike in all directions does so below its shading normal, too.
-    const Vec3 n = surfaces.is_lambertian(at.point.material) ? at.point.geometric_normal
-                                                             : at.point.shading_normal;
-    const BsdfSample sample = B::sample(bsdf, n, at.towards_light, uv, numbers.next());
-    record(at, bsdf, sample, bounce, light.light_group, path);
+    const BsdfSample sample =
+        B::sample(v->bsdf, v->normal, v->at.towards_light, uv, numbers.next());
+    record(v->at, v->bsdf, sample, bounce, light.light_group, path);
 
     const std::uint16_t group = light.light_group;
-    light = scatter(at, sample, n);
+    light = scatter(v->at, sample, v->normal);
     light.light_group = group;
     const float roulette = numbers.next();
     if (options_.termination == Termination::levels) return true;
-    const float odds = smaller(max_channel(sample.weight), 1.0f);
-    if (!(roulette < odds)) return false;
-    light.power = light.power * (1.0f / odds);
-    return true;
+    return survives_roulette(light, sample.weight, roulette);
 }
 
 }  // namespace mir

@@ -19,6 +19,8 @@ namespace mir {
 /// most 1.0025: over a rough lobe the mean of Schlick's convex term exceeds what the coupling takes
 /// away.
 struct CookTorrance {
+    static constexpr bool has_interface = true;  ///< smooth surfaces are mirrors
+
     /// Eleven words, made by material_params() so that eval() divides by no constant.
     struct Params {
         Rgb diffuse;       ///< base reflectance / (1 - F_avg), 0 for metals

@@ -10,6 +10,8 @@ namespace mir {
 
 /// Ideal diffuse reflection: f = reflectance / pi, sr^-1. Model of Bsdf.
 struct Lambert {
+    static constexpr bool has_interface = false;  ///< opaque surfaces mirror nothing
+
     /// Three words per surface point.
     struct Params {
         Rgb reflectance;  ///< hemispherical albedo, 0..1

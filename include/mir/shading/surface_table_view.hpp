@@ -25,9 +25,9 @@ concept TexturedBsdf = Bsdf<B> && requires(const MaterialFactors& factors) {
 /// What chains leave to the Bsdf of a material: all of it but the lobes that are no wider than a
 /// direction.
 template <Bsdf B, class M>
-[[nodiscard]] MIR_HD typename B::Params chain_end_params(const M& material) {
+[[nodiscard]] MIR_HD typename B::Params specular_end_params(const M& material) {
     const typename B::Params p = material_params(material, B{});
-    if constexpr (ChainBsdf<B>)
+    if constexpr (SpecularEndBsdf<B>)
         if (is_smooth(material.roughness)) return B::without_lobe(p);
     return p;
 }
@@ -43,7 +43,7 @@ struct SurfaceEntry {
     float mean_albedo = 0.0f;     ///< luminance of the reflectance at a typical angle, 0..1
     MaterialFactors factors{};    ///< what textures multiply
     MaterialTextures textures{};  ///< of the material; may be none
-    bool is_chained = false;      ///< rays may go on from it as specular chains
+    bool is_specular = false;     ///< rays may go on from it as specular chains
     bool is_blended = false;      ///< Material::is_blended
     float alpha = 1.0f;           ///< Material::alpha
     Rgb absorption{};             ///< of a body of it, per metre
@@ -93,9 +93,9 @@ struct SurfaceTableView {
     }
     /// True when rays that meet the material may go on as specular chains. Never of a model that
     /// cannot stand at their end.
-    [[nodiscard]] MIR_HD bool is_chained(std::uint32_t material) const {
-        if constexpr (ChainBsdf<B>)
-            return entries[material].is_chained;
+    [[nodiscard]] MIR_HD bool is_specular(std::uint32_t material) const {
+        if constexpr (SpecularEndBsdf<B>)
+            return entries[material].is_specular;
         else
             return false;
     }
@@ -157,7 +157,7 @@ MIR_HD typename B::Params SurfaceTableView<S, B>::params(std::uint32_t material,
     if constexpr (TexturedBsdf<B>) {
         const bool is_white = at.color.r == 1.0f && at.color.g == 1.0f && at.color.b == 1.0f;
         if (!is_white || e.textures.changes_reflection())
-            return chain_end_params<B>(factors(e, at));
+            return specular_end_params<B>(factors(e, at));
     }
     return e.params;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shading/chain_tracer.hpp"
+#include "mir/shading/specular_tracer.hpp"
 
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/core/decay.hpp"
@@ -7,6 +7,7 @@
 #include "mir/scene/shapes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/luxel_tracer.hpp"
+#include "mir/shading/surface_table.hpp"
 #include "support/catch.hpp"
 #include "support/test_sky.hpp"
 
@@ -57,13 +58,13 @@ struct Seen {
     [[nodiscard]] Rgb radiance(const mir::Ray& ray) const {
         return tracer().surface(tracer()(ray), lights.environment().view()).emission;
     }
-    [[nodiscard]] mir::ChainEnd followed(const mir::Ray& ray, Transport transport,
-                                         std::uint64_t i) const {
-        mir::ChainEnd end;
+    [[nodiscard]] mir::SpecularEnd followed(const mir::Ray& ray, Transport transport,
+                                            std::uint64_t i) const {
+        mir::SpecularEnd end;
         end.ray = ray;
         end.is_background = !find_point(tree.ray_caster(), ray, end.point);
         mir::Random numbers(910, mir::Stream::test, i);
-        mir::ChainTracer{tree.ray_caster(), surfaces.view()}.follow(end, transport, numbers);
+        mir::SpecularTracer{tree.ray_caster(), surfaces.view()}.follow(end, transport, numbers);
         return end;
     }
 };
@@ -113,7 +114,7 @@ TEST_CASE("light through a closed slab keeps its radiance, and inside has the in
         const float x = 0.01f * static_cast<float>(i);
         for (const Transport t : {Transport::radiance, Transport::power})
             CHECK(through.followed(down(x), t, i).light.g == Approx(1.0f).epsilon(1e-4));
-        const mir::ChainEnd end = into.followed(down(x), Transport::radiance, i);
+        const mir::SpecularEnd end = into.followed(down(x), Transport::radiance, i);
         if (end.is_background) {
             ++reflected;
             continue;

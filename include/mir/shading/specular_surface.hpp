@@ -16,13 +16,14 @@ enum class Transport : std::uint8_t {
 };
 
 /// A point of a surface where a ray may go on as a specular chain.
-struct ChainSurface {
-    MaterialFactors factors;   ///< of the material there
-    float cover = 1.0f;        ///< covered share, 0..1
-    Vec3 normal{0};            ///< unit shading normal, on the side of `wo`
-    Vec3 geometric_normal{0};  ///< unit, the same side
-    Vec3 wo{0};                ///< unit, where the ray came from
-    bool front = true;         ///< `wo` lies outside of a body
+struct SpecularSurface {
+    MaterialFactors factors;    ///< of the material there
+    float cover = 1.0f;         ///< covered share, 0..1
+    Vec3 normal{0};             ///< unit shading normal, on the side of `wo`
+    Vec3 geometric_normal{0};   ///< unit, the same side
+    Vec3 wo{0};                 ///< unit, where the ray came from
+    bool front = true;          ///< `wo` lies outside of a body
+    bool has_interface = true;  ///< what is opaque and smooth is a mirror
 
     /// True for the surface of a body that light enters.
     [[nodiscard]] MIR_HD bool bounds_body() const { return !factors.is_thin && clear() > 0.0f; }
@@ -43,8 +44,8 @@ struct ChainSurface {
 };
 
 /// The shares of light that leave a surface other than by its Bsdf. Of all that is reflected and
-/// let through they leave `rest` times what chain_end_params() says.
-struct ChainShares {
+/// let through they leave `rest` times what specular_end_params() says.
+struct SpecularShares {
     Rgb pass;           ///< goes straight on
     Rgb mirrored;       ///< reflected by an interface without a lobe of its own
     Rgb transmitted;    ///< refracted, or spread by a rough sheet
@@ -53,8 +54,8 @@ struct ChainShares {
 
 /// What a surface does to a ray. The interface of opaque materials has the Fresnel term of their
 /// Bsdf, so that mirrors and base together keep the energy of CookTorrance. That of glass has the
-/// exact one. Of rough glass the shares are what chain_step() draws by, and no more.
-[[nodiscard]] MIR_HD inline ChainShares chain_shares(const ChainSurface& s) {
+/// exact one. Of rough glass the shares are what specular_step() draws by, and no more.
+[[nodiscard]] MIR_HD inline SpecularShares specular_shares(const SpecularSurface& s) {
     const MaterialFactors& f = s.factors;
     const bool smooth = is_smooth(f.roughness);
     const float clear = s.clear();
@@ -66,12 +67,13 @@ struct ChainShares {
     // one does.
     if (!smooth) reflected = smaller(larger(reflected, 0.1f), 0.9f);
 
-    ChainShares shares;
+    SpecularShares shares;
     shares.rest = s.cover;
     shares.pass = straight_transmittance(f, s.cover, cosine);
     if (clear > 0.0f && !(is_sheet && smooth))
         shares.transmitted = f.base_color * (s.cover * clear * (1.0f - reflected));
-    if (!smooth && !(s.bounds_body() && !s.front)) return shares;
+    const bool is_mirror = smooth && (clear > 0.0f || s.has_interface);
+    if (!is_mirror && !(s.bounds_body() && !s.front)) return shares;
     const CookTorrance::Params p = material_params(f, CookTorrance{});
     const Rgb opaque = CookTorrance::schlick(p, larger(cosine, 0.0f));
     const Rgb white{1.0f, 1.0f, 1.0f};

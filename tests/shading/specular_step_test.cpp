@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mir/shading/chain_step.hpp"
+#include "mir/shading/specular_step.hpp"
 
 #include "mir/core/random.hpp"
 #include "support/catch.hpp"
@@ -8,10 +8,10 @@
 
 namespace {
 
-using mir::ChainEvent;
-using mir::ChainSurface;
 using mir::MaterialFactors;
 using mir::Rgb;
+using mir::SpecularEvent;
+using mir::SpecularSurface;
 using mir::Transport;
 using mir::Vec3;
 
@@ -26,12 +26,12 @@ MaterialFactors glass(bool thin, float roughness = 0.0f) {
     return m;
 }
 
-ChainSurface surface(const MaterialFactors& m, float cosine, bool front = true) {
+SpecularSurface surface(const MaterialFactors& m, float cosine, bool front = true) {
     const Vec3 n(0, 0, 1);
     return {m, 1.0f, n, n, {std::sqrt(1.0f - cosine * cosine), 0.0f, cosine}, front};
 }
 
-Rgb sum(const mir::ChainShares& s) { return s.pass + s.mirrored + s.transmitted; }
+Rgb sum(const mir::SpecularShares& s) { return s.pass + s.mirrored + s.transmitted; }
 
 }  // namespace
 
@@ -40,12 +40,13 @@ TEST_CASE("glass without colour leaves all light: in each event the weight is on
         for (const bool front : {true, false})
             for (float cosine = 0.05f; cosine <= 1.0f; cosine += 0.1f) {
                 CAPTURE(thin, front, cosine);
-                const ChainSurface s = surface(glass(thin), cosine, front);
-                CHECK(sum(chain_shares(s)).r == Approx(1.0f).epsilon(1e-6));
+                const SpecularSurface s = surface(glass(thin), cosine, front);
+                CHECK(sum(specular_shares(s)).r == Approx(1.0f).epsilon(1e-6));
                 for (std::uint64_t i = 0; i < 64; ++i) {
                     mir::Random numbers(901, mir::Stream::test, i);
-                    const mir::ChainStep step = chain_step(s, 0.0f, Transport::power, numbers);
-                    REQUIRE(step.event != ChainEvent::stop);
+                    const mir::SpecularStep step =
+                        specular_step(s, 0.0f, {Transport::power}, numbers);
+                    REQUIRE(step.event != SpecularEvent::stop);
                     REQUIRE(step.weight.r == Approx(1.0f).epsilon(1e-5));
                     REQUIRE(glm::length(step.direction) == Approx(1.0f).epsilon(1e-5));
                 }
@@ -54,11 +55,11 @@ TEST_CASE("glass without colour leaves all light: in each event the weight is on
 
 TEST_CASE("radiance that is refracted shrinks by the square of the index, power does not") {
     const auto transmitted = [](Transport transport, bool front) {
-        const ChainSurface s = surface(glass(false), 0.9f, front);
+        const SpecularSurface s = surface(glass(false), 0.9f, front);
         for (std::uint64_t i = 0;; ++i) {
             mir::Random numbers(902, mir::Stream::test, i);
-            const mir::ChainStep step = chain_step(s, 0.0f, transport, numbers);
-            if (step.event == ChainEvent::transmit) return step;
+            const mir::SpecularStep step = specular_step(s, 0.0f, {transport}, numbers);
+            if (step.event == SpecularEvent::transmit) return step;
         }
     };
     CHECK(transmitted(Transport::power, true).weight.r == Approx(1.0f));
@@ -85,14 +86,14 @@ TEST_CASE("Fresnel's reflectance has its known values") {
 TEST_CASE("a blended surface is passed by what it does not cover") {
     MaterialFactors m;
     m.specular = 0.0f;
-    ChainSurface s = surface(m, 0.6f);
+    SpecularSurface s = surface(m, 0.6f);
     s.cover = 0.25f;
-    const mir::ChainShares shares = chain_shares(s);
+    const mir::SpecularShares shares = specular_shares(s);
     CHECK(shares.pass == Rgb{0.75f, 0.75f, 0.75f});
     CHECK(shares.rest == 0.25f);
     CHECK(is_black(shares.mirrored + shares.transmitted));
     s.cover = 1.0f;
-    CHECK(is_black(chain_shares(s).pass));
+    CHECK(is_black(specular_shares(s).pass));
 }
 
 // H0: events times their probability are the shares. 2^14 steps a surface, seed 903, 4.5 standard
@@ -106,15 +107,15 @@ TEST_CASE("weights of drawn events have the shares as means", "[statistical]") {
     tinted.transmission = 0.7f;
     for (const MaterialFactors& m : {coat, tinted, glass(true), glass(false)})
         for (const float cosine : {0.2f, 0.9f}) {
-            ChainSurface s = surface(m, cosine);
+            SpecularSurface s = surface(m, cosine);
             s.cover = 0.8f;
-            const mir::ChainShares shares = chain_shares(s);
+            const mir::SpecularShares shares = specular_shares(s);
             constexpr int n = 1 << 14;
             double mean[3] = {};
             for (int i = 0; i < n; ++i) {
                 mir::Random numbers(903, mir::Stream::test, std::uint64_t(i));
-                const mir::ChainStep step = chain_step(s, 0.5f, Transport::power, numbers);
-                if (step.event != ChainEvent::stop)
+                const mir::SpecularStep step = specular_step(s, 0.5f, {Transport::power}, numbers);
+                if (step.event != SpecularEvent::stop)
                     mean[int(step.event) - 1] += double(step.weight.g) / n;
             }
             // A weight is at most the sum of all shares over the least ratio of green to luminance.
@@ -129,16 +130,16 @@ TEST_CASE("what a rough body reflects and lets through is at most all light") {
     for (const float roughness : {0.1f, 0.3f, 0.6f, 1.0f})
         for (const bool front : {true, false}) {
             CAPTURE(roughness, front);
-            const ChainSurface s = surface(glass(false, roughness), 0.7f, front);
+            const SpecularSurface s = surface(glass(false, roughness), 0.7f, front);
             double through = 0.0;
             constexpr int n = 4096;
             for (int i = 0; i < n; ++i) {
                 mir::Random numbers(904, mir::Stream::test, std::uint64_t(i));
-                const auto step = chain_step(s, 0.04f, Transport::power, numbers);
-                if (step.event != ChainEvent::stop) through += double(step.weight.r) / n;
-                if (is_black(step.weight) || step.event == ChainEvent::stop) continue;
+                const auto step = specular_step(s, 0.04f, {Transport::power}, numbers);
+                if (step.event != SpecularEvent::stop) through += double(step.weight.r) / n;
+                if (is_black(step.weight) || step.event == SpecularEvent::stop) continue;
                 const bool above = step.direction.z > 0.0f;
-                REQUIRE(above == (step.event == ChainEvent::mirror));
+                REQUIRE(above == (step.event == SpecularEvent::mirror));
             }
             CHECK(through < 1.02);
             CHECK(through > (roughness > 0.5f ? 0.5 : 0.85) - (front ? 0.1 : 0.2));
@@ -149,11 +150,11 @@ TEST_CASE("a mirror with a bent normal keeps light on its side") {
     MaterialFactors metal;
     metal.metallic = 1.0f;
     metal.roughness = 0.0f;
-    ChainSurface s = surface(metal, 0.1f);
+    SpecularSurface s = surface(metal, 0.1f);
     s.normal = glm::normalize(Vec3(-0.6f, 0, 0.8f));
     s.normal = glm::dot(s.normal, s.wo) > 0.0f ? s.normal : glm::normalize(Vec3(0.6f, 0, 0.8f));
     mir::Random numbers(905, mir::Stream::test, 0);
-    const mir::ChainStep step = chain_step(s, 0.0f, Transport::radiance, numbers);
-    REQUIRE(step.event == ChainEvent::mirror);
+    const mir::SpecularStep step = specular_step(s, 0.0f, {Transport::radiance}, numbers);
+    REQUIRE(step.event == SpecularEvent::mirror);
     CHECK(step.direction.z > 0.0f);
 }
