@@ -21,7 +21,8 @@ std::vector<CausticSplat> traced(RenderFrame& frame, const SurfaceTable<B>& surf
     RenderJob& job = frame.job();
     const AnyEngine& rays = frame.rays();
     return CausticTracer(job.lights, LightWalk<B, AnyRayCaster>{surfaces.view(), rays.ray_caster()},
-                         rays.visibility(), job.rays)
+                         rays.visibility(),
+                         {job.rays.camera.optics(), job.aspect(), job.rays.grid.luxels()})
         .trace(paths_of(job.settings), job.executor);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/trace_caustics.hpp"
+#include "mir/sampling/caustic_tracer.hpp"
 #include "runtime/render_frame.hpp"
 
 #include <vector>

@@ -112,8 +112,8 @@ struct CookTorrance {
                 static_cast<int>(mir::is_black(p.scale))) != 0;
     }
 
-    /// Reflection `c` times as strong, which a point has at the end of a specular chain that
-    /// leaves `c` of the light.
+    /// Reflection `c` times as strong. The end of a specular chain that leaves `c` of the light
+    /// has it.
     MIR_HD static Params scaled(Params p, Rgb c) {
         p.scale = p.scale * c;
         return p;

@@ -3,8 +3,9 @@
 
 #include "mir/concepts/executor.hpp"
 #include "mir/concepts/visibility.hpp"
-#include "mir/fill_gbuffer.hpp"
+#include "mir/data/extent.hpp"
 #include "mir/sampling/light_walk.hpp"
+#include "mir/scene/camera_optics.hpp"
 #include "mir/scene/light_table.hpp"
 
 #include <algorithm>
@@ -20,7 +21,14 @@ struct CausticSplat {
     Rgb radiance;             ///< to be added, W m^-2 sr^-1
 };
 
-/// Which light paths trace_caustics() traces.
+/// Who looks at caustics.
+struct CausticView {
+    CameraOptics optics;  ///< of the camera
+    float aspect = 1.0f;  ///< width / height of the film
+    Extent luxels;        ///< of the whole luxel image
+};
+
+/// Which light paths a CausticTracer traces.
 struct CausticPaths {
     std::uint64_t paths = 0;               ///< how many
     std::uint8_t max_bounce = 32;          ///< largest number of scattering events
@@ -38,8 +46,8 @@ class CausticTracer {
  public:
     /// The scene data must outlive it.
     CausticTracer(const LightTable& lights, LightWalk<B, R> walk, V visibility,
-                  const CameraRays& rays)
-        : lights_(lights), walk_(walk), visibility_(visibility), rays_(rays) {}
+                  const CausticView& view)
+        : lights_(lights), walk_(walk), visibility_(visibility), view_(view) {}
 
     /// Splats of all paths, in their order. A function of the options alone.
     template <Executor E>
@@ -56,7 +64,7 @@ class CausticTracer {
     const LightTable& lights_;
     LightWalk<B, R> walk_;
     V visibility_;
-    CameraRays rays_;
+    CausticView view_;
 };
 
 template <Bsdf B, RayCaster R, Visibility V>
@@ -82,7 +90,7 @@ void CausticTracer<B, R, V>::trace(std::uint64_t index, const CausticPaths& opti
     for (std::uint8_t bounce = 1; bounce <= options.max_bounce; ++bounce) {
         const auto v = walk_.next(light, numbers);
         if (!v) return;
-        const Vec2 lens = rays_.camera.lens_radius > 0.0f ? numbers.next_2d() : Vec2(0.0f);
+        const Vec2 lens = view_.optics.lens_radius > 0.0f ? numbers.next_2d() : Vec2(0.0f);
         if (!v->is_straight) splat(*v, bounce, lens, static_cast<double>(options.paths), out);
         const Vec2 uv = numbers.next_2d();
         const BsdfSample sample =
@@ -98,9 +106,7 @@ void CausticTracer<B, R, V>::splat(const LightVertex<B>& v, std::uint8_t bounce,
                                    double paths, std::vector<CausticSplat>& out) const {
     const SurfacePoint& p = v.at.point;
     const Vec3 place = lift(p);
-    const Extent pixels = rays_.grid.pixels;
-    const float aspect = static_cast<float>(pixels.width) / static_cast<float>(pixels.height);
-    const FilmPoint seen = rays_.camera.optics().project(place, aspect, lens);
+    const FilmPoint seen = view_.optics.project(place, view_.aspect, lens);
     if (!seen.is_on_film()) return;
     const Vec3 to_lens = seen.from - place;
     const float d2 = length_squared(to_lens);
@@ -111,7 +117,7 @@ void CausticTracer<B, R, V>::splat(const LightVertex<B>& v, std::uint8_t bounce,
     if (!(glm::dot(v.at.towards_light, normal) > 0.0f)) return;
     const Rgb f = B::eval(v.bsdf, normal, v.at.towards_light, wo);
     if (is_black(f) || !visibility_.visible(place, seen.from)) return;
-    const Extent luxels = rays_.grid.luxels();
+    const Extent luxels = view_.luxels;
     const double density = static_cast<double>(cosine * seen.per_steradian / d2) *
                            static_cast<double>(luxels.area()) / paths;
     const auto cell = [](float at, std::uint32_t n) {
