@@ -96,7 +96,7 @@ class BackendRenderer final : public Renderer {
                                       const Machines& machines) const {
         const bool by_vpls = settings.integrator == Integrator::vpl;
         const BackendStructures structures =
-            by_vpls ? structures_of(placed.geometry.is_masked(), settings) : tree_alone;
+            by_vpls ? structures_of(placed.geometry.is_opaque(), settings) : tree_alone;
         const RenderSettings decided = with_light_sum(settings);
         RenderJob job(placed, decided);
         RenderResult result =

@@ -8,6 +8,7 @@
 #include "mir/scene/geometry_view.hpp"
 #include "mir/scene/see_through.hpp"
 #include "mir/scene/texture_view.hpp"
+#include "mir/scene/textured_factors.hpp"
 #include "mir/shading/material_params.hpp"
 
 #include <concepts>
@@ -111,10 +112,7 @@ struct SurfaceTableView {
     /// Share of the surface that a blended material covers there, 0..1; 1 of others.
     [[nodiscard]] MIR_HD float coverage(std::uint32_t material, const VertexAttributes& at) const {
         const SurfaceEntry<B>& e = entries[material];
-        if (!e.is_blended) return 1.0f;
-        const Texture& base = e.textures.base_color;
-        if (!base.is_set()) return e.alpha;
-        return e.alpha * textures.look_up(base, at.texture_coordinates, TexelEncoding::linear).w;
+        return e.is_blended ? covered_share(e.alpha, e.textures.base_color, textures, at) : 1.0f;
     }
     /// True for what is inside of a body: there chains carry the lobe of a rough surface, too.
     [[nodiscard]] MIR_HD bool is_inside_body(std::uint32_t material, bool front) const {
@@ -176,19 +174,8 @@ MIR_HD typename B::Params SurfaceTableView<S, B>::params(std::uint32_t material,
 template <Space S, Bsdf B>
 MIR_HD MaterialFactors SurfaceTableView<S, B>::factors(const SurfaceEntry<B>& e,
                                                        const VertexAttributes& at) const {
-    MaterialFactors f = e.factors;
-    f.base_color = f.base_color * at.color;
-    const Texture& base = e.textures.base_color;
-    if (base.is_set())
-        f.base_color =
-            f.base_color * textures.color(base, at.texture_coordinates, TexelEncoding::srgb);
-    const Texture& interface = e.textures.metallic_roughness;
-    if (interface.is_set()) {
-        const Rgb c = textures.color(interface, at.texture_coordinates, TexelEncoding::linear);
-        f.roughness *= c.g;
-        f.metallic *= c.b;
-    }
-    return f;
+    return textured_factors(e.factors, e.textures.base_color, e.textures.metallic_roughness,
+                            textures, at);
 }
 
 /// Source: Khronos glTF 2.0 specification, 3.9.3 (normal textures).
