@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/runtime/picture_team.hpp"
 #include "options.hpp"
 
 namespace mirtool {
@@ -14,5 +15,8 @@ int run(const CompareOptions& options);
 int run(const DenoiseOptions& options);
 int run(const DevicesOptions& options);
 int run(const ManualOptions& options);
+
+/// Renders together with the other processes of a team. The lead's code is that of run().
+int run_in_team(const RenderOptions& options, mir::PictureTeam& team);
 
 }  // namespace mirtool
