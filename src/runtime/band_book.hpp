@@ -12,10 +12,14 @@ namespace mir {
 class BandBook {
  public:
     /// For a loop over so many bands. `owners` says who had which band in the last loop, and is
-    /// kept for the next. Over as many bands the same processes get the same ones.
-    BandBook(std::uint32_t bands, std::vector<std::uint32_t>& owners)
-        : owners_(owners), ready_(bands, false), is_dealt_(owners.size() == bands) {
-        if (!is_dealt_) owners_.clear();
+    /// kept for the next. Over as many bands the same processes get the same ones. So many bands
+    /// are `done` before.
+    BandBook(std::uint32_t bands, std::vector<std::uint32_t>& owners, std::uint32_t done = 0)
+        : owners_(owners),
+          ready_(bands, false),
+          is_dealt_(done == 0 && owners.size() == bands),
+          done_(done) {
+        if (!is_dealt_) owners_.assign(done, 0);
         if (is_dealt_) dealt_.resize(bands, false);
     }
 
@@ -55,7 +59,7 @@ class BandBook {
     std::vector<bool> ready_;
     std::vector<bool> dealt_;  ///< where the owners are known
     bool is_dealt_;
-    std::uint32_t done_ = 0;  ///< bands, from the top
+    std::uint32_t done_;  ///< bands, from the top
 };
 
 }  // namespace mir

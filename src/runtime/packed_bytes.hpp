@@ -18,8 +18,7 @@ class PackedBytes {
  public:
     /// Adds a value.
     template <class T>
-        requires std::is_trivially_copyable_v<T>
-    PackedBytes& add(const T& value) {
+    requires std::is_trivially_copyable_v<T> PackedBytes& add(const T& value) {
         return append(&value, sizeof value);
     }
     /// Adds many values and how many they are.

@@ -24,11 +24,16 @@ class PictureShare::Run {
  public:
     Run(PictureShare& share, SharedLoop& loop, Monitor* monitor)
         : share_(share), loop_(loop), monitor_(monitor) {
-        if (share.is_lead()) book_.emplace(loop.bands(), share.owners_);
+        ++share.loops_;
+        number_ = share.all_loops_++;
+        if (!share.is_lead()) return;
+        done_before_ = share.begin_loop(loop, sums_);
+        book_.emplace(loop.bands(), share.owners_, done_before_);
     }
 
     void run() {
         IdlePause pause;
+        if (book_ && book_->is_complete()) go_on();
         while (!is_over_) {
             if (monitor_ != nullptr) monitor_->check();
             if (!has_asked_ && loop_.crew().is_free()) ask();
@@ -43,6 +48,8 @@ class PictureShare::Run {
                 take(*letter);
             }
         }
+        // Who had the bands that were kept is not known.
+        if (done_before_ > 0) share_.owners_.clear();
     }
 
  private:
@@ -50,6 +57,7 @@ class PictureShare::Run {
         has_asked_ = true;
         tell_lead(PackedBytes()
                       .add(TeamWord::want)
+                      .add(number_)
                       .add(loop_.bands())
                       .add(loop_.fingerprint())
                       .take());
@@ -95,7 +103,7 @@ class PictureShare::Run {
                 static_cast<void>(in.get<std::uint32_t>());
                 book_->done();
                 sums_ = in.get_all<std::byte>();
-                loop_.keep(in.next_bytes());
+                keep(in.next_bytes());
                 return go_on();
             default:
                 throw Error(ErrorCode::internal,
@@ -104,7 +112,13 @@ class PictureShare::Run {
         }
     }
 
+    void keep(std::span<const std::byte> rows) {
+        loop_.keep(rows);
+        share_.keep_band(sums_, rows);
+    }
     void deal(std::uint32_t rank, BytesReader& in) {
+        // One that was over when it began is answered already.
+        if (in.get<std::uint32_t>() != number_) return;
         const auto bands = in.get<std::uint32_t>();
         if (bands != loop_.bands() || in.get<std::uint64_t>() != loop_.fingerprint())
             throw Error(ErrorCode::invalid_input,
@@ -118,8 +132,10 @@ class PictureShare::Run {
     /// Gives the turn to the next band that waits for it, or ends the loop.
     void go_on() {
         if (book_->is_complete()) {
-            const Bytes message =
-                PackedBytes().add(TeamWord::loop_end).add_all(std::span<const std::byte>(sums_)).take();
+            const Bytes message = PackedBytes()
+                                      .add(TeamWord::loop_end)
+                                      .add_all(std::span<const std::byte>(sums_))
+                                      .take();
             for (std::uint32_t rank = share_.peers_.count(); rank-- > 0;) send(rank, message);
         } else if (const std::optional<std::uint32_t> band = book_->turn()) {
             send(book_->owner(*band), PackedBytes()
@@ -133,14 +149,71 @@ class PictureShare::Run {
     PictureShare& share_;
     SharedLoop& loop_;
     Monitor* monitor_;
-    std::optional<BandBook> book_;  ///< of the lead
-    Bytes sums_;                    ///< of the bands that are done; at the lead
-    bool has_asked_ = false;        ///< for a band, which has not come
+    std::optional<BandBook> book_;   ///< of the lead
+    Bytes sums_;                     ///< of the bands that are done; at the lead
+    std::uint32_t number_ = 0;       ///< of the loop, among those of all pictures
+    std::uint32_t done_before_ = 0;  ///< bands that were kept
+    bool has_asked_ = false;         ///< for a band, which has not come
     bool is_over_ = false;
 };
 
-void PictureShare::run(SharedLoop& loop, Monitor* monitor) {
-    Run(*this, loop, monitor).run();
+void PictureShare::run(SharedLoop& loop, Monitor* monitor) { Run(*this, loop, monitor).run(); }
+
+/// Bands of the loop that were kept, and their sums. What they left is the loop's again.
+std::uint32_t PictureShare::begin_loop(SharedLoop& loop, Bytes& sums) {
+    const std::uint32_t number = loops_ - 1;
+    if (number < kept_.loops.size()) {
+        sums = kept_.loops[number];
+        return loop.bands();
+    }
+    const bool goes_on = number == kept_.loops.size() && !kept_.rows.empty() &&
+                         kept_.fingerprint == loop.fingerprint() &&
+                         kept_.rows.size() <= loop.bands();
+    if (!goes_on) {
+        while (number > kept_.loops.size()) kept_.loops.push_back(kept_.sums);
+        kept_.fingerprint = loop.fingerprint();
+        kept_.sums.clear();
+        kept_.rows.clear();
+    }
+    for (const Bytes& rows : kept_.rows) loop.keep(rows);
+    sums = kept_.sums;
+    return static_cast<std::uint32_t>(kept_.rows.size());
+}
+
+void PictureShare::keep_band(const Bytes& sums, std::span<const std::byte> rows) {
+    if (keeper_ == nullptr) return;
+    kept_.sums = sums;
+    kept_.rows.emplace_back(rows.begin(), rows.end());
+    if (keeper_->is_time()) keeper_->write(kept_.packed(id_));
+}
+
+void PictureShare::go_on(PictureKeeper& keeper, std::uint64_t id) {
+    keeper_ = &keeper;
+    id_ = id;
+    kept_ = KeptBands::of(id, keeper.read());
+}
+
+Bytes KeptBands::packed(std::uint64_t id) const {
+    PackedBytes all;
+    all.add(id).add(fingerprint).add_all(std::span(sums));
+    for (const auto* list : {&loops, &rows}) {
+        all.add(std::uint64_t{list->size()});
+        for (const Bytes& one : *list) all.add_all(std::span(one));
+    }
+    return all.take();
+}
+
+KeptBands KeptBands::of(std::uint64_t id, const Bytes& bytes) {
+    KeptBands kept;
+    if (bytes.empty()) return kept;
+    BytesReader in(bytes);
+    if (in.get<std::uint64_t>() != id) return kept;
+    kept.fingerprint = in.get<std::uint64_t>();
+    kept.sums = in.get_all<std::byte>();
+    for (auto* list : {&kept.loops, &kept.rows})
+        for (auto left = in.get<std::uint64_t>(); left > 0; --left)
+            list->push_back(in.get_all<std::byte>());
+    return kept;
 }
 
 std::optional<Peers::Letter> PictureShare::receive() {

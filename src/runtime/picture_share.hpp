@@ -3,6 +3,7 @@
 
 #include "mir/core/monitor.hpp"
 #include "mir/runtime/peers.hpp"
+#include "mir/runtime/picture_keeper.hpp"
 #include "runtime/band_crew.hpp"
 #include "runtime/packed_bytes.hpp"
 
@@ -61,6 +62,19 @@ class SharedLoop {
     virtual void keep(std::span<const std::byte> rows) = 0;
 };
 
+/// Bands of a picture that are done, as a lead keeps them.
+struct KeptBands {
+    std::vector<Peers::Bytes> loops;  ///< sums of the loops before
+    std::uint64_t fingerprint = 0;    ///< of the present loop
+    Peers::Bytes sums;                ///< of its bands that are done
+    std::vector<Peers::Bytes> rows;   ///< what each of those left
+
+    /// As bytes, behind the number of a picture.
+    [[nodiscard]] Peers::Bytes packed(std::uint64_t id) const;
+    /// Those of picture `id`; none where the bytes are another's.
+    [[nodiscard]] static KeptBands of(std::uint64_t id, const Peers::Bytes& bytes);
+};
+
 /// Part of one process in the pictures of a team. One thread at a time.
 class PictureShare {
  public:
@@ -71,8 +85,17 @@ class PictureShare {
     [[nodiscard]] Peers& peers() const { return peers_; }
     /// True for the process that gets the picture.
     [[nodiscard]] bool is_lead() const { return peers_.rank() == 0; }
-    /// Forgets who had which bands.
-    void begin_picture() { owners_.clear(); }
+    /// A picture begins. `keeps`: bands leave their pixels to the lead at once.
+    void begin_picture(bool keeps) {
+        owners_.clear();
+        keeps_ = keeps;
+        loops_ = 0;
+        kept_ = {};
+    }
+    /// At the lead: it is kept in `keeper`, and goes on from what is there of picture `id`.
+    void go_on(PictureKeeper& keeper, std::uint64_t id);
+    /// Whether bands leave their pixels to the lead at once.
+    [[nodiscard]] bool keeps() const { return keeps_; }
 
     /// Works on bands of a loop as the lead deals them, and deals them at the lead. Returns when
     /// all bands are done everywhere. The sums are then those of all bands. `monitor` may be null.
@@ -90,7 +113,16 @@ class PictureShare {
  private:
     class Run;
 
+    [[nodiscard]] std::uint32_t begin_loop(SharedLoop& loop, Peers::Bytes& sums);
+    void keep_band(const Peers::Bytes& sums, std::span<const std::byte> rows);
+
     Peers& peers_;
+    PictureKeeper* keeper_ = nullptr;  ///< of the lead; may be null
+    std::uint64_t id_ = 0;             ///< of the picture in it
+    KeptBands kept_;                   ///< in it
+    bool keeps_ = false;
+    std::uint32_t loops_ = 0;      ///< of the picture that have begun
+    std::uint32_t all_loops_ = 0;  ///< of all pictures
     std::vector<std::uint32_t> owners_;  ///< processes, by the bands of the last loop
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/runtime/picture_team.hpp"
 
+#include "mir/core/byte_hash.hpp"
 #include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/settings_hash.hpp"
 #include "mir/scene/scene_hash.hpp"
@@ -44,9 +45,9 @@ struct Pass {
     float vsl_scale;
 };
 
-Peers::Bytes begin_message(const Scene& scene, const RenderSettings& settings) {
+Peers::Bytes begin_message(const Scene& scene, const RenderSettings& settings, bool keeps) {
     PackedBytes message;
-    message.add(TeamWord::begin);
+    message.add(TeamWord::begin).add(keeps);
     add_text(message, program_of());
     add_text(message, SceneHash(scene).hex());
     message.add(SettingsHash(settings).value());
@@ -103,6 +104,7 @@ class PictureTeam::Impl {
                         const RenderSettings& settings, Monitor* monitor);
     void work(const Renderer& renderer, const Scene& scene, const RenderSettings& settings,
               Monitor* monitor);
+    void keep_in(PictureKeeper& keeper) { keeper_ = &keeper; }
     void fail(const Error& reason) noexcept;
     void end() noexcept;
 
@@ -120,6 +122,7 @@ class PictureTeam::Impl {
 
     Peers& peers_;
     PictureShare share_;
+    PictureKeeper* keeper_ = nullptr;
     std::optional<Error> failure_;  ///< after which the lead does nothing more
     bool is_over_ = false;          ///< this process has left
 };
@@ -134,8 +137,14 @@ RenderResult PictureTeam::Impl::render(const Renderer& renderer, const Scene& sc
                     "rows of a picture were asked of several processes (they share out all rows); "
                     "leave the rows out, or render shards one by one");
             settings.validate();
-            share_.begin_picture();
-            tell_all(begin_message(scene, settings));
+            const Peers::Bytes begin = begin_message(scene, settings, keeper_ != nullptr);
+            share_.begin_picture(keeper_ != nullptr);
+            if (keeper_ != nullptr) {
+                ByteHash id;
+                id.add(begin.data(), begin.size());
+                share_.go_on(*keeper_, id.value());
+            }
+            tell_all(begin);
             return renderer.render_share(scene, settings, monitor, share_);
         });
     } catch (const Error& e) {
@@ -155,11 +164,11 @@ void PictureTeam::Impl::work_on(const Renderer& renderer, const Scene& scene,
         if (word == TeamWord::leave) return;
         if (word != TeamWord::begin)
             throw Error(ErrorCode::internal, "the lead of a team began no picture");
+        share_.begin_picture(in.get<bool>());
         const RenderSettings picture = settings_of(in, hash, settings);
-        share_.begin_picture();
         try {
-            static_cast<void>(renderer.render_share(
-                scene, picture, monitor != nullptr ? monitor : &own, share_));
+            static_cast<void>(
+                renderer.render_share(scene, picture, monitor != nullptr ? monitor : &own, share_));
             throw Error(ErrorCode::internal, "a renderer shared nothing out");
         } catch (const PixelsSent&) {
             continue;
@@ -238,13 +247,15 @@ PictureTeam::PictureTeam(Peers& peers) : impl_(std::make_unique<Impl>(peers)) {}
 PictureTeam::~PictureTeam() { impl_->end(); }
 bool PictureTeam::is_lead() const { return impl_->is_lead(); }
 
+void PictureTeam::keep_in(PictureKeeper& keeper) { impl_->keep_in(keeper); }
+
 RenderResult PictureTeam::render(const Renderer& renderer, const Scene& scene,
                                  const RenderSettings& settings, Monitor* monitor) {
     return impl_->render(renderer, scene, settings, monitor);
 }
 
-void PictureTeam::work(const Renderer& renderer, const Scene& scene,
-                       const RenderSettings& settings, Monitor* monitor) {
+void PictureTeam::work(const Renderer& renderer, const Scene& scene, const RenderSettings& settings,
+                       Monitor* monitor) {
     impl_->work(renderer, scene, settings, monitor);
 }
 

@@ -9,8 +9,7 @@
 
 mir::RenderResult mir::render_on_host(RenderJob& job, const TracedScene& traced,
                                       HostScheduler scheduler, DiscGather* machine) {
-    const std::unique_ptr<RenderFrame> frame = 
-        shared_out(job, host_frame(job, traced, scheduler));
+    const std::unique_ptr<RenderFrame> frame = shared_out(job, host_frame(job, traced, scheduler));
     switch (job.settings.integrator) {
         case Integrator::path:
             return render_paths(*frame);

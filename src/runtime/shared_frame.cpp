@@ -40,11 +40,11 @@ std::uint64_t fingerprint_of(const RenderFrame& frame, std::uint32_t bands) {
     const RenderStatistics& s = r.statistics;
     ByteHash hash;
     hash.add(r.vpls.vpls().data(), r.vpls.vpls().size_bytes());
-    for (const double number : {s.path_luminance, s.states, double{s.bound}, s.vsl_radius,
-                                double{s.emitted_power}, s.dropped_share, static_cast<double>(bands),
-                                s.direct_noise.value_or(0.0),
-                                s.gather_difference ? s.gather_difference->mean : 0.0,
-                                frame.traits().on_host ? 1.0 : 0.0})
+    for (const double number :
+         {s.path_luminance, s.states, double{s.bound}, s.vsl_radius, double{s.emitted_power},
+          s.dropped_share, static_cast<double>(bands), s.direct_noise.value_or(0.0),
+          s.gather_difference ? s.gather_difference->mean : 0.0,
+          frame.traits().on_host ? 1.0 : 0.0})
         hash.add(&number, sizeof number);
     return hash.value();
 }
@@ -72,7 +72,7 @@ FrameTraits shared_traits(const RenderFrame& local, const PictureShare& share) {
     return traits;
 }
 
-/// The bytes of rows of pixels of an image, and of which rows.
+/// The pixels of an image, and the rows whose pixels count.
 struct Plane {
     template <class T>
     Plane(Image<T>& image, const std::vector<std::array<std::uint32_t, 2>>& rows_of_it)
@@ -138,7 +138,10 @@ class SharedFrame::Loop final : public SharedLoop {
     [[nodiscard]] Peers::Bytes rows() override {
         const std::vector<RowLuminances>& all = frame_.job().result.luminances;
         const std::size_t first = std::exchange(told_, all.size());
-        return PackedBytes().add(progress()).add_all(std::span(all).subspan(first)).take();
+        PackedBytes left;
+        left.add(progress()).add_all(std::span(all).subspan(first));
+        if (frame_.share_.keeps()) frame_.add_pixels(left);
+        return left.take();
     }
     void keep(std::span<const std::byte> rows) override {
         BytesReader in(rows);
@@ -149,6 +152,7 @@ class SharedFrame::Loop final : public SharedLoop {
             monitor->bands += more.bands;
         }
         for (const RowLuminances& row : in.get_all<RowLuminances>()) luminances_.push_back(row);
+        if (frame_.share_.keeps()) frame_.take_pixels(in);
     }
 
     /// At the lead, those of all rows, once all bands are done.
@@ -242,57 +246,59 @@ void SharedFrame::put(const FrameBand& band, std::vector<LayerPtr> layers, FilmS
 }
 
 std::vector<Image<Rgb>> SharedFrame::develop() {
-    std::vector<Image<Rgb>> layers;
-    if (!developed_.empty()) layers = local_->develop();
     if (!share_.is_lead()) {
-        send_pixels(layers);
+        if (!share_.keeps()) {
+            PackedBytes message;
+            add_pixels(message.add(TeamWord::pixels));
+            share_.peers().send(0, message.take());
+        }
         throw PixelsSent{};
     }
-    for (std::uint32_t others = share_.peers().count() - 1; others > 0;)
-        if (take_pixels(share_.wait().bytes, layers)) --others;
-    return layers;
+    if (share_.keeps()) return std::move(layers_);
+    if (!developed_.empty()) layers_ = local_->develop();
+    for (std::uint32_t others = share_.peers().count() - 1; others > 0;) {
+        const Peers::Letter letter = share_.wait();
+        BytesReader in(letter.bytes);
+        // Who came late to the last loop has asked for a band of it.
+        if (in.get<TeamWord>() != TeamWord::pixels) continue;
+        take_pixels(in);
+        --others;
+    }
+    return std::move(layers_);
 }
 
-void SharedFrame::send_pixels(std::vector<Image<Rgb>>& layers) {
-    const std::vector<Plane> planes =
-        planes_of(job().result.guides, layers, guided_, developed_);
-    for (std::uint32_t i = 0; i < planes.size(); ++i) {
+/// Adds the pixels that this process has made since it last did.
+void SharedFrame::add_pixels(PackedBytes& message) {
+    std::vector<Image<Rgb>> layers;
+    if (!developed_.empty()) layers = local_->develop();
+    message.add(static_cast<std::uint32_t>(layers.size()));
+    for (const Plane& plane : planes_of(job().result.guides, layers, guided_, developed_)) {
         Peers::Bytes pixels;
-        for (const Rows rows : planes[i].rows) {
-            const std::span<const std::byte> bytes = planes[i].of(rows);
+        for (const Rows rows : plane.rows) {
+            const std::span<const std::byte> bytes = plane.of(rows);
             pixels.insert(pixels.end(), bytes.begin(), bytes.end());
         }
-        share_.peers().send(0, PackedBytes()
-                                   .add(TeamWord::pixels)
-                                   .add(i + 1 == planes.size())
-                                   .add(i)
-                                   .add(static_cast<std::uint32_t>(layers.size()))
-                                   .add_all(std::span(planes[i].rows))
-                                   .add_all(std::span<const std::byte>(pixels))
-                                   .take());
+        message.add_all(std::span(plane.rows)).add_all(std::span<const std::byte>(pixels));
     }
+    guided_.clear();
+    developed_.clear();
 }
 
-/// Puts what another process developed into the images. True when it has sent all.
-bool SharedFrame::take_pixels(const Peers::Bytes& message, std::vector<Image<Rgb>>& layers) {
-    BytesReader in(message);
-    const auto word = in.get<TeamWord>();
-    const auto is_last = in.get<bool>();
-    const auto plane = in.get<std::uint32_t>();
+/// Puts what a process made into the images of the lead.
+void SharedFrame::take_pixels(BytesReader& in) {
     const auto count = in.get<std::uint32_t>();
-    const auto rows = in.get_all<Rows>();
-    std::span<const std::byte> pixels = in.next_bytes();
-    if (layers.empty()) layers.resize(count, Image<Rgb>(job().settings.image));
-    const std::vector<Plane> planes =
-        planes_of(job().result.guides, layers, guided_, developed_);
-    if (word != TeamWord::pixels || plane >= planes.size())
-        throw Error(ErrorCode::internal, "a process sent no pixels where it should have");
-    for (const Rows range : rows) {
-        const std::span<std::byte> to = planes[plane].of(range);
-        std::copy_n(pixels.begin(), to.size(), to.begin());
-        pixels = pixels.subspan(to.size());
+    if (layers_.empty()) layers_.resize(count, Image<Rgb>(job().settings.image));
+    std::vector<Image<Rgb>> none;
+    for (const Plane& plane :
+         planes_of(job().result.guides, count == 0 ? none : layers_, guided_, developed_)) {
+        const std::vector<Rows> rows = in.get_all<Rows>();
+        std::span<const std::byte> pixels = in.next_bytes();
+        for (const Rows range : rows) {
+            const std::span<std::byte> to = plane.of(range);
+            std::copy_n(pixels.begin(), to.size(), to.begin());
+            pixels = pixels.subspan(to.size());
+        }
     }
-    return is_last;
 }
 
 std::unique_ptr<RenderFrame> shared_out(RenderJob& job, std::unique_ptr<RenderFrame> frame) {

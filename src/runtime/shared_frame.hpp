@@ -93,8 +93,8 @@ class SharedFrame final : public RenderFrame {
 
     void load(std::span<const std::byte> sums);
     void restate(const std::vector<RowLuminances>& luminances);
-    void send_pixels(std::vector<Image<Rgb>>& layers);
-    [[nodiscard]] bool take_pixels(const Peers::Bytes& message, std::vector<Image<Rgb>>& layers);
+    void add_pixels(PackedBytes& message);
+    void take_pixels(BytesReader& in);
 
     std::unique_ptr<RenderFrame> local_;
     PictureShare& share_;
@@ -102,8 +102,9 @@ class SharedFrame final : public RenderFrame {
     std::vector<ImageResponse> sums_;  ///< of those bands
     std::uint32_t summed_rows_ = 0;    ///< of luxels
     bool in_loop_ = false;             ///< of for_each_band()
+    std::vector<Image<Rgb>> layers_;   ///< of all processes, at the lead
     std::vector<Rows> developed_;      ///< by the film of this process
-    std::vector<Rows> guided_;         ///< whose guides this process made
+    std::vector<Rows> guided_;         ///< whose guides it made
 };
 
 /// The frame itself, or shared out where the job is.

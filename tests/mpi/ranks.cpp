@@ -29,8 +29,7 @@ bool is_right(const mir::Scene& scene) {
     const auto picture = mir::mpi::render_on_ranks(MPI_COMM_WORLD, scene, small_picture());
     if (!picture) return rank_of_this() != 0;
     const mir::RenderResult one = mir::render(scene, small_picture());
-    return rank_of_this() == 0 &&
-           std::ranges::equal(picture->beauty.pixels(), one.beauty.pixels());
+    return rank_of_this() == 0 && std::ranges::equal(picture->beauty.pixels(), one.beauty.pixels());
 }
 
 /// True when `work` throws an error whose words have `words` in them.
@@ -61,12 +60,8 @@ void try_ranks() {
             "a rank with another scene is an error of all");
     mir::RenderSettings bad = small_picture();
     if (rank_of_this() == 2) bad.scheduler = "nobody";
-    require(fails(
-                [&] {
-                    static_cast<void>(
-                        mir::mpi::render_on_ranks(MPI_COMM_WORLD, scene, bad));
-                },
-                "nobody"),
+    require(fails([&] { static_cast<void>(mir::mpi::render_on_ranks(MPI_COMM_WORLD, scene, bad)); },
+                  "nobody"),
             "a rank without a renderer is an error of all");
     require(is_right(scene), "ranks render again after errors");
 }

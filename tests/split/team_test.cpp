@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Pictures by several processes against those of one: the same bytes. Threads stand for processes.
-#include "mir/runtime/picture_team.hpp"
-
 #include "frame/same_result.hpp"
 #include "mir/runtime/all_renderers.hpp"
+#include "mir/runtime/picture_team.hpp"
 #include "mir/scenes.hpp"
 #include "runtime/band_book.hpp"
 #include "support/catch.hpp"
 
+#include <chrono>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -131,6 +132,17 @@ Failures failures_of(std::uint32_t count,
     return all;
 }
 
+/// Keeps what it is given behind each band.
+struct Keeper final : mir::PictureKeeper {
+    std::vector<std::byte> read() override {
+        return pictures.empty() ? std::vector<std::byte>() : pictures.back();
+    }
+    bool is_time() override { return true; }
+    void write(const std::vector<std::byte>& picture) override { pictures.push_back(picture); }
+
+    std::vector<std::vector<std::byte>> pictures;
+};
+
 /// One whose work cannot be shared out.
 struct Failing final : mir::Renderer {
     RenderResult render(const mir::Scene&, const RenderSettings&, mir::Monitor*) const override {
@@ -206,6 +218,56 @@ TEST_CASE("A team makes pictures one after the other, and tells how far they are
         }
     });
     for (s.seed = 0; s.seed < 3; ++s.seed) check_same(pictures[s.seed], alone(s));
+}
+
+TEST_CASE("Loops go on without a process that comes late") {
+    const RenderSettings s = small_picture();
+    std::optional<RenderResult> result;
+    as_team(3, [&](PictureTeam& team, std::uint32_t rank) {
+        if (team.is_lead()) {
+            result = team.render(*renderer(), room(), s, nullptr);
+            return;
+        }
+        if (rank == 2) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        team.work(*renderer(), room(), s, nullptr);
+    });
+    check_same(*result, alone(s));
+}
+
+TEST_CASE("A team that is started again goes on from the bands that were kept") {
+    RenderSettings s = small_picture();
+    s.bounce_layers = true;
+    const RenderResult one = alone(s);
+    const auto kept_in = [&](mir::PictureKeeper& keeper, mir::Monitor& monitor) {
+        std::optional<RenderResult> result;
+        as_team(2, [&](PictureTeam& team, std::uint32_t) {
+            if (!team.is_lead()) return team.work(*renderer(), room(), s, nullptr);
+            team.keep_in(keeper);
+            result = team.render(*renderer(), room(), s, &monitor);
+        });
+        return std::move(*result);
+    };
+    Keeper all;
+    {
+        mir::Monitor monitor;
+        check_same(kept_in(all, monitor), one);
+    }
+    REQUIRE(all.pictures.size() > 6);  // of two loops
+    for (const std::size_t last : {std::size_t{0}, all.pictures.size() / 2 - 1,
+                                   all.pictures.size() / 2, all.pictures.size() - 1}) {
+        CAPTURE(last);
+        Keeper again;
+        again.pictures = {all.pictures[last]};
+        mir::Monitor monitor;
+        check_same(kept_in(again, monitor), one);
+        CHECK(again.pictures.size() == all.pictures.size() - last);
+    }
+    // Another picture begins anew.
+    Keeper other;
+    other.pictures = {all.pictures.back()};
+    s.seed = 1;
+    mir::Monitor monitor;
+    check_same(kept_in(other, monitor), alone(s));
 }
 
 TEST_CASE("What fails in one process reaches all") {

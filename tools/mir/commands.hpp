@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/runtime/picture_team.hpp"
 #include "options.hpp"
+
+namespace mir {
+class PictureTeam;
+}  // namespace mir
 
 namespace mirtool {
 

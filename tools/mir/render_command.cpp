@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "band_journal.hpp"
 #include "commands.hpp"
 #include "denoising.hpp"
 #include "exit_code.hpp"
@@ -129,8 +130,7 @@ RenderOptions settled(const RenderOptions& options) {
 class ThreadLimit {
  public:
     explicit ThreadLimit(unsigned threads) {
-        if (threads > 0)
-            limit_.emplace(tbb::global_control::max_allowed_parallelism, threads);
+        if (threads > 0) limit_.emplace(tbb::global_control::max_allowed_parallelism, threads);
     }
 
  private:
@@ -159,6 +159,11 @@ int render_with(const RenderOptions& options, mir::PictureTeam* team) {
     mir::Monitor monitor;
     const CancelOnInterrupt cancel(monitor);
     mir::Registry::Choice choice = choice_of(o.settings);
+    std::optional<BandJournal> bands;
+    if (team != nullptr && o.passes.resume) {
+        bands.emplace(paths.exr + ".bands", o.passes.save_every.value_or(default_save_every));
+        team->keep_in(*bands);
+    }
     if (team != nullptr)
         choice.renderer = std::make_unique<TeamRenderer>(*team, std::move(choice.renderer));
     if (o.shard)
@@ -170,6 +175,7 @@ int render_with(const RenderOptions& options, mir::PictureTeam* team) {
     result.warnings.insert(result.warnings.begin(), remarks.begin(), remarks.end());
     const Denoising denoising = denoised(denoiser, result, reference, o, monitor);
     write_outputs(paths, result, o);
+    if (bands && result.statistics.complete) bands->remove();
     write_render_report({o, loaded, result, reference, convergence});
     if (!o.quiet) print_summary(result);
     if (!o.quiet) print(denoising);

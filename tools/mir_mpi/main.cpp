@@ -4,6 +4,7 @@
 #include "exit_code.hpp"
 #include "mir/mpi/rank_peers.hpp"
 #include "mir/runtime/all_renderers.hpp"
+#include "mir/runtime/picture_team.hpp"
 #include "process.hpp"
 
 #include <cstdio>
@@ -31,10 +32,10 @@ void take_device(mirtool::RenderOptions& o) {
 int run_command(int argc, char** argv, mir::PictureTeam& team) {
     const mirtool::Parsed parsed = mirtool::parse(argc, argv);
     if (const int* code = std::get_if<int>(&parsed)) return *code;
-    const auto* options =
-        std::get_if<mirtool::RenderOptions>(&std::get<mirtool::Command>(parsed));
-    mir::expects(options != nullptr,
-                 "ranks of MPI only render (nothing else is shared out); use mir for other commands");
+    const auto* options = std::get_if<mirtool::RenderOptions>(&std::get<mirtool::Command>(parsed));
+    mir::expects(
+        options != nullptr,
+        "ranks of MPI only render (nothing else is shared out); use mir for other commands");
     mirtool::RenderOptions o = *options;
     take_device(o);
     return mirtool::run_in_team(o, team);

@@ -3,6 +3,7 @@
 
 #include "mir/core/error.hpp"
 #include "mir/runtime/peers.hpp"
+#include "mir/runtime/picture_keeper.hpp"
 #include "mir/runtime/renderer.hpp"
 
 #include <memory>
@@ -24,6 +25,10 @@ class PictureTeam {
 
     /// True for the process that gets the pictures.
     [[nodiscard]] bool is_lead() const;
+
+    /// From now on keeps pictures under way, at the lead. Goes on from one that was kept, if it is
+    /// of the same scene, settings and program. `keeper` must outlive the last render().
+    void keep_in(PictureKeeper& keeper);
 
     /// Renders with the others, at the lead. Numbers of the result are of the whole picture; its
     /// seconds are those of the lead.
