@@ -23,6 +23,10 @@ struct CameraRays {
     [[nodiscard]] Ray operator()(std::uint32_t x, std::uint32_t y) const {
         return luxel_rays()(x, y);
     }
+    /// LuxelRays::specular_plan().
+    [[nodiscard]] SpecularPlan specular_plan(std::uint32_t x, std::uint32_t y) const {
+        return luxel_rays().specular_plan(x, y);
+    }
 };
 
 /// First phase: traces the camera ray of every luxel of `gbuffer`. The G-buffer holds the rows from
@@ -55,7 +59,7 @@ void fill_gbuffer(BlockedGBuffer<typename B::Params>& gbuffer, std::uint32_t fir
         const Tile tile = gbuffer.tiles()[row.tile];
         const auto layout = BlockedLayout::of(tile);
         for (std::uint32_t x = 0; x < tile.width; ++x) {
-            const SeenLuxel seen = tracer(rays(tile.x + x, first_row + tile.y + row.y));
+            const SeenLuxel seen = tracer.luxel(rays, tile.x + x, first_row + tile.y + row.y);
             gbuffer.store(row.tile, layout(x, row.y), tracer.hit(seen),
                           tracer.surface(seen, background));
         }

@@ -87,6 +87,9 @@ class BackendFrame final : public RenderFrame {
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 
+    [[nodiscard]] LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) override {
+        return upload(of(band), light);
+    }
     void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) override;
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
 

@@ -95,6 +95,9 @@ class HostFrame final : public RenderFrame {
         add_errors(HostLayer::of(variance), more, job_.executor);
         return light;
     }
+    [[nodiscard]] LayerPtr layer_of(const FrameBand& /*band*/, Image<Rgb> light) override {
+        return host_layer(std::move(light));
+    }
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 

@@ -132,6 +132,8 @@ class RenderFrame {
                                                            Monitor* /*monitor*/) {
         throw without(FrameFeature::pick_error);
     }
+    /// A layer of these radiances of a band's luxels, W m^-2 sr^-1.
+    [[nodiscard]] virtual LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) = 0;
     /// sum += layer.
     virtual void add(FrameLayer& sum, const FrameLayer& layer) = 0;
     /// Sum of the luminance of each row's luxels, from left to right, W m^-2 sr^-1.

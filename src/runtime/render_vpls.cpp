@@ -4,6 +4,7 @@
 #include "mir/runtime/picture_bytes.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/sampling/vsl_radii.hpp"
+#include "runtime/caustic_light.hpp"
 #include "runtime/direct_noise.hpp"
 #include "runtime/film_layers.hpp"
 #include "runtime/missing_light.hpp"
@@ -139,7 +140,8 @@ LayerPtr removed_light(RenderFrame& by, const FrameBand& band, const VplLight& l
     return removed;
 }
 
-BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const VplLight& light) {
+BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const VplLight& light,
+                     const CausticLight& caustics) {
     const RenderJob& job = by.job();
     BandLight made;
     {
@@ -161,6 +163,10 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
     if (job.settings.compensate > 0) {
         const auto stage = job.clock.measure(&StageSeconds::residual);
         made.residual = by.row_luminances(*by.add_residual(band, bound, made.layers));
+    }
+    {
+        const auto stage = job.clock.measure(&StageSeconds::caustics);
+        caustics.add(by, band, made.layers);
     }
     if (job.settings.removed_layer) made.layers.push_back(std::move(removed));
     if (variance != nullptr) made.layers.push_back(std::move(variance));
@@ -211,13 +217,14 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
     const VplLight light(s, bound, vpls, job.executor);
     check_picture(s, std::size_t{first_bounce_layer} + light.bounces() + extra_layers(s));
     measure_what_is_missing(frame, bound);
+    const CausticLight caustics(frame);
     job.begin_bands(bands.count());
     frame.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
         job.begin_band();
         const BandPtr band =
             kept.empty() || kept[i] == nullptr ? bands.make(by, i) : std::move(kept[i]);
         if (stores && !band->knows_visibility()) find_visible(by, *band, vpls.span());
-        BandLight made = light_band(by, *band, bound, light);
+        BandLight made = light_band(by, *band, bound, light, caustics);
         turn.wait();
         add_luminances(job, *band, made.indirect, made.removed, made.residual);
         by.put(*band, std::move(made.layers), turn.seam());

@@ -69,6 +69,9 @@ class SharedFrame final : public RenderFrame {
                                                    Monitor* monitor) override {
         return local_->light_and_error_by_cuts(band, vpls, bound, variance, monitor);
     }
+    [[nodiscard]] LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) override {
+        return local_->layer_of(band, std::move(light));
+    }
     void add(FrameLayer& sum, const FrameLayer& layer) override { local_->add(sum, layer); }
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override {
         return local_->row_luminances(layer);

@@ -63,6 +63,9 @@ class SplitFrame final : public RenderFrame {
                                                    Monitor* monitor) override {
         return first().light_and_error_by_cuts(band, vpls, bound, variance, monitor);
     }
+    [[nodiscard]] LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) override {
+        return first().layer_of(band, std::move(light));
+    }
     void add(FrameLayer& sum, const FrameLayer& layer) override { first().add(sum, layer); }
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override {
         return first().row_luminances(layer);

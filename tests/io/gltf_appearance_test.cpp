@@ -60,13 +60,13 @@ TEST_CASE("what a material asks for and does not get is counted by name") {
     const auto loaded = read_text(text, triangle_bytes());
     const std::map<std::string, std::uint64_t> expected{
         {"KHR_materials_specular specularColorFactor", 1},
-        {"alphaMode BLEND", 1},
         {"environment", 1},
         {"image 'no such.png' (not found)", 1},
         {"roughnessFactor outside 0..1 (clamped)", 1},
         {"texture baseColorTexture without a PNG or JPEG image", 1}};
     CHECK(loaded.report.ignored == expected);
     CHECK(loaded.scene.materials.at(0).roughness == 1.0f);
+    CHECK(loaded.scene.materials.at(0).is_blended);
 }
 
 TEST_CASE("an environment that a file names is not missed where another is given") {

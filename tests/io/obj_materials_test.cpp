@@ -85,26 +85,53 @@ TEST_CASE("colours of MTL as spectra and CIE XYZ are not read, and counted") {
     CHECK(material("Kd spectral a.rfl").base_color == mir::Material{}.base_color);
 }
 
-TEST_CASE("glass of MTL is counted as transparency, once for each material") {
-    const Ignored opacity = {{"transparency (d, Tr)", 1}};
-    const Ignored glass = {{"transparency (illum, Tf)", 1}};
-    for (const char* lines : {"illum 4", "illum 6", "illum 7\nTf 1 1 1\nNi 1.5", "illum 9",
-                              "Tf .5 1 1", "Tf 0.5", "Kt .9 .9 .9", "Tf .5 .5 .5\nillum 7\nd 1"}) {
+TEST_CASE("models of glass let light through, and those that refract are bodies") {
+    for (const char* lines : {"illum 4", "illum 6", "illum 7\nTf 1 1 1\nNi 1.5", "illum 9"}) {
         INFO(lines);
-        CHECK(lost(lines) == glass);
+        CHECK(lost(lines).empty());
+        const mir::Material glass = material(lines);
+        CHECK(glass.transmission == 1.0f);
+        CHECK(glass.roughness == 0.0f);
+        CHECK(glass.specular == 1.0f);
+        CHECK(glass.base_color == Rgb{1, 1, 1});
+        CHECK_FALSE(glass.is_blended);
     }
-    for (const char* lines : {"d .5", "Tr .5", "d .5\nNi 1.5\nillum 7\nTf 0 0 0", "Tr .5\nillum 4",
-                              "d 0.5\nTr 0", "d .5\nd .5"}) {
+    CHECK(material("illum 4").is_thin);
+    CHECK(material("illum 9").is_thin);
+    CHECK_FALSE(material("illum 6").is_thin);
+    CHECK_FALSE(material("illum 7").is_thin);
+    CHECK(material("illum 7\nNi 1.33").ior == 1.33f);
+    CHECK(material("illum 7\nTf .5 1 .25\nKd 0 0 0").base_color == Rgb{.5f, 1, .25f});
+    CHECK(material("illum 7\nTf 0 0 0").base_color == Rgb{1, 1, 1});
+    CHECK(material("illum 7\nPr .5").roughness == .5f);
+    CHECK_FALSE(material("illum 7\nd .5").is_blended);
+}
+
+TEST_CASE("opacity of MTL is the covered share") {
+    for (const char* lines : {"d .5", "Tr .5", "d 0.5\nTr 0", "d .5\nd .5", "d .5\nillum 2"}) {
         INFO(lines);
-        CHECK(lost(lines) == opacity);
+        CHECK(lost(lines).empty());
+        CHECK(material(lines).is_blended);
+        CHECK(material(lines).alpha == .5f);
     }
     for (const char* lines : {"illum 2", "illum 3", "illum 5", "illum 8", "illum 0", "Tf 1 1 1",
                               "Ni 1.5", "d 1\nTr 1", "Tr 0"}) {
         INFO(lines);
         CHECK(lost(lines).empty());
+        CHECK_FALSE(material(lines).is_see_through());
     }
-    CHECK(lost("d -halo 0.5") == Ignored{{"MTL option '-halo'", 1}, {"transparency (d, Tr)", 1}});
+    CHECK(lost("d -halo 0.5") == Ignored{{"MTL option '-halo'", 1}});
     CHECK(lost("d -halo") == Ignored{{"MTL option '-halo'", 1}, {"MTL 'd' without a value", 1}});
+    CHECK(lost("d 1.5") == Ignored{{"d outside 0..1 (clamped)", 1}});
+}
+
+TEST_CASE("a filter of MTL without a model of glass is counted") {
+    const Ignored once = {{"Tf without a model of glass", 1}};
+    for (const char* lines : {"Tf .5 1 1", "Tf 0.5", "Kt .9 .9 .9", "Tf 0 0 0\nillum 2"}) {
+        INFO(lines);
+        CHECK(lost(lines) == once);
+        CHECK_FALSE(material(lines).is_see_through());
+    }
 }
 
 TEST_CASE("of materials with one name the first is taken, and the others are counted") {
@@ -157,8 +184,7 @@ TEST_CASE("materials that no face uses lose nothing") {
                          {"MTL 'foo'", 1},
                          {"colour of Ks (its mean is used)", 1},
                          {"image 'none.png' (not found)", 1},
-                         {"material defined twice (the first is used)", 1},
-                         {"transparency (d, Tr)", 1}};
+                         {"material defined twice (the first is used)", 1}};
     CHECK(read_obj_text(text + "f 1 2 3\nf 1 3 4\nusemtl glass\nf 1 2 3\n", glass).report.ignored ==
           all);
 }

@@ -92,7 +92,6 @@ TEST_CASE("what an OBJ file asks for and does not get is counted") {
                                            {"points", 1},
                                            {"smoothing groups without normals (shaded flat)", 1},
                                            {"statement 'curv'", 1},
-                                           {"transparency (d, Tr)", 1},
                                            {"use of a material that no library has", 1}});
     CHECK(loaded.report.triangles == 2);
 }

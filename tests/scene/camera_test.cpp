@@ -44,6 +44,36 @@ TEST_CASE("look_at makes a right-handed frame that looks at its target") {
     CHECK(centre.origin == c.position);
 }
 
+TEST_CASE("a point is projected to where rays to it pass the film, and the film has area one") {
+    for (const float lens : {0.0f, 0.2f}) {
+        Camera c = tilted();
+        c.lens_radius = lens;
+        c.focus_distance = 2.5f;
+        double film = 0.0;
+        for (std::uint64_t i = 0; i < 4096; ++i) {
+            mir::Random random(70, mir::Stream::test, i);
+            const Vec2 at = random.next_2d();
+            const Vec2 on_lens = random.next_2d();
+            const Ray ray = c.ray(at, aspect, on_lens);
+            const mir::FilmPoint seen =
+                c.optics().project(ray.origin + 3.7f * ray.direction, aspect, on_lens);
+            REQUIRE(seen.is_on_film());
+            REQUIRE(seen.film.x == Approx(at.x).margin(1e-5));
+            REQUIRE(seen.film.y == Approx(at.y).margin(1e-5));
+            REQUIRE(glm::length(seen.from - ray.origin) < 1e-6f);
+            // The mean of dω / d film over the film, from a pinhole, is the picture's solid angle.
+            film += 1.0 / static_cast<double>(seen.per_steradian) / 4096;
+        }
+        if (lens > 0.0f) continue;
+        const double half = std::tan(0.45);
+        const double wide = half * static_cast<double>(aspect);
+        const double angle =
+            4.0 * std::asin(half * wide / std::sqrt((1 + half * half) * (1 + wide * wide)));
+        CHECK(film == Approx(angle).epsilon(0.02));
+    }
+    CHECK_FALSE(tilted().optics().project({9, 9, 9}, aspect, {}).is_on_film());
+}
+
 TEST_CASE("a default camera looks along -z with x to the right and y up") {
     const Camera c;
     const float half = std::tan(0.4f);

@@ -141,6 +141,8 @@ void add_facts(Json& out, const mir::RenderResult& r, const mir::RenderSettings&
     out["vsl_radius"] = s.vsl_radius;
     out["residual_paths"] = s.residual_paths;
     out["residual_luminance"] = s.residual_luminance;
+    out["caustic_paths"] = s.caustic_paths;
+    out["caustic_luminance"] = s.caustic_luminance;
     out["mean_radiance"] = {{"beauty", mean_of(r.beauty)},
                             {"emission", mean_of(r.emission)},
                             {"direct", mean_of(r.direct)},

@@ -38,6 +38,17 @@ concept Bsdf = WordCopyable<typename B::Params> &&
     { B::is_black(p) } -> std::same_as<bool>;
 };
 
+/// A Bsdf that may stand at the end of a specular chain. scaled(p, c) reflects `c` times as much as
+/// `p`; without_lobe(p) leaves out what mirrors and clear glass do, because chains carry that;
+/// without has_interface opaque surfaces mirror nothing. Of another Bsdf all surfaces are opaque
+/// and rough.
+template <class B>
+concept SpecularEndBsdf = Bsdf<B> && requires(const typename B::Params& p, Rgb c) {
+    { B::scaled(p, c) } -> std::same_as<typename B::Params>;
+    { B::without_lobe(p) } -> std::same_as<typename B::Params>;
+    { B::has_interface } -> std::convertible_to<bool>;
+};
+
 /// A Bsdf that prepares a point and `wo` once for all directions of light. Its sums of products are
 /// rounded as the template argument says (core/rounding.hpp). With o =
 /// B::outgoing<SeparateRounding>(p, n, wo), o(wi, n.wi) is eval(p, n, wi, wo) in every bit where

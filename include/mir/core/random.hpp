@@ -30,7 +30,9 @@ enum class Stream : std::uint32_t {
     vsl,            ///< directions in which luxels see the spheres of VSLs
     missing,        ///< paths that tell what VPLs leave out
     surfel_place,   ///< where on a disc lamps are looked for, and rays begin
-    cut             ///< which VPL of a node a luxel gathers
+    cut,            ///< which VPL of a node a luxel gathers
+    caustic,        ///< light paths that the camera sees through mirrors and glass
+    specular_chain  ///< where camera rays go on from mirrors and glass
 };
 
 /// 128 bits as four words; a plain array, because device code cannot index std::array.

@@ -46,7 +46,8 @@ class TbbExecutor {
  private:
     static int slots(unsigned threads, unsigned callers) {
         if (threads == 0 && callers == 1) return tbb::task_arena::automatic;
-        const int cores = threads == 0 ? tbb::info::default_concurrency() : static_cast<int>(threads);
+        const int cores =
+            threads == 0 ? tbb::info::default_concurrency() : static_cast<int>(threads);
         return cores + static_cast<int>(callers) - 1;
     }
 

@@ -24,7 +24,7 @@ struct PrimaryHits {
         const Tile tile = out.tiles[t];
         const LuxelPlace at = BlockedLayout::of(tile).place(luxel);
         if (at.x < tile.width && at.y < tile.height) {
-            const SeenLuxel seen = tracer(rays(tile.x + at.x, first_row + tile.y + at.y));
+            const SeenLuxel seen = tracer.luxel(rays, tile.x + at.x, first_row + tile.y + at.y);
             out.hits(t).store(luxel, tracer.hit(seen));
             out.surfaces(t).store(luxel, tracer.surface(seen, background));
         } else {

@@ -135,6 +135,7 @@ MIR_HD bool refill(const World& world, Numbers& u, const Path& x, PathGap gap, s
     y.film = x.film;
     y.lens = x.lens;
     y.eye = x.eye;
+    y.chain = x.chain;
     y.vertices.assign_front(x.vertices, gap.left);
     if (gap.left == 0 && !start_at_camera(world, u, y)) return false;
     if (!extend_from_eye(world, u, gap.left + from_eye, y)) return false;

@@ -43,6 +43,7 @@ class SuffixProposal {
         y.film = from.path.film;
         y.lens = from.path.lens;
         y.eye = from.path.eye;
+        y.chain = from.path.chain;
         y.vertices.assign_front(from.path.vertices, 2);
         y.spread = spread_at(u);
         if (!extend_from_eye(world_, u, from_eye, y) || !close_path(world_, u, t.from_light, y))

@@ -54,7 +54,8 @@ class ResponseSum {
     }
 
     /// Goes on below rows that another sum of this image and these VPLs has added.
-    /// @throws Error(invalid_argument) when the sums are of other VPLs, or the rows of another image.
+    /// @throws Error(invalid_argument) when the sums are of other VPLs, or the rows of another
+    /// image.
     void go_on(std::uint32_t rows, std::span<const ImageResponse> sums) {
         bands_.go_on(rows, sums.size());
         sums_.assign(sums.begin(), sums.end());

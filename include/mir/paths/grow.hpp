@@ -43,9 +43,8 @@ MIR_HD bool start_at_camera(const World& world, Numbers& u, Path& path) {
     path.lens = {0.0f, 0.0f};
     if (world.camera.lens_radius > 0.0f) path.lens = pair_at(u, path_dimension::lens);
     const Ray ray = world.camera.ray(path.film, world.aspect, path.lens);
-    path.eye = ray.origin;
     PathVertex first;
-    if (!world.hit_luxel(ray, first)) return false;
+    if (!world.hit_luxel(ray, path, first)) return false;
     path.vertices.push_back(first);
     return true;
 }

@@ -36,10 +36,12 @@ struct LightEnd {
 /// A full light transport path x0 (lens), x1, ..., x_k (light). Place and direction of the first
 /// edge are given by film and lens, so x1 is a function of them. 3.5 kB, without memory elsewhere.
 struct Path {
-    Vec2 film{0};    ///< in [0,1]^2, origin top left
-    Vec2 lens{0};    ///< in [0,1)^2
-    Vec3 eye{0};     ///< x0, metres
-    Vec3 spread{0};  ///< numbers that choose how x_2 spreads light, [0,1)^3
+    Vec2 film{0};  ///< in [0,1]^2, origin top left
+    Vec2 lens{0};  ///< in [0,1)^2
+    /// x0, metres, or the last point of the specular chain through which x1 is seen.
+    Vec3 eye{0};
+    Rgb chain{1.0f, 1.0f, 1.0f};  ///< what that chain leaves of what x1 reflects
+    Vec3 spread{0};               ///< numbers that choose how x_2 spreads light, [0,1)^3
     InlineVector<PathVertex, max_path_edges> vertices;  ///< x1 .. x_k; element i - 1 is x_i
     LightEnd light;  ///< what shines at the end; its place is x_k
 

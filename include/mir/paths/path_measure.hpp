@@ -68,7 +68,8 @@ class PathMeasurer {
         if (!run_suffix(m)) return false;
         for (std::uint32_t i = 0; i < 2; ++i) edges_[i] = edge(i);
         if (!camera_sides_agree()) return false;
-        m.response = WideRgb(bsdf(1)) * static_cast<double>(smaller(geometry(1), world_.bound));
+        m.response = WideRgb(path_.chain * bsdf(1)) *
+                     static_cast<double>(smaller(geometry(1), world_.bound));
         m.contribution = m.response * m.leaving;
         m.from_eye[2] = density_from_eye(2);
         return !is_black(m.contribution);

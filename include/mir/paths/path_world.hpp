@@ -66,18 +66,24 @@ struct PathWorld {
         : PathWorld(world_geometry.view(), light_table.view(), surface_table.view(), ray_caster,
                     sight, seen_from.optics(), film_aspect, geometry_bound) {}
 
-    /// Writes the first surface along a ray as a path vertex. False when there is none.
+    /// Writes the first surface along a ray as a path vertex. False when there is none. Blended
+    /// surfaces and sheets of glass are passed as often as they let light through; bodies of glass
+    /// and what sheets reflect are not part of paths behind x1.
     [[nodiscard]] MIR_HD_CALL bool hit(const Ray& ray, PathVertex& vertex) const {
         SurfacePoint p;
         if (!find_point(luxels.caster, ray, p)) return false;
+        if (luxels.surfaces.is_specular(p.material) && !pass_straight(ray, p)) return false;
         vertex = vertex_at(p, luxels.surfaces.shading_normal(p));
         return true;
     }
-    /// The same of a camera ray: the vertex is a luxel.
-    [[nodiscard]] MIR_HD_CALL bool hit_luxel(const Ray& ray, PathVertex& vertex) const {
+    /// The same of a camera ray: the vertex x1 of a path, which is a luxel, and the path's `eye`
+    /// and `chain`.
+    [[nodiscard]] MIR_HD_CALL bool hit_luxel(const Ray& ray, Path& path, PathVertex& vertex) const {
         const SeenLuxel seen = luxels(ray);
         if (seen.is_background) return false;
         vertex = vertex_at(seen.point, luxels.normal(seen));
+        path.eye = seen.ray.origin;
+        path.chain = seen.reflection;
         return true;
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.
@@ -88,6 +94,25 @@ struct PathWorld {
     }
 
  private:
+    /// Goes straight on through what is seen through. False when the ray leaves the scene, or ends
+    /// on glass.
+    [[nodiscard]] MIR_HD bool pass_straight(Ray ray, SurfacePoint& p) const {
+        RayNumbers numbers(ray);
+        for (std::uint32_t events = 0; luxels.surfaces.is_specular(p.material); ++events) {
+            const VertexAttributes at = attributes_of(p);
+            const MaterialFactors factors = luxels.surfaces.factors(p.material, at);
+            const float cosine = -glm::dot(ray.direction, p.geometric_normal);
+            const float passed = luminance(
+                straight_transmittance(factors, luxels.surfaces.coverage(p.material, at), cosine));
+            if (!(numbers.next() < passed))
+                return factors.transmission == 0.0f || factors.metallic == 1.0f;
+            if (events == SpecularTracer<R, S, B>::longest) return false;
+            ray.origin =
+                lift(p.position, -p.geometric_normal, larger(p.offset, least_offset(p.position)));
+            if (!find_point(luxels.caster, ray, p)) return false;
+        }
+        return true;
+    }
     [[nodiscard]] MIR_HD static PathVertex vertex_at(const SurfacePoint& p, Vec3 shading_normal) {
         return {lift(p),        p.geometric_normal, shading_normal,
                 p.barycentrics, p.triangle,         p.material};

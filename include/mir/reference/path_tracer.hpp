@@ -17,6 +17,14 @@
 
 namespace mir {
 
+/// Which paths, by their first edge behind the luxel. VPLs and light samples bring those where it
+/// is straight.
+enum class PathPart {
+    all,       ///< every path
+    gathered,  ///< no mirror and no body of glass lies on it
+    residual   ///< one does
+};
+
 /// How paths are traced; the estimator is described in docs/reference.md.
 struct PathTracerOptions {
     LightSearch light = LightSearch::mis;  ///< how lamps and environment are found
@@ -33,6 +41,7 @@ struct PathTracerOptions {
     float bound = std::numeric_limits<float>::max();
     BoundPart part = BoundPart::kept;  ///< `removed`: the light that the bound takes, alone
     bool bound_lamps = false;          ///< direct light of emissive triangles is bounded too
+    PathPart paths = PathPart::all;    ///< which of them are wanted
 };
 
 /// Unidirectional path tracer with next-event estimation, the reference of other estimators.
@@ -93,13 +102,19 @@ class PathTracer {
     [[nodiscard]] std::uint32_t directions_at(std::uint32_t bounce) const;
     [[nodiscard]] Rgb sampled_light(const Vertex& at, std::uint32_t bounce, Random& random) const;
     [[nodiscard]] Rgb light_sample(const Vertex& at, std::uint32_t bounce, Random& random) const;
+    [[nodiscard]] SpecularEnd met_along(const Walk& walk, Vec3 direction, Random& random) const;
     [[nodiscard]] Rgb found_light(const Walk& walk, const BsdfSample& sample,
-                                  const SurfacePoint& point, const Vertex& next) const;
+                                  const SpecularEnd& met, const Vertex& next) const;
     [[nodiscard]] std::optional<SurfacePoint> next_point(const Walk& walk, Vec3 direction) const;
     [[nodiscard]] Rgb environment_sample(const Vertex& at, std::uint32_t bounce,
                                          Random& random) const;
-    [[nodiscard]] Rgb found_environment(const Walk& walk, const BsdfSample& sample) const;
+    [[nodiscard]] Rgb found_environment(const Walk& walk, const BsdfSample& sample,
+                                        const SpecularEnd& met) const;
     [[nodiscard]] bool is_all_wanted(std::uint32_t bounce) const;
+    [[nodiscard]] bool is_wanted(const SpecularEnd& met) const {
+        return options_.paths == PathPart::all ||
+               met.is_straight == (options_.paths == PathPart::gathered);
+    }
     bool advance(Walk& walk, Random& random, std::span<RgbSum> bounces) const;
     static RgbSum& sum_of(std::span<RgbSum> bounces, std::uint32_t bounce) {
         return bounces[std::min<std::size_t>(bounce, bounces.size() - 1)];
@@ -142,9 +157,10 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 void PathTracer<B, R, V, Rules>::trace(const Vertex& first, Random& random,
                                        std::span<RgbSum> bounces) const {
-    bounces[0] += first.surface.emission * split_.unbounded();
+    const bool has_rest = options_.paths != PathPart::residual;
+    if (has_rest) bounces[0] += first.surface.emission * split_.unbounded();
     if (is_empty(first.hit) || B::is_black(first.surface.bsdf)) return;
-    bounces[1] += sampled_light(first, 1, random);
+    if (has_rest) bounces[1] += sampled_light(first, 1, random);
     const float share = 1.0f / static_cast<float>(options_.directions);
     for (std::uint32_t i = 0; i < options_.directions; ++i) {
         Walk walk{first, share};
@@ -168,6 +184,21 @@ std::optional<SurfacePoint> PathTracer<B, R, V, Rules>::next_point(const Walk& w
     return world_.caster.closest_hit(ray);
 }
 
+/// Where a path goes on to. The end of a specular chain, or the first surface.
+template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+SpecularEnd PathTracer<B, R, V, Rules>::met_along(const Walk& walk, Vec3 direction,
+                                                  Random& random) const {
+    SpecularEnd met;
+    met.ray = {walk.at.hit.position, direction};
+    if (const auto point = next_point(walk, direction)) {
+        met.point = *point;
+        met.is_background = false;
+        SpecularTracer{world_.caster, world_.surfaces.view()}.follow(met, Transport::radiance,
+                                                                     random);
+    }
+    return met;
+}
+
 /// One edge further: false when the path is over.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
@@ -183,20 +214,24 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
         B::sample(surface.bsdf, surface.normal, surface.wo, uv, random.next());
     walk.throughput = walk.throughput * sample.weight;
     if (is_black(walk.throughput) || !(glm::dot(sample.wi, hit.normal) > 0.0f)) return false;
-    const auto point = next_point(walk, sample.wi);
-    if (!point) {
+    const SpecularEnd met = met_along(walk, sample.wi, random);
+    if (walk.bounce == 1 && !is_wanted(met)) return false;
+    if (met.is_background) {
         sum_of(bounces, walk.bounce) +=
-            walk.throughput * found_environment(walk, sample) * walk.share;
+            walk.throughput * found_environment(walk, sample, met) * walk.share;
         return false;
     }
 
-    const Vertex next{{lift(*point), point->geometric_normal},
-                      world_.surfaces.surface(*point, -sample.wi)};
-    const Rgb found = found_light(walk, sample, *point, next);
+    Vertex next{LuxelTracer<R, Space::host, B>::hit(met),
+                world_.surfaces.surface(met.point, -met.ray.direction)};
+    luxels_.weaken(met, next.surface);
+    const Rgb found = found_light(walk, sample, met, next);
     sum_of(bounces, walk.bounce) += walk.throughput * found * walk.share;
     if (last || B::is_black(next.surface.bsdf)) return false;
     if (walk.bounce == 1)
-        walk.throughput = walk.throughput * split_.reflected(hit, surface.normal, next.hit);
+        walk.throughput =
+            walk.throughput * (met.is_straight ? split_.reflected(hit, surface.normal, next.hit)
+                                               : split_.unbounded());
     if (is_black(walk.throughput)) return false;
     walk.at = next;
     ++walk.bounce;
@@ -281,21 +316,25 @@ Rgb PathTracer<B, R, V, Rules>::environment_sample(const Vertex& at, std::uint32
 
 /// Weighted radiance of the environment that a direction escaped to, W m^-2 sr^-1.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::found_environment(const Walk& walk,
-                                                  const BsdfSample& sample) const {
+Rgb PathTracer<B, R, V, Rules>::found_environment(const Walk& walk, const BsdfSample& sample,
+                                                  const SpecularEnd& met) const {
+    if (environment_.empty() || !is_all_wanted(walk.bounce)) return {};
+    const Rgb radiance = environment_.radiance(met.ray.direction) * met.light;
+    if (!met.is_straight) return radiance;
     const std::uint32_t directions = directions_at(walk.bounce);
-    if (environment_.empty() || directions == 0 || !is_all_wanted(walk.bounce)) return {};
-    const Rgb radiance = environment_.radiance(sample.wi);
-    const float sampled =
-        static_cast<float>(light_samples_at(walk.bounce)) * environment_.density(radiance);
+    if (directions == 0) return {};
+    const float sampled = static_cast<float>(light_samples_at(walk.bounce)) *
+                          environment_.density(environment_.radiance(sample.wi));
     return radiance * Rules::mis(static_cast<float>(directions) * sample.pdf, sampled);
 }
 
 /// Weighted emission of what a direction met, W m^-2 sr^-1.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 Rgb PathTracer<B, R, V, Rules>::found_light(const Walk& walk, const BsdfSample& sample,
-                                            const SurfacePoint& point, const Vertex& next) const {
+                                            const SpecularEnd& met, const Vertex& next) const {
     const auto& [hit, surface] = walk.at;
+    if (!met.is_straight) return next.surface.emission * split_.unbounded();
+    const SurfacePoint& point = met.point;
     const std::uint32_t directions = directions_at(walk.bounce);
     const float share = walk.bounce == 1 ? split_.emitted(hit, surface.normal, next.hit) : 1.0f;
     const Rgb emission = next.surface.emission * share;

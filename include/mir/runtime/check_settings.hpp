@@ -27,6 +27,7 @@ inline void check_removed(const RenderSettings& s) {
     expects(!s.removed_layer || s.integrator == Integrator::vpl,
             "only the light of VPLs has a bound that removes some of it (there is none to show); "
             "leave the layer out or use --integrator vpl");
+    expects(s.caustics <= 65536, "light paths per pixel for caustics must be 0 to 65536");
     if (s.compensate == 0) return;
     expects(s.compensate <= 65536, "paths per pixel that trace back light must be 0 to 65536");
     expects(s.integrator == Integrator::vpl,

@@ -68,11 +68,13 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
     all.camera_paths += pass.camera_paths;
     all.contributions += pass.contributions;
     all.residual_paths += pass.residual_paths;
+    all.caustic_paths += pass.caustic_paths;
     all.states += pass.states;
     for (double RenderStatistics::*mean :
          {&RenderStatistics::path_luminance, &RenderStatistics::dropped_share,
           &RenderStatistics::indirect_luminance, &RenderStatistics::removed_luminance,
-          &RenderStatistics::residual_luminance, &RenderStatistics::vsl_radius})
+          &RenderStatistics::residual_luminance, &RenderStatistics::caustic_luminance,
+          &RenderStatistics::vsl_radius})
         all.*mean = detail::mean_with(all.*mean, pass.*mean, earlier);
     for (float RenderStatistics::*share :
          {&RenderStatistics::non_lambertian_share, &RenderStatistics::widened_share})

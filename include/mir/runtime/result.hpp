@@ -45,6 +45,8 @@ struct RenderStatistics {
     double vsl_radius = 0.0;           ///< mean radius of spherical lights, m; 0: points
     std::uint64_t residual_paths = 0;  ///< that traced back what the bound removed
     double residual_luminance = 0.0;   ///< mean over luxels of what they found
+    std::uint64_t caustic_paths = 0;   ///< light paths that brought caustics
+    double caustic_luminance = 0.0;    ///< mean over luxels of what they brought, W m^-2 sr^-1
     std::optional<ShareEstimate> removed;  ///< by the bound, by paths, where measured
     std::optional<ShareEstimate> cut;      ///< by the largest bounce, where measured
     std::optional<double> direct_noise;    ///< of a pixel, relative, where measured

@@ -190,6 +190,9 @@ struct RenderSettings {
     /// Paths per pixel that trace back what the bound removed. They are shared out among its
     /// luxels, at least one each; 0: none, so that this light is missing.
     std::uint32_t compensate = 0;
+    /// Light paths per pixel that bring what mirrors and glass throw on surfaces; 0: that is left
+    /// out. Integrator::vpl alone, and only where a scene has mirrors or glass.
+    std::uint32_t caustics = 4;
     VslSettings vsl{};                                     ///< a choice instead of `bound`
     GlossySettings glossy{};                               ///< else all VPLs are Lambertian
     Filter filter = default_filter(FilterKind::gaussian);  ///< from luxels to pixels

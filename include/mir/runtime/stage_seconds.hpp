@@ -25,6 +25,7 @@ struct StageSeconds {
     double gather = 0.0;          ///< light from discs
     double light_budget = 0.0;    ///< measuring noise, what VPLs leave out, discs differ by
     double residual = 0.0;        ///< tracing that back
+    double caustics = 0.0;        ///< light paths through mirrors and glass
     double film = 0.0;            ///< filtering
     double guides = 0.0;          ///< albedo, normal, position and depth
     double download = 0.0;        ///< finished pictures from the backend's memory
@@ -45,7 +46,7 @@ struct RenderStage {
 
 /// Every stage in the order in which a frame goes through them. What they take adds up to
 /// StageSeconds::total.
-inline constexpr std::array<RenderStage, 21> render_stages{
+inline constexpr std::array<RenderStage, 22> render_stages{
     {{"geometry", &StageSeconds::geometry, "geometry"},
      {"build", &StageSeconds::build, "acceleration structure"},
      {"upload", &StageSeconds::upload, "upload"},
@@ -62,6 +63,7 @@ inline constexpr std::array<RenderStage, 21> render_stages{
      {"gather", &StageSeconds::gather, "light of discs"},
      {"light_budget", &StageSeconds::light_budget, "light that is missing"},
      {"residual", &StageSeconds::residual, "light that was removed"},
+     {"caustics", &StageSeconds::caustics, "light of mirrors and glass"},
      {"film", &StageSeconds::film, "film"},
      {"guides", &StageSeconds::guides, "albedo and normals"},
      {"download", &StageSeconds::download, "download"},

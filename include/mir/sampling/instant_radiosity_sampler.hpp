@@ -3,8 +3,8 @@
 
 #include "mir/concepts/sampler.hpp"
 #include "mir/core/limits.hpp"
-#include "mir/sampling/light_path.hpp"
 #include "mir/sampling/light_path_options.hpp"
+#include "mir/sampling/light_walk.hpp"
 #include "mir/sampling/survivor_counts.hpp"
 
 #include <algorithm>
@@ -190,28 +190,20 @@ template <Bsdf B, RayCaster R>
 bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bounce,
                                                 float survival, PathNumbers& numbers,
                                                 Path& path) const {
-    const auto point = world_.caster.closest_hit(light.ray);
-    if (!point || is_black(light.power)) return false;
-    Arrival<B> at{*point, -light.ray.direction, light.power * (1.0f / survival)};
-    const SurfaceTableView<Space::host, B> surfaces = world_.surfaces.view();
-    at.point.shading_normal = surfaces.shading_normal(*point);
+    auto v = LightWalk<B, R>{world_.surfaces.view(), world_.caster}.next(light, numbers);
+    if (!v) return false;
+    v->at.power = v->at.power * (1.0f / survival);
     const Vec2 uv = numbers.next_2d();
-    const typename B::Params bsdf = surfaces.params(point->material, attributes_of(*point));
-    // What reflects alike in all directions does so below its shading normal, too.
-    const Vec3 n = surfaces.is_lambertian(point->material) ? at.point.geometric_normal
-                                                           : at.point.shading_normal;
-    const BsdfSample sample = B::sample(bsdf, n, at.towards_light, uv, numbers.next());
-    record(at, bsdf, sample, bounce, light.light_group, path);
+    const BsdfSample sample =
+        B::sample(v->bsdf, v->normal, v->at.towards_light, uv, numbers.next());
+    record(v->at, v->bsdf, sample, bounce, light.light_group, path);
 
     const std::uint16_t group = light.light_group;
-    light = scatter(at, sample, n);
+    light = scatter(v->at, sample, v->normal);
     light.light_group = group;
     const float roulette = numbers.next();
     if (options_.termination == Termination::levels) return true;
-    const float odds = smaller(max_channel(sample.weight), 1.0f);
-    if (!(roulette < odds)) return false;
-    light.power = light.power * (1.0f / odds);
-    return true;
+    return survives_roulette(light, sample.weight, roulette);
 }
 
 }  // namespace mir

@@ -35,14 +35,18 @@ struct AreaRays {
         return optics.ray(film, aspect, {0.5f, 0.5f});
     }
 
-    /// Footprint of a ray on the point that it sees, m^2. 0 where it leaves the scene. It is the
-    /// solid angle times d^2 / cos, the cosine kept above 0.1 so that a few grazing rays do not
+    /// Footprint of a camera ray on the point that it sees, m^2. 0 where it leaves the scene. It is
+    /// the solid angle times d^2 / cos, the cosine kept above 0.1 so that a few grazing rays do not
     /// decide.
-    [[nodiscard]] MIR_HD double area(const SeenLuxel& seen) const {
+    [[nodiscard]] MIR_HD double area(const Ray& camera, const SeenLuxel& seen) const {
         if (seen.is_background) return 0.0;
-        const auto& [ray, point, is_background] = seen;
-        const double axis = -static_cast<double>(glm::dot(ray.direction, back));
-        const double d2 = static_cast<double>(length_squared(point.position - ray.origin));
+        const Ray& ray = seen.ray;
+        const SurfacePoint& point = seen.point;
+        const double axis = -static_cast<double>(glm::dot(camera.direction, back));
+        const Vec3 edge = point.position - ray.origin;
+        const float length = glm::length(edge) + seen.before;
+        const float squared = seen.events == 0 ? length_squared(edge) : length * length;
+        const auto d2 = static_cast<double>(squared);
         const double cosine = -static_cast<double>(glm::dot(ray.direction, point.geometric_normal));
         return cell * axis * axis * axis * d2 / (cosine < 0.1 ? 0.1 : cosine);
     }
@@ -56,7 +60,10 @@ struct AreaPass {
     double* out = nullptr;  ///< AreaRays::count areas, m^2
 
     /// Ray i.
-    MIR_HD void operator()(std::uint32_t i) const { out[i] = rays.area(tracer(rays(i))); }
+    MIR_HD void operator()(std::uint32_t i) const {
+        const Ray ray = rays(i);
+        out[i] = rays.area(ray, tracer(ray));
+    }
 };
 
 template <class Tracer>
@@ -69,7 +76,7 @@ double visible_area(const Camera& camera, float aspect,
                     const LuxelTracer<R, Space::host, B>& tracer) {
     const AreaRays rays(camera, aspect);
     double area = 0.0;
-    for (std::uint32_t i = 0; i < AreaRays::count; ++i) area += rays.area(tracer(rays(i)));
+    for (std::uint32_t i = 0; i < AreaRays::count; ++i) area += rays.area(rays(i), tracer(rays(i)));
     return area;
 }
 

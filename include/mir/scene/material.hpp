@@ -4,6 +4,7 @@
 #include "mir/scene/material_factors.hpp"
 #include "mir/scene/texture.hpp"
 
+#include <limits>
 #include <string>
 
 namespace mir {
@@ -22,19 +23,32 @@ struct Material {
     bool emits_from_both_sides = false;  ///< the back with the front's radiance
     std::uint16_t light_group = 0;       ///< group that its light is counted in
     MaterialTextures textures;           ///< multiply what stands above, point by point
-    float alpha = 1.0f;         ///< 0..1, times that of textures.base_color; only masks use it
+    /// 0..1, times that of textures.base_color. Masks and blended materials use it.
+    float alpha = 1.0f;
     float alpha_cutoff = 0.0f;  ///< points with less alpha are not there; 0: all are
+    bool is_blended = false;    ///< alpha is the covered share of the surface (glTF: BLEND)
+    float transmission = 0.0f;  ///< MaterialFactors::transmission
+    bool is_thin = true;        ///< MaterialFactors::is_thin
+    /// Share of light that a body of it leaves after `attenuation_distance`, 0..1.
+    Rgb attenuation_color{1.0f, 1.0f, 1.0f};
+    float attenuation_distance = std::numeric_limits<float>::infinity();  ///< metres
 
     /// True when its emission is not black, whatever its texture.
     [[nodiscard]] bool emits() const { return !is_black(emission); }
     /// How it reflects without textures and vertex colours.
     [[nodiscard]] MaterialFactors factors() const {
-        return {base_color, metallic, roughness, specular, ior};
+        return {base_color, metallic, roughness, specular, ior, transmission, is_thin};
     }
     /// True when it may have holes.
     [[nodiscard]] bool is_masked() const { return alpha_cutoff > 0.0f; }
+    /// True when light may go straight through it somewhere without a change of direction.
+    [[nodiscard]] bool is_see_through() const {
+        return is_blended || (transmission > 0.0f && is_thin && metallic < 1.0f);
+    }
     /// True when it has no specular part. Textures do not change that, because they multiply.
-    [[nodiscard]] bool is_lambertian() const { return metallic == 0.0f && specular == 0.0f; }
+    [[nodiscard]] bool is_lambertian() const {
+        return metallic == 0.0f && specular == 0.0f && transmission == 0.0f;
+    }
 };
 
 /// Ideal diffuse material of the given reflectance, without emission.

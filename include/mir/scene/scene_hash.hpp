@@ -87,6 +87,9 @@ class SceneHash {
         }
         if (t.normal.is_set()) add(t.normal_scale);
         if (m.is_masked()) add_each(m.alpha, m.alpha_cutoff);
+        if (m.is_blended) add_each(m.is_blended, m.alpha);
+        if (m.transmission > 0.0f)
+            add_each(m.transmission, m.is_thin, m.attenuation_color, m.attenuation_distance);
     }
 
     void add_environment(const Environment& e) {

@@ -19,12 +19,20 @@ namespace mir {
 /// most 1.0025: over a rough lobe the mean of Schlick's convex term exceeds what the coupling takes
 /// away.
 struct CookTorrance {
-    /// Eight words, made by material_params() so that eval() divides by no constant.
+    static constexpr bool has_interface = true;  ///< smooth surfaces are mirrors
+
+    /// Eleven words, made by material_params() so that eval() divides by no constant.
     struct Params {
-        Rgb diffuse;         ///< base reflectance / (1 - F_avg), 0 for metals
-        Rgb f0;              ///< reflectance at normal incidence
-        float f90 = 0.0f;    ///< reflectance at grazing incidence; 0: no interface, pure Lambert
-        float alpha = 1.0f;  ///< GGX width, roughness squared
+        Rgb diffuse;       ///< base reflectance / (1 - F_avg), 0 for metals
+        Rgb f0;            ///< reflectance at normal incidence
+        float f90 = 0.0f;  ///< reflectance at grazing incidence; 0: no interface, pure Lambert
+        /// GGX width, roughness squared. 0: specular chains carry what the interface reflects, and
+        /// the rest is the base below it.
+        float alpha = 1.0f;
+        Rgb scale{1.0f, 1.0f, 1.0f};  ///< multiplies f: what a specular chain to the point leaves
+
+        /// True when the interface has a lobe of its own.
+        [[nodiscard]] MIR_HD bool has_lobe() const { return alpha > 0.0f; }
     };
 
     /// f(wi, wo), sr^-1, where `wi` lies above `n`. An interface reflects nothing below `n`.
@@ -64,12 +72,14 @@ struct CookTorrance {
         const float cos_o = dot<Rounding>(n, wo);
         const Rgb white{1.0f, 1.0f, 1.0f};
         const Rgb to_f90 = Rgb{p.f90, p.f90, p.f90} - p.f0;
-        const Rgb base = p.diffuse * inv_pi * (white - schlick<Rounding>(p.f0, to_f90, cos_o));
+        const Rgb base =
+            p.scale * p.diffuse * inv_pi * (white - schlick<Rounding>(p.f0, to_f90, cos_o));
+        const Rgb lobe = kept_if(p.has_lobe(), p.scale);
         return {n,
                 wo,
-                GgxOutgoing<Rounding>::of(cos_o, p.alpha),
-                p.f0,
-                to_f90 * 0x1p-5f,
+                GgxOutgoing<Rounding>::of(cos_o, p.has_lobe() ? p.alpha : 1.0f),
+                lobe * p.f0,
+                lobe * to_f90 * 0x1p-5f,
                 base * (white - p.f0),
                 base * (p.f0 - Rgb{p.f90, p.f90, p.f90})};
     }
@@ -87,7 +97,7 @@ struct CookTorrance {
     /// less across. None where the lobe is so wide that the cosine serves as well.
     MIR_HD static ReflectionLobe lobe(const Params& p, Vec3 n, Vec3 wo) {
         const float cos_o = glm::dot(n, wo);
-        const bool is_plain = p.f90 <= 0.0f && mir::is_black(p.f0);
+        const bool is_plain = !p.has_lobe() || (p.f90 <= 0.0f && mir::is_black(p.f0));
         if (is_plain || p.alpha > 0.5f || !(cos_o > 0.0f)) return {};
         const float k = 0.5f / (p.alpha * p.alpha * larger(cos_o, 0.05f));
         return {2.0f * cos_o * n - wo, smaller(k, ReflectionLobe::largest_sharpness)};
@@ -95,8 +105,23 @@ struct CookTorrance {
 
     /// True when nothing is reflected in any direction. No branches: loops over lanes ask it.
     MIR_HD static bool is_black(const Params& p) {
-        return (static_cast<int>(p.f90 == 0.0f) & static_cast<int>(mir::is_black(p.f0)) &
-                static_cast<int>(mir::is_black(p.diffuse))) != 0;
+        const int no_interface =
+            static_cast<int>(p.f90 == 0.0f) & static_cast<int>(mir::is_black(p.f0));
+        const int no_lobe = static_cast<int>(!p.has_lobe()) | no_interface;
+        return ((no_lobe & static_cast<int>(mir::is_black(p.diffuse))) |
+                static_cast<int>(mir::is_black(p.scale))) != 0;
+    }
+
+    /// Reflection `c` times as strong. The end of a specular chain that leaves `c` of the light
+    /// has it.
+    MIR_HD static Params scaled(Params p, Rgb c) {
+        p.scale = p.scale * c;
+        return p;
+    }
+    /// Without what the interface reflects: chains carry that.
+    MIR_HD static Params without_lobe(Params p) {
+        p.alpha = 0.0f;
+        return p;
     }
 
     /// Reflectance towards `wo` for guide images and samplers, 0..1. The diffuse base is exact, the
@@ -105,7 +130,8 @@ struct CookTorrance {
         const Rgb white{1.0f, 1.0f, 1.0f};
         const Rgb f = schlick(p, larger(glm::dot(n, wo), 0.0f));
         const Rgb mean = p.f0 * (20.0f / 21.0f) + white * (p.f90 / 21.0f);
-        return f + p.diffuse * (white - mean) * (white - f);
+        const Rgb all = kept_if(p.has_lobe(), f) + p.diffuse * (white - mean) * (white - f);
+        return p.scale * all;
     }
 
     /// Schlick's Fresnel term between f0 and f90.
@@ -132,7 +158,7 @@ struct CookTorrance {
     /// Probability with which sample() picks the specular lobe. It is the lobe's share of the
     /// reflected light, kept away from 0 and 1 while both lobes exist.
     MIR_HD static float specular_share(const Params& p, float cos_o) {
-        if (p.f90 <= 0.0f && mir::is_black(p.f0)) return 0.0f;
+        if (!p.has_lobe() || (p.f90 <= 0.0f && mir::is_black(p.f0))) return 0.0f;
         const float s = luminance(schlick(p, cos_o));
         const float d = luminance(p.diffuse) * (1.0f - s);
         if (mir::is_black(p.diffuse)) return 1.0f;

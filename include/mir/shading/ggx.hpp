@@ -3,12 +3,9 @@
 
 #include "mir/core/rounding.hpp"
 #include "mir/core/unit_circle.hpp"
+#include "mir/scene/see_through.hpp"
 
 namespace mir {
-
-/// Smallest GGX width. Below it a cosine in single precision loses the shape of the lobe (here D is
-/// off by 0.7 % at worst, at 1e-3 by 12 %).
-inline constexpr float min_ggx_alpha = 4e-3f;
 
 /// GGX distribution of microfacet normals, per steradian: int D cos(theta_h) dw = 1.
 /// Source: Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007.
@@ -103,14 +100,20 @@ MIR_HD inline float ggx_reflection_pdf(float cos_o, float cos_h, float alpha) {
     return ggx_g1(cos_o, alpha) * ggx_d(smaller(cos_h, 1.0f), alpha) / (4.0f * cos_o);
 }
 
-/// Mirrors `wo` at a microfacet normal drawn among those visible from it. Local frame, n = +z.
-/// Source: Dupuy and Benyoub, "Sampling visible GGX normals with spherical caps", HPG 2023.
-MIR_HD inline Vec3 ggx_sample_reflection(Vec3 wo, float alpha, Vec2 u) {
+/// A microfacet normal drawn among those visible from `wo`. Local frame, n = +z. Its density is
+/// G1(wo) (wo.h) D(h) / wo.n. Source: Dupuy and Benyoub, "Sampling visible GGX normals with
+/// spherical caps", HPG 2023.
+MIR_HD inline Vec3 ggx_sample_normal(Vec3 wo, float alpha, Vec2 u) {
     const Vec3 stretched = glm::normalize(Vec3(alpha * wo.x, alpha * wo.y, wo.z));
     const float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
     const float s = sqrtf(smaller(larger(1.0f - z * z, 0.0f), 1.0f));
     const Vec3 half = Vec3(s * unit_circle(u.x), z) + stretched;
-    const Vec3 h = glm::normalize(Vec3(alpha * half.x, alpha * half.y, larger(half.z, 0.0f)));
+    return glm::normalize(Vec3(alpha * half.x, alpha * half.y, larger(half.z, 0.0f)));
+}
+
+/// Mirrors `wo` at a microfacet normal drawn among those visible from it. Local frame, n = +z.
+MIR_HD inline Vec3 ggx_sample_reflection(Vec3 wo, float alpha, Vec2 u) {
+    const Vec3 h = ggx_sample_normal(wo, alpha, u);
     return 2.0f * glm::dot(wo, h) * h - wo;
 }
 

@@ -10,6 +10,8 @@ namespace mir {
 
 /// Ideal diffuse reflection: f = reflectance / pi, sr^-1. Model of Bsdf.
 struct Lambert {
+    static constexpr bool has_interface = false;  ///< opaque surfaces mirror nothing
+
     /// Three words per surface point.
     struct Params {
         Rgb reflectance;  ///< hemispherical albedo, 0..1
@@ -28,6 +30,12 @@ struct Lambert {
 
     /// True when nothing is reflected in any direction.
     MIR_HD static bool is_black(const Params& p) { return mir::is_black(p.reflectance); }
+
+    /// Reflection `c` times as strong. The end of a specular chain that leaves `c` of the light
+    /// has it.
+    MIR_HD static Params scaled(const Params& p, Rgb c) { return {p.reflectance * c}; }
+    /// The same parameters: there is no interface.
+    MIR_HD static Params without_lobe(const Params& p) { return p; }
 
     /// Hemispherical reflectance.
     MIR_HD static Rgb albedo(const Params& p, Vec3 /*n*/, Vec3 /*wo*/) { return p.reflectance; }

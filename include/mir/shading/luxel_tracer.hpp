@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/concepts/ray_caster.hpp"
 #include "mir/data/luxel.hpp"
+#include "mir/data/specular_plan.hpp"
 #include "mir/scene/environment_view.hpp"
+#include "mir/shading/ray_numbers.hpp"
+#include "mir/shading/specular_tracer.hpp"
 #include "mir/shading/surface_table_view.hpp"
 
 namespace mir {
 
-/// What a camera ray sees first: a point of a surface, or the background.
-struct SeenLuxel {
-    Ray ray;                    ///< that met the point, or that left the scene
-    SurfacePoint point;         ///< means nothing where the background is seen
-    bool is_background = true;  ///< the ray met no surface
-};
+/// What a camera ray sees: a point of a surface, or the background. It may lie behind glass or in a
+/// mirror. `ray` is the last edge then, so that the viewer seems to stand where it begins.
+using SeenLuxel = SpecularEnd;
 
 /// Says what camera rays see; all that asks goes through here.
 ///
@@ -32,16 +31,23 @@ struct LuxelTracer {
     SurfaceTableView<S, B> surfaces;  ///< materials and their textures
 
     /// What a camera ray sees.
-    [[nodiscard]] MIR_HD SeenLuxel operator()(const Ray& ray) const requires PointFinder<R> {
-        SurfacePoint point;
-        const bool is_found = find_point(caster, ray, point);
-        return {ray, point, !is_found};
+    [[nodiscard]] MIR_HD SeenLuxel
+    operator()(const Ray& ray, SpecularPlan plan = {}) const requires PointFinder<R> {
+        return seen_along(ray, plan);
     }
     /// The same by a caster that only the host asks.
-    [[nodiscard]] SeenLuxel operator()(const Ray& ray) const requires(!PointFinder<R>) {
-        SurfacePoint point;
-        const bool is_found = find_point(caster, ray, point);
-        return {ray, point, !is_found};
+    [[nodiscard]] SeenLuxel operator()(const Ray& ray, SpecularPlan plan = {}) const
+        requires(!PointFinder<R>) {
+        return seen_along(ray, plan);
+    }
+    /// What the luxel at (x, y) sees. Its ray is `rays(x, y)`, and `rays.specular_plan(x, y)`,
+    /// where there is one, what its chain begins with.
+    template <class Rays>
+    [[nodiscard]] MIR_HD SeenLuxel luxel(const Rays& rays, std::uint32_t x, std::uint32_t y) const {
+        if constexpr (requires { rays.specular_plan(x, y); })
+            return (*this)(rays(x, y), rays.specular_plan(x, y));
+        else
+            return (*this)(rays(x, y));
     }
 
     /// Place of what is seen, lifted off its surface; empty where that is the background.
@@ -55,12 +61,44 @@ struct LuxelTracer {
     /// Surface that is seen. Of the background it has the radiance as its emission and no more.
     [[nodiscard]] MIR_HD Surface surface(const SeenLuxel& seen,
                                          const EnvironmentView<S>& background = {}) const {
-        if (!seen.is_background) return surfaces.luxel_surface(seen.point, -seen.ray.direction);
-        Surface none{};
-        none.emission = background.radiance(seen.ray.direction);
-        return none;
+        Surface surface{};
+        if (seen.is_background)
+            surface.emission = background.radiance(seen.ray.direction);
+        else
+            surface = surfaces.luxel_surface(seen.point, -seen.ray.direction);
+        weaken(seen, surface);
+        return surface;
+    }
+    /// Gives the surface at the end of a chain what the chain leaves of its light and reflection.
+    MIR_HD void weaken(const SeenLuxel& seen, Surface& surface) const;
+
+ private:
+    /// A template, so that it is only made for the host where `R` is for the host alone.
+    template <class Along = Ray>
+    [[nodiscard]] MIR_HD SeenLuxel seen_along(const Along& ray, SpecularPlan plan) const {
+        SeenLuxel seen;
+        seen.ray = ray;
+        seen.is_background = !find_point(caster, ray, seen.point);
+        if (!seen.is_background && surfaces.is_specular(seen.point.material)) {
+            RayNumbers numbers(ray, plan.first);
+            SpecularTracer{caster, surfaces}.follow(seen, Transport::radiance, numbers, plan.least);
+        }
+        return seen;
     }
 };
+
+template <class R, Space S, Bsdf B>
+MIR_HD void LuxelTracer<R, S, B>::weaken(const SeenLuxel& seen, Surface& surface) const {
+    if constexpr (SpecularEndBsdf<B>) {
+        const SurfacePoint& p = seen.point;
+        const bool ends_specular = !seen.is_background && surfaces.is_specular(p.material);
+        if (seen.events == 0 && !ends_specular) return;
+        surface.emission = surface.emission * seen.light;
+        if (ends_specular && surfaces.is_inside_body(p.material, p.front))
+            surface.bsdf = B::without_lobe(surface.bsdf);
+        surface.bsdf = B::scaled(surface.bsdf, seen.reflection);
+    }
+}
 template <class R, Space S, class B>
 LuxelTracer(R, SurfaceTableView<S, B>) -> LuxelTracer<R, S, B>;
 

@@ -8,10 +8,12 @@
 namespace mir {
 
 /// A scene material in the parameters of a Bsdf. Overloaded per model by a tag of its type.
-inline Lambert::Params material_params(const Material& m, Lambert) { return {m.base_color}; }
+inline Lambert::Params material_params(const Material& m, Lambert) {
+    return {m.base_color * (1.0f - m.transmission)};
+}
 /// The same for one point of a textured material. A Bsdf without such an overload sees no textures.
 MIR_HD inline Lambert::Params material_params(const MaterialFactors& m, Lambert) {
-    return {m.base_color};
+    return {m.base_color * (1.0f - m.transmission)};
 }
 
 /// Metallic-roughness parameters (glTF 2.0, appendix B). With `metallic`, f0 runs from
@@ -28,7 +30,8 @@ MIR_HD inline CookTorrance::Params material_params(const MaterialFactors& m, Coo
     // Cosine-weighted mean of Schlick's term: F_avg = f0 + (f90 - f0) / 21.
     const auto base = [&](float color, float f0) {
         const float mean = f0 + (p.f90 - f0) / 21.0f;
-        return mean < 1.0f ? color * (1.0f - m.metallic) / (1.0f - mean) : 0.0f;
+        const float diffuse = color * (1.0f - m.metallic) * (1.0f - m.transmission);
+        return mean < 1.0f ? diffuse / (1.0f - mean) : 0.0f;
     };
     p.diffuse = {base(m.base_color.r, p.f0.r), base(m.base_color.g, p.f0.g),
                  base(m.base_color.b, p.f0.b)};

@@ -7,6 +7,8 @@
 #include "mir/shading/mean_factors.hpp"
 #include "mir/shading/surface_table_view.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -22,10 +24,13 @@ class SurfaceTable {
 
     /// @throws Error(invalid_input) as TextureTable does.
     explicit SurfaceTable(const Scene& scene) : textures_(scene) {
-        for (const Material& m : scene.materials)
-            entries_.push_back({material_params(m, B{}), m.emission, m.emits_from_both_sides,
+        for (const Material& m : scene.materials) {
+            bends_rays_ = bends_rays_ || bends_rays(scene, m);
+            entries_.push_back({specular_end_params<B>(m), m.emission, m.emits_from_both_sides,
                                 lobe_share(scene, m), mean_albedo(scene, m), m.factors(),
-                                m.textures});
+                                m.textures, is_specular(scene, m), m.is_blended, m.alpha,
+                                absorption(m)});
+        }
     }
 
     /// What kernels on the host read; valid until the table is moved or ends.
@@ -54,12 +59,44 @@ class SurfaceTable {
     [[nodiscard]] float mean_albedo(std::uint32_t material) const {
         return entries_[material].mean_albedo;
     }
+    /// True when some material mirrors rays or lets them through in another direction.
+    [[nodiscard]] bool bends_rays() const { return bends_rays_; }
     /// True when a material reflects alike in all directions (Material::is_lambertian()).
     [[nodiscard]] bool is_lambertian(std::uint32_t material) const {
         return view().is_lambertian(material);
     }
 
  private:
+    /// Whether some of what it reflects, or lets through, goes in one direction.
+    static bool is_specular(const Scene& scene, const Material& m) {
+        return SpecularEndBsdf<B> && (m.is_blended || bends_rays(scene, m));
+    }
+    /// Whether some of it goes on in one direction that is not that of before.
+    static bool bends_rays(const Scene& scene, const Material& m) {
+        bool mirrors = false;
+        if constexpr (SpecularEndBsdf<B>) mirrors = B::has_interface;
+        if (m.transmission > 0.0f && m.metallic < 1.0f) return true;
+        const bool reflects = m.metallic > 0.0f || m.specular > 0.0f;
+        return mirrors && reflects && is_smooth(m.roughness * least_green(scene, m));
+    }
+    /// Smallest value that the texture of a material multiplies its roughness by, 0..1.
+    static float least_green(const Scene& scene, const Material& m) {
+        const Texture& texture = m.textures.metallic_roughness;
+        if (!texture.is_set() || is_smooth(m.roughness)) return 1.0f;
+        std::uint32_t least = 255;
+        for (const std::uint32_t texel : scene.images[texture.image].texels)
+            least = std::min(least, texel >> 8 & 0xffu);
+        return static_cast<float>(least) / 255.0f;
+    }
+    /// Source: KHR_materials_volume: attenuation_color is what is left after the distance.
+    static Rgb absorption(const Material& m) {
+        if (m.is_thin || !std::isfinite(m.attenuation_distance)) return {};
+        const auto channel = [&](float left) {
+            return -std::log(larger(left, 1e-6f)) / m.attenuation_distance;
+        };
+        const Rgb& left = m.attenuation_color;
+        return {channel(left.r), channel(left.g), channel(left.b)};
+    }
     static float mean_albedo(const Scene& scene, const Material& m) {
         return smaller(typical_albedo(material_params(mean_factors(scene, m), CookTorrance{})),
                        1.0f);
@@ -78,6 +115,7 @@ class SurfaceTable {
         return luminance(CookTorrance::albedo(p, n, wo));
     }
 
+    bool bends_rays_ = false;
     TextureTable textures_;
     std::vector<SurfaceEntry<B>> entries_;
 };

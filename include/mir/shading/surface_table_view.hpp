@@ -6,6 +6,7 @@
 #include "mir/core/space.hpp"
 #include "mir/data/luxel.hpp"
 #include "mir/scene/geometry_view.hpp"
+#include "mir/scene/see_through.hpp"
 #include "mir/scene/texture_view.hpp"
 #include "mir/shading/material_params.hpp"
 
@@ -20,6 +21,16 @@ concept TexturedBsdf = Bsdf<B> && requires(const MaterialFactors& factors) {
     { material_params(factors, B{}) } -> std::same_as<typename B::Params>;
 };
 
+/// What chains leave to the Bsdf of a material: all of it but the lobes that are no wider than a
+/// direction.
+template <Bsdf B, class M>
+[[nodiscard]] MIR_HD typename B::Params specular_end_params(const M& material) {
+    const typename B::Params p = material_params(material, B{});
+    if constexpr (SpecularEndBsdf<B>)
+        if (is_smooth(material.roughness)) return B::without_lobe(p);
+    return p;
+}
+
 /// One material in the parameters of a Bsdf.
 template <Bsdf B>
 struct SurfaceEntry {
@@ -31,6 +42,10 @@ struct SurfaceEntry {
     float mean_albedo = 0.0f;     ///< luminance of the reflectance at a typical angle, 0..1
     MaterialFactors factors{};    ///< what textures multiply
     MaterialTextures textures{};  ///< of the material; may be none
+    bool is_specular = false;     ///< rays may go on from it as specular chains
+    bool is_blended = false;      ///< Material::is_blended
+    float alpha = 1.0f;           ///< Material::alpha
+    Rgb absorption{};             ///< of a body of it, per metre
 };
 
 /// What kernels read of a SurfaceTable. A view; thread-safe.
@@ -75,6 +90,42 @@ struct SurfaceTableView {
         if (glm::dot(bent, wo) > 0.0f) return bent;
         return glm::dot(p.shading_normal, wo) > 0.0f ? p.shading_normal : p.geometric_normal;
     }
+    /// True when rays that meet the material may go on as specular chains. Never of a model that
+    /// cannot stand at their end.
+    [[nodiscard]] MIR_HD bool is_specular(std::uint32_t material) const {
+        if constexpr (SpecularEndBsdf<B>)
+            return entries[material].is_specular;
+        else
+            return false;
+    }
+    /// The material at a point with these attributes, textures and vertex colours included.
+    [[nodiscard]] MIR_HD MaterialFactors factors(std::uint32_t material,
+                                                 const VertexAttributes& at) const {
+        return factors(entries[material], at);
+    }
+    /// Share of the surface that a blended material covers there, 0..1; 1 of others.
+    [[nodiscard]] MIR_HD float coverage(std::uint32_t material, const VertexAttributes& at) const {
+        const SurfaceEntry<B>& e = entries[material];
+        if (!e.is_blended) return 1.0f;
+        const Texture& base = e.textures.base_color;
+        if (!base.is_set()) return e.alpha;
+        return e.alpha * textures.look_up(base, at.texture_coordinates, TexelEncoding::linear).w;
+    }
+    /// True for what is inside of a body: there chains carry the lobe of a rough surface, too.
+    [[nodiscard]] MIR_HD bool is_inside_body(std::uint32_t material, bool front) const {
+        const MaterialFactors& f = entries[material].factors;
+        return !front && !f.is_thin && f.transmission > 0.0f && f.metallic < 1.0f;
+    }
+    /// True where the side of a point that is met emits light.
+    [[nodiscard]] MIR_HD bool shines(const SurfacePoint& p) const {
+        const SurfaceEntry<B>& e = entries[p.material];
+        return (p.front || e.both_sides) && !is_black(e.emission);
+    }
+    /// What a body of the material absorbs, per metre.
+    [[nodiscard]] MIR_HD Rgb absorption(std::uint32_t material) const {
+        return entries[material].absorption;
+    }
+
     /// True when the material reflects alike in all directions (Material::is_lambertian()).
     [[nodiscard]] MIR_HD bool is_lambertian(std::uint32_t material) const {
         return entries[material].lobe_share == 0.0f;
@@ -108,7 +159,7 @@ MIR_HD typename B::Params SurfaceTableView<S, B>::params(std::uint32_t material,
     if constexpr (TexturedBsdf<B>) {
         const bool is_white = at.color.r == 1.0f && at.color.g == 1.0f && at.color.b == 1.0f;
         if (!is_white || e.textures.changes_reflection())
-            return material_params(factors(e, at), B{});
+            return specular_end_params<B>(factors(e, at));
     }
     return e.params;
 }

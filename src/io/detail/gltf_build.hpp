@@ -94,6 +94,7 @@ class GltfBuilder {
         to.doubleSided = from.emits_from_both_sides;
         auto& pbr = to.pbrMetallicRoughness;
         pbr.baseColorFactor = {from.base_color.r, from.base_color.g, from.base_color.b, from.alpha};
+        if (from.is_blended) to.alphaMode = "BLEND";
         if (from.is_masked()) {
             to.alphaMode = "MASK";
             to.alphaCutoff = from.alpha_cutoff;
@@ -114,8 +115,24 @@ class GltfBuilder {
                    {{"specularFactor", number(from.specular)}});
         if (from.ior != 1.5f)
             extend(to.extensions, "KHR_materials_ior", {{"ior", number(from.ior)}});
+        transmission(from, to);
         keep_group(from.light_group, to.extras);
         use_textures(from, to);
+    }
+
+    void transmission(const Material& from, tinygltf::Material& to) {
+        if (from.transmission > 0.0f)
+            extend(to.extensions, "KHR_materials_transmission",
+                   {{"transmissionFactor", number(from.transmission)}});
+        if (from.is_thin) return;
+        Object volume{{"thicknessFactor", number(1.0)}};
+        if (std::isfinite(from.attenuation_distance)) {
+            const Rgb& left = from.attenuation_color;
+            volume["attenuationDistance"] = number(from.attenuation_distance);
+            volume["attenuationColor"] = tinygltf::Value(
+                tinygltf::Value::Array{number(left.r), number(left.g), number(left.b)});
+        }
+        extend(to.extensions, "KHR_materials_volume", std::move(volume));
     }
 
     void use_textures(const Material& from, tinygltf::Material& to) {

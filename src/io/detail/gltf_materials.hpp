@@ -28,7 +28,7 @@ class GltfMaterials {
         to.emits_from_both_sides = from.doubleSided;
         to.light_group = light_group_of(from.extras, place_);
         base(from.pbrMetallicRoughness, to);
-        mask(from, to);
+        alpha(from, to);
         emission(from, to);
         for (const auto& [name, extension] : from.extensions) this->extension(name, extension, to);
         textures(from, to);
@@ -53,9 +53,11 @@ class GltfMaterials {
         to.roughness = unit(from.roughnessFactor, "roughnessFactor");
     }
 
-    void mask(const tinygltf::Material& from, Material& to) {
+    void alpha(const tinygltf::Material& from, Material& to) {
         if (from.alphaMode == "MASK")
             to.alpha_cutoff = checked_amount(from.alphaCutoff, "alphaCutoff", place_);
+        else if (from.alphaMode == "BLEND")
+            to.is_blended = true;
         else if (from.alphaMode != "OPAQUE")
             ignore("alphaMode " + from.alphaMode);
     }
@@ -79,6 +81,8 @@ class GltfMaterials {
         if (name == "KHR_materials_emissive_strength" || name == "KHR_materials_unlit") return;
         if (name == "KHR_materials_specular") return specular(value, to);
         if (name == "KHR_materials_ior") return ior(value, to);
+        if (name == "KHR_materials_transmission") return transmission(value, to);
+        if (name == "KHR_materials_volume") return volume(value, to);
         if (name == "KHR_materials_pbrSpecularGlossiness") return specular_glossiness(value, to);
         count_extension(name, report_);
     }
@@ -101,6 +105,35 @@ class GltfMaterials {
                                   "; no material is like that); repair the value");
         to.ior = 1.5f;
         ignore("KHR_materials_ior of 0 (taken as 1.5)");
+    }
+
+    void transmission(const tinygltf::Value& from, Material& to) {
+        to.transmission =
+            unit(number_or(from, "transmissionFactor", 0.0, place_), "transmissionFactor");
+        if (from.Has("transmissionTexture")) ignore("texture transmissionTexture");
+    }
+
+    /// How thick it is, rays find out; that it is thick, makes it a body.
+    void volume(const tinygltf::Value& from, Material& to) {
+        const double thickness = number_or(from, "thicknessFactor", 0.0, place_);
+        to.is_thin = !(checked_amount(thickness, "thicknessFactor", place_) > 0.0f);
+        if (from.Has("thicknessTexture")) ignore("texture thicknessTexture");
+        if (from.Has("attenuationDistance")) attenuation_distance(from, to);
+        const tinygltf::Value& color = from.Get("attenuationColor");
+        if (color.ArrayLen() < 3) return;
+        const auto channel = [&](int k) {
+            return unit(color.Get(k).GetNumberAsDouble(), "attenuationColor");
+        };
+        to.attenuation_color = {channel(0), channel(1), channel(2)};
+    }
+
+    void attenuation_distance(const tinygltf::Value& from, Material& to) {
+        to.attenuation_distance = checked_amount(
+            number_or(from, "attenuationDistance", 0.0, place_), "attenuationDistance", place_);
+        if (to.attenuation_distance > 0.0f) return;
+        gltf_fail(place_,
+                  "its attenuationDistance is 0 (no light would be left after no way at all); "
+                  "repair the value, or leave it out for a body that absorbs nothing");
     }
 
     /// Diffuse colour and glossiness carry over. The coloured reflectance at normal incidence has

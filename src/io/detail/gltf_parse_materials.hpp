@@ -51,6 +51,14 @@ inline tinygltf::Value parse_material_extension(const std::string& name, const G
         take_number(from, "emissiveStrength", to);
     } else if (name == "KHR_materials_ior") {
         take_number(from, "ior", to);
+    } else if (name == "KHR_materials_transmission") {
+        take_number(from, "transmissionFactor", to);
+        take_presence(from, "transmissionTexture", to);
+    } else if (name == "KHR_materials_volume") {
+        take_number(from, "thicknessFactor", to);
+        take_presence(from, "thicknessTexture", to);
+        take_number(from, "attenuationDistance", to);
+        take_numbers(from, "attenuationColor", 3, to);
     } else if (name == "KHR_materials_specular") {
         take_number(from, "specularFactor", to);
         take_numbers(from, "specularColorFactor", 3, to);

@@ -100,7 +100,7 @@ class ObjMaterials : public tinyobj::MaterialReader {
     [[nodiscard]] Material convert(MtlMaterial& from);
     void interface_of(MtlMaterial& from, Material& to);
     void textures_of(const MtlMaterial& from, Material& to);
-    static void note_transparency(MtlMaterial& from);
+    void transparency(MtlMaterial& from, Material& to);
     [[nodiscard]] Rgb factors(MtlMaterial::Numbers channels, const char* what, SceneReport& lost) {
         return {unit_factor(channels[0], what, place_, lost),
                 unit_factor(channels[1], what, place_, lost),
@@ -198,7 +198,7 @@ inline Material ObjMaterials::convert(MtlMaterial& from) {
                        checked_amount((*ke)[1], "Ke", place_),
                        checked_amount((*ke)[2], "Ke", place_)};
     interface_of(from, to);
-    note_transparency(from);
+    transparency(from, to);
     return to;
 }
 
@@ -242,22 +242,33 @@ inline void ObjMaterials::textures_of(const MtlMaterial& from, Material& to) {
     if (t.normal.is_set()) t.normal_scale = from.images.find("norm")->second.bump;
 }
 
-/// Counts a material once that light is meant to go through. By its opacity, by a filter that is
-/// not white, which exporters write for none, or by a model of glass. `d` counts before `Tr`. A
-/// model of surfaces that only catch shadows counts as well.
-inline void ObjMaterials::note_transparency(MtlMaterial& from) {
+/// Glass by its model, otherwise what is open by `d`, which counts before `Tr`. Models that refract
+/// are bodies, others sheets. A filter that is black is none: exporters write it for opaque
+/// materials, and glass would be opaque.
+inline void ObjMaterials::transparency(MtlMaterial& from, Material& to) {
+    const auto model = from.find("illum");
+    const auto is_model = [&](float number) { return model && (*model)[0] == number; };
+    if (is_model(10.0f)) ++from.lost.ignored["illum 10 (shadows on what is not seen)"];
+    const bool refracts = is_model(6.0f) || is_model(7.0f);
+    if (refracts || is_model(4.0f) || is_model(9.0f)) {
+        const Rgb filter =
+            factors(from.find("Tf").value_or(MtlMaterial::Numbers{1, 1, 1}), "Tf", from.lost);
+        to.base_color = is_black(filter) ? Rgb{1.0f, 1.0f, 1.0f} : filter;
+        to.transmission = 1.0f;
+        to.is_thin = !refracts;
+        to.metallic = 0.0f;
+        to.specular = 1.0f;
+        if (!from.has("Pr")) to.roughness = 0.0f;
+        return;
+    }
+    const MtlMaterial::Numbers white = {1.0f, 1.0f, 1.0f};
+    if (from.find("Tf").value_or(white) != white)
+        ++from.lost.ignored["Tf without a model of glass"];
     const auto d = from.find("d");
     const auto tr = from.find("Tr");
     const float opacity = d ? (*d)[0] : tr ? 1.0f - (*tr)[0] : 1.0f;
-    const auto model = from.find("illum");
-    const auto is_model = [&](float number) { return model && (*model)[0] == number; };
-    const bool glass = is_model(4.0f) || is_model(6.0f) || is_model(7.0f) || is_model(9.0f);
-    const MtlMaterial::Numbers white = {1.0f, 1.0f, 1.0f};
-    if (opacity < 1.0f)
-        ++from.lost.ignored["transparency (d, Tr)"];
-    else if (glass || from.find("Tf").value_or(white) != white)
-        ++from.lost.ignored["transparency (illum, Tf)"];
-    if (is_model(10.0f)) ++from.lost.ignored["illum 10 (shadows on what is not seen)"];
+    to.alpha = unit_factor(opacity, d ? "d" : "Tr", place_, from.lost);
+    to.is_blended = to.alpha < 1.0f;
 }
 
 }  // namespace mir::detail

@@ -94,6 +94,28 @@ inline std::vector<Extension> read_materials() {
             "lights what is around. A vertex colour multiplies it if a primitive has only one"),
         extension("KHR_materials_unlit", "vertex colours that differ", varied,
                   counted({"COLOR_0 of an unlit material"}, orange), "white"),
+        extension(
+            "KHR_materials_transmission", "`transmissionFactor`, `transmissionTexture`",
+            of_material("KHR_materials_transmission",
+                        {{"transmissionFactor", 0.5}, {"transmissionTexture", {{"index", 0}}}}),
+            counted({"texture transmissionTexture"}, material([](const mir::Material& m) {
+                        CHECK(m.transmission == 0.5f);
+                        CHECK(m.is_thin);
+                    })),
+            "the factor is read: glass, a sheet without `KHR_materials_volume`"),
+        extension("KHR_materials_volume",
+                  "`thicknessFactor`, `thicknessTexture`, `attenuationDistance`, "
+                  "`attenuationColor`",
+                  of_material("KHR_materials_volume", {{"thicknessFactor", 0.1},
+                                                       {"thicknessTexture", {{"index", 0}}},
+                                                       {"attenuationDistance", 2},
+                                                       {"attenuationColor", {1, 0.5, 0.25}}}),
+                  counted({"texture thicknessTexture"}, material([](const mir::Material& m) {
+                              CHECK_FALSE(m.is_thin);
+                              CHECK(m.attenuation_distance == 2.0f);
+                              CHECK(m.attenuation_color == mir::Rgb{1.0f, 0.5f, 0.25f});
+                          })),
+                  "a thickness above 0 makes glass a body; rays find how thick it is"),
         extension("KHR_materials_pbrSpecularGlossiness",
                   "`diffuseFactor`, `glossinessFactor`, `diffuseTexture`, "
                   "`specularGlossinessTexture`",
@@ -122,8 +144,6 @@ inline std::vector<Extension> counted_materials() {
         {"KHR_materials_dispersion", "colours of glass"},
         {"KHR_materials_iridescence", "thin films"},
         {"KHR_materials_sheen", "cloth"},
-        {"KHR_materials_transmission", "glass"},
-        {"KHR_materials_volume", "glass that absorbs"},
         {"KHR_materials_volume_scatter", "wax and milk"}};
     std::vector<Extension> all;
     for (const auto& [name, about] : names)

@@ -70,8 +70,14 @@ inline Features gltf_alpha() {
                 {with_material({{"alphaMode", "OPAQUE"}, {"alphaCutoff", 0.25}})},
                 without_effect(gltf([](Gltf&) {}))),
         feature("blending", "`alphaMode` BLEND", {with_material({{"alphaMode", "BLEND"}})},
-                counted({"alphaMode BLEND"},
-                        material([](const mir::Material& m) { CHECK_FALSE(m.is_masked()); })),
+                read(material([](const mir::Material& m) {
+                    CHECK_FALSE(m.is_masked());
+                    CHECK(m.is_blended);
+                })),
+                "alpha is the covered share of the surface"),
+        feature("any other mode", "`alphaMode`", {with_material({{"alphaMode", "HASH"}})},
+                counted({"alphaMode HASH"},
+                        material([](const mir::Material& m) { CHECK_FALSE(m.is_blended); })),
                 "opaque"),
     };
 }

@@ -86,8 +86,6 @@ inline Features mtl_colors() {
 
 inline Features mtl_models() {
     const auto is_matte = material([](const mir::Material& m) { CHECK(m.is_lambertian()); });
-    const std::string glass = "transparency (illum, Tf)";
-    const std::string thin = "transparency (d, Tr)";
     return {
         key("colour without highlights", "`illum` 0, 1", {"Ks 1\nillum 0", "Ks 1\nillum 1"},
             read(is_matte), "no interface, whatever `Ks` says"),
@@ -96,13 +94,18 @@ inline Features mtl_models() {
             read(material([](const mir::Material& m) { CHECK(m.specular == 1.0f); })),
             "by `Ks` and `Ns`"),
         key("glass", "`illum` 4, 6, 7, 9", {"illum 4", "illum 6", "illum 7", "illum 9"},
-            counted({glass}), "opaque"),
+            read(material([](const mir::Material& m) { CHECK(m.transmission == 1.0f); })),
+            "tinted by `Tf`, smooth without `Pr`; 6 and 7 are bodies, the others sheets"),
         key("surfaces that only catch shadows", "`illum` 10", {"illum 10"},
             counted({"illum 10 (shadows on what is not seen)"}), "seen like any other"),
         key("filter of what shines through", "`Tf`, `Kt`", {"Tf 0.5 1 1", "Kt 0.5 1 1"},
-            counted({glass}), "opaque; `1 1 1` means none"),
-        key("opacity, transparency", "`d`, `Tr`", {"d 0.5", "Tr 0.5", "d 0.5\nTr 0\nillum 4"},
-            counted({thin}), "opaque; once a material; `d` before `Tr`"),
+            counted({"Tf without a model of glass"}), "read of glass alone; `1 1 1` means none"),
+        key("opacity, transparency", "`d`, `Tr`", {"d 0.5", "Tr 0.5", "d 0.5\nTr 0"},
+            read(material([](const mir::Material& m) {
+                CHECK(m.is_blended);
+                CHECK(m.alpha == 0.5f);
+            })),
+            "the covered share; `d` before `Tr`; not of glass"),
         key("opacity that is full", "`d 1`, `Tr 0`", {"d 1", "Tr 0", "d 1\nTr 1"},
             without_effect(mtl(""))),
         key("opacity towards the rim", "`d -halo`", {"d -halo 1"}, counted({"MTL option '-halo'"}),

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/core/frame.hpp"
+#include "mir/shading/specular_surface.hpp"
+
+namespace mir {
+
+/// What a ray does at a surface where it may go on.
+enum class SpecularEvent : std::uint8_t {
+    stop,     ///< the surface is the end of the chain
+    pass,     ///< straight on
+    mirror,   ///< reflected
+    transmit  ///< to the other side in another direction
+};
+
+/// How events are drawn and weighed.
+struct SpecularRules {
+    Transport transport = Transport::radiance;  ///< what the chain carries
+    float least = 0.0f;  ///< smallest probability of an event that can be, 0..0.25
+};
+
+/// One event of a chain.
+struct SpecularStep {
+    SpecularEvent event = SpecularEvent::stop;  ///< drawn by specular_step()
+    Vec3 direction{0};                          ///< unit, where the ray goes on
+    /// Share of the event over its probability; at an end, of what the Bsdf is multiplied by.
+    Rgb weight{1.0f, 1.0f, 1.0f};
+    float probability = 1.0f;  ///< of the event, in (0, 1]
+};
+
+namespace detail {
+
+/// Probabilities of the events, in the ratio of their shares: all weights are alike then. None that
+/// can be is below `least`, for which the likeliest pays.
+struct SpecularOdds {
+    float stop = 0.0f;
+    float pass = 0.0f;
+    float mirror = 0.0f;
+    float transmit = 0.0f;
+
+    /// `rest` is what the Bsdf may be worth.
+    [[nodiscard]] MIR_HD static SpecularOdds of(const SpecularShares& shares, float rest,
+                                                float least) {
+        SpecularOdds o{rest, luminance(shares.pass), luminance(shares.mirrored),
+                       luminance(shares.transmitted)};
+        const float sum = o.stop + o.pass + o.mirror + o.transmit;
+        if (!(sum > 0.0f)) return {};
+        const auto odd = [=](float x) { return x > 0.0f ? larger(x / sum, least) : 0.0f; };
+        o = {odd(o.stop), odd(o.pass), odd(o.mirror), odd(o.transmit)};
+        const float paid = o.stop + o.pass + o.mirror + o.transmit - 1.0f;
+        float* likeliest = &o.stop;
+        for (float* other : {&o.pass, &o.mirror, &o.transmit})
+            if (*other > *likeliest) likeliest = other;
+        *likeliest -= paid;
+        return o;
+    }
+};
+
+/// Direction behind an interface of index `eta` with normal `n`, on the side of `wo`. Zero where
+/// all light is reflected.
+[[nodiscard]] MIR_HD inline Vec3 refracted(Vec3 wo, Vec3 n, float eta) {
+    const float cosine = glm::dot(wo, n);
+    const float sin2 = (1.0f - cosine * cosine) / (eta * eta);
+    if (sin2 >= 1.0f) return Vec3(0.0f);
+    return glm::normalize((cosine / eta - sqrtf(1.0f - sin2)) * n - wo / eta);
+}
+
+/// Direction of a mirror, or the mirrored one of the geometric normal where that runs into the
+/// surface.
+[[nodiscard]] MIR_HD inline Vec3 mirrored(const SpecularSurface& s, Vec3 h) {
+    const Vec3 w = 2.0f * glm::dot(s.wo, h) * h - s.wo;
+    if (glm::dot(w, s.geometric_normal) > 0.0f) return w;
+    return 2.0f * glm::dot(s.wo, s.geometric_normal) * s.geometric_normal - s.wo;
+}
+
+/// A transmitted direction through the microfacet `h`. A rough sheet spreads light as its lobe
+/// would reflect it, to the other side.
+[[nodiscard]] MIR_HD inline Vec3 transmitted(const SpecularSurface& s, Vec3 h) {
+    if (s.bounds_body()) return refracted(s.wo, h, s.eta());
+    const Vec3 w = 2.0f * glm::dot(s.wo, h) * h - s.wo;
+    return w - 2.0f * glm::dot(w, s.normal) * s.normal;
+}
+
+/// Turns a rough event: draws a microfacet and corrects the weight, which is that of the normal.
+template <class Numbers>
+MIR_HD void roughen(const SpecularSurface& s, Numbers& numbers, SpecularStep& step) {
+    const float alpha = s.factors.roughness * s.factors.roughness;
+    const Frame frame = Frame::around(s.normal);
+    const float u = numbers.next();
+    const Vec3 wo = frame.to_local(s.wo);
+    const Vec3 h = frame.to_world(ggx_sample_normal(wo, alpha, {u, numbers.next()}));
+    const bool is_mirror = step.event == SpecularEvent::mirror;
+    step.direction = is_mirror ? 2.0f * glm::dot(s.wo, h) * h - s.wo : transmitted(s, h);
+    const float cosine = glm::dot(step.direction, s.normal) * (is_mirror ? 1.0f : -1.0f);
+    const float there = glm::dot(step.direction, s.geometric_normal) * (is_mirror ? 1.0f : -1.0f);
+    if (!(cosine > 0.0f) || !(there > 0.0f)) {
+        step.weight = {};
+        return;
+    }
+    const float at_facet = s.dielectric(glm::dot(s.wo, h));
+    const float share = s.clear() * (is_mirror ? at_facet : 1.0f - at_facet);
+    const Rgb tint = is_mirror ? Rgb{1.0f, 1.0f, 1.0f} : s.factors.base_color;
+    step.weight = tint * (s.cover * share * ggx_g1(cosine, alpha) / step.probability);
+}
+
+}  // namespace detail
+
+/// Draws what a ray does at a surface, by the luminance of the shares. `albedo` is that of the
+/// Bsdf there, or what else the end of a chain is worth, 0..1. Numbers are drawn as they are
+/// needed: `numbers.next()` in [0, 1). Source of rough transmission: Walter et al., "Microfacet
+/// models for refraction through rough surfaces", EGSR 2007.
+template <class Numbers>
+[[nodiscard]] MIR_HD SpecularStep specular_step(const SpecularSurface& s, float albedo,
+                                                SpecularRules rules, Numbers& numbers) {
+    const SpecularShares shares = specular_shares(s);
+    const detail::SpecularOdds odds =
+        detail::SpecularOdds::of(shares, shares.rest * albedo, rules.least);
+    float u = numbers.next();
+    const auto take = [&u](float odd) {
+        const bool taken = u < odd;
+        u -= odd;
+        return taken;
+    };
+    if (take(odds.pass))
+        return {SpecularEvent::pass, -s.wo, shares.pass * (1.0f / odds.pass), odds.pass};
+    SpecularStep step;
+    const bool smooth = is_smooth(s.factors.roughness);
+    if (take(odds.mirror)) {
+        step = {SpecularEvent::mirror, detail::mirrored(s, s.normal),
+                shares.mirrored * (1.0f / odds.mirror), odds.mirror};
+        if (!smooth) detail::roughen(s, numbers, step);
+        return step;
+    }
+    if (take(odds.transmit)) {
+        step = {SpecularEvent::transmit, detail::transmitted(s, s.normal),
+                shares.transmitted * (1.0f / odds.transmit), odds.transmit};
+        if (!smooth) detail::roughen(s, numbers, step);
+        if (s.bounds_body() && rules.transport == Transport::radiance)
+            step.weight = step.weight * (1.0f / (s.eta() * s.eta()));
+        return step;
+    }
+    if (odds.stop > 0.0f) {
+        const float rest = shares.rest / odds.stop;
+        return {SpecularEvent::stop, Vec3(0.0f), Rgb{rest, rest, rest}, odds.stop};
+    }
+    step.weight = {};
+    return step;
+}
+
+}  // namespace mir

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mir/concepts/ray_caster.hpp"
+#include "mir/core/decay.hpp"
+#include "mir/shading/specular_step.hpp"
+
+namespace mir {
+
+/// Where a ray ends that mirrors, glass and open surfaces send on.
+struct SpecularEnd {
+    Ray ray;                    ///< the last one: that met the point, or that left the scene
+    SurfacePoint point;         ///< means nothing where the background is met
+    bool is_background = true;  ///< the last ray met no surface
+    /// What the chain leaves of emission and background at its end, over its probability.
+    Rgb light{1.0f, 1.0f, 1.0f};
+    /// The same of what the end's Bsdf reflects. It may be less: a blended surface covers a part.
+    Rgb reflection{1.0f, 1.0f, 1.0f};
+    float before = 0.0f;       ///< metres travelled before `ray`
+    std::uint32_t events = 0;  ///< surfaces that the ray went on from
+    bool is_straight = true;   ///< none of them has changed its direction
+};
+
+/// Follows rays through specular chains to the first surface that ends them. A value of views;
+/// const use from any thread. A chain longer than `longest` events is lost.
+template <class R, Space S, Bsdf B>
+struct SpecularTracer {
+    static_assert(CastsRaysFrom<R, S>,
+                  "mir: chains in a kernel need a ray caster that reads the "
+                  "same memory, such as KdRayCaster<Space::device>");
+    static constexpr std::uint32_t longest = 48;  ///< events of a chain
+
+    R caster;                         ///< what rays meet
+    SurfaceTableView<S, B> surfaces;  ///< materials and their textures
+
+    /// Goes on from what a ray met. `end` holds it, and where the chain ends afterwards. Numbers as
+    /// for specular_step(): none are drawn where nothing is chained. `least` is the smallest
+    /// probability of what the first event may be.
+    template <class Numbers>
+    MIR_HD void follow(SpecularEnd& end, Transport transport, Numbers& numbers,
+                       float least = 0.0f) const {
+        if constexpr (SpecularEndBsdf<B>) {
+            std::uint32_t inside = nowhere;
+            while (!end.is_background && surfaces.is_specular(end.point.material)) {
+                if (end.events == longest) return lose(end);
+                absorb(end, inside);
+                const SpecularSurface surface = surface_of(end);
+                const SpecularStep step =
+                    step_of(end, surface, {transport, end.events == 0 ? least : 0.0f}, numbers);
+                if (step.event == SpecularEvent::stop || is_black(step.weight))
+                    return stop(end, step);
+                end.light = end.light * step.weight;
+                if (step.event == SpecularEvent::transmit && surface.bounds_body())
+                    inside = surface.front ? end.point.material : nowhere;
+                if (!go_on(end, step) || !survives(end, numbers)) return lose(end);
+            }
+            if (!end.is_background) absorb(end, inside);
+            end.reflection = end.light;
+        }
+    }
+
+ private:
+    static constexpr std::uint32_t nowhere = ~0u;
+
+    [[nodiscard]] MIR_HD SpecularSurface surface_of(const SpecularEnd& end) const {
+        const SurfacePoint& p = end.point;
+        const VertexAttributes at = attributes_of(p);
+        const Vec3 wo = -end.ray.direction;
+        return {surfaces.factors(p.material, at),
+                surfaces.coverage(p.material, at),
+                surfaces.seen_normal(p, wo),
+                p.geometric_normal,
+                wo,
+                p.front,
+                B::has_interface};
+    }
+
+    template <class Numbers>
+    [[nodiscard]] MIR_HD SpecularStep step_of(const SpecularEnd& end, const SpecularSurface& s,
+                                              SpecularRules rules, Numbers& numbers) const {
+        typename B::Params p = specular_end_params<B>(s.factors);
+        if (surfaces.is_inside_body(end.point.material, end.point.front)) p = B::without_lobe(p);
+        const bool shines = surfaces.shines(end.point);
+        const float albedo = shines ? 1.0f : luminance(B::albedo(p, s.normal, s.wo));
+        return specular_step(s, B::is_black(p) && !shines ? 0.0f : larger(albedo, 0.05f), rules,
+                             numbers);
+    }
+
+    /// What the body takes away that the last edge ran through.
+    MIR_HD void absorb(SpecularEnd& end, std::uint32_t inside) const {
+        const SurfacePoint& p = end.point;
+        if (inside == nowhere && !surfaces.is_inside_body(p.material, p.front)) return;
+        const Rgb rate = surfaces.absorption(inside == nowhere ? p.material : inside);
+        if (is_black(rate)) return;
+        const float d = glm::length(p.position - end.ray.origin);
+        end.light = end.light * Rgb{decay(rate.r * d), decay(rate.g * d), decay(rate.b * d)};
+    }
+
+    MIR_HD static void stop(SpecularEnd& end, const SpecularStep& step) {
+        end.reflection = end.light * step.weight;
+        end.light = end.light * (1.0f / step.probability);
+        if (is_black(step.weight)) lose(end);
+    }
+    MIR_HD static void lose(SpecularEnd& end) { end.light = end.reflection = {}; }
+
+    /// Traces the next edge. False where the direction runs into its own surface.
+    [[nodiscard]] MIR_HD bool go_on(SpecularEnd& end, const SpecularStep& step) const {
+        const SurfacePoint& p = end.point;
+        const float side = step.event == SpecularEvent::mirror ? 1.0f : -1.0f;
+        const Vec3 normal = side * p.geometric_normal;
+        if (!(glm::dot(step.direction, normal) > 0.0f)) return false;
+        const Vec3 from = lift(p.position, normal, larger(p.offset, least_offset(p.position)));
+        end.before += glm::length(p.position - end.ray.origin);
+        end.ray = {from, step.direction};
+        end.is_straight = end.is_straight && step.event == SpecularEvent::pass;
+        ++end.events;
+        end.is_background = !find_point(caster, end.ray, end.point);
+        return true;
+    }
+
+    /// Ends long chains that bring little, by chance.
+    template <class Numbers>
+    [[nodiscard]] MIR_HD static bool survives(SpecularEnd& end, Numbers& numbers) {
+        constexpr std::uint32_t always = 4;
+        const float odds = max_channel(end.light);
+        if (end.events < always || odds >= 0.25f) return true;
+        const float chance = larger(4.0f * odds, 0.05f);
+        if (!(numbers.next() < chance)) return false;
+        end.light = end.light * (1.0f / chance);
+        return true;
+    }
+};
+template <class R, Space S, class B>
+SpecularTracer(R, SurfaceTableView<S, B>) -> SpecularTracer<R, S, B>;
+
+}  // namespace mir

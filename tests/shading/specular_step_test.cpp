@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "mir/shading/specular_step.hpp"
+
+#include "mir/core/random.hpp"
+#include "support/catch.hpp"
+
+#include <vector>
+
+namespace {
+
+using mir::MaterialFactors;
+using mir::Rgb;
+using mir::SpecularEvent;
+using mir::SpecularSurface;
+using mir::Transport;
+using mir::Vec3;
+
+constexpr Rgb white{1, 1, 1};
+
+MaterialFactors glass(bool thin, float roughness = 0.0f) {
+    MaterialFactors m;
+    m.base_color = white;
+    m.roughness = roughness;
+    m.transmission = 1.0f;
+    m.is_thin = thin;
+    return m;
+}
+
+SpecularSurface surface(const MaterialFactors& m, float cosine, bool front = true) {
+    const Vec3 n(0, 0, 1);
+    return {m, 1.0f, n, n, {std::sqrt(1.0f - cosine * cosine), 0.0f, cosine}, front};
+}
+
+Rgb sum(const mir::SpecularShares& s) { return s.pass + s.mirrored + s.transmitted; }
+
+}  // namespace
+
+TEST_CASE("glass without colour leaves all light: in each event the weight is one") {
+    for (const bool thin : {true, false})
+        for (const bool front : {true, false})
+            for (float cosine = 0.05f; cosine <= 1.0f; cosine += 0.1f) {
+                CAPTURE(thin, front, cosine);
+                const SpecularSurface s = surface(glass(thin), cosine, front);
+                CHECK(sum(specular_shares(s)).r == Approx(1.0f).epsilon(1e-6));
+                for (std::uint64_t i = 0; i < 64; ++i) {
+                    mir::Random numbers(901, mir::Stream::test, i);
+                    const mir::SpecularStep step =
+                        specular_step(s, 0.0f, {Transport::power}, numbers);
+                    REQUIRE(step.event != SpecularEvent::stop);
+                    REQUIRE(step.weight.r == Approx(1.0f).epsilon(1e-5));
+                    REQUIRE(glm::length(step.direction) == Approx(1.0f).epsilon(1e-5));
+                }
+            }
+}
+
+TEST_CASE("radiance that is refracted shrinks by the square of the index, power does not") {
+    const auto transmitted = [](Transport transport, bool front) {
+        const SpecularSurface s = surface(glass(false), 0.9f, front);
+        for (std::uint64_t i = 0;; ++i) {
+            mir::Random numbers(902, mir::Stream::test, i);
+            const mir::SpecularStep step = specular_step(s, 0.0f, {transport}, numbers);
+            if (step.event == SpecularEvent::transmit) return step;
+        }
+    };
+    CHECK(transmitted(Transport::power, true).weight.r == Approx(1.0f));
+    CHECK(transmitted(Transport::radiance, true).weight.r == Approx(1.0f / 2.25f));
+    CHECK(transmitted(Transport::radiance, false).weight.r == Approx(2.25f));
+    // Snell's law.
+    const float sine = std::sqrt(1.0f - 0.81f);
+    CHECK(-transmitted(Transport::power, true).direction.x == Approx(sine / 1.5f));
+    CHECK(-transmitted(Transport::power, false).direction.x == Approx(sine * 1.5f));
+}
+
+TEST_CASE("Fresnel's reflectance has its known values") {
+    CHECK(mir::dielectric_reflectance(1.5f, 1.0f) == Approx(0.04f));
+    CHECK(mir::dielectric_reflectance(1.0f, 0.3f) == 0.0f);
+    CHECK(mir::dielectric_reflectance(1.0f, 0.01f) == 0.0f);
+    // Brewster's angle: what is polarised along the plane of incidence is not reflected.
+    const float brewster = 1.0f / std::sqrt(1.0f + 2.25f);
+    const float across = (1.0f - 2.25f) / (1.0f + 2.25f);
+    CHECK(mir::dielectric_reflectance(1.5f, brewster) == Approx(0.5f * across * across));
+    CHECK(mir::dielectric_reflectance(1.0f / 1.5f, 0.5f) == 1.0f);
+    CHECK(mir::dielectric_reflectance(1.5f, 0.0f) == 1.0f);
+}
+
+TEST_CASE("a blended surface is passed by what it does not cover") {
+    MaterialFactors m;
+    m.specular = 0.0f;
+    SpecularSurface s = surface(m, 0.6f);
+    s.cover = 0.25f;
+    const mir::SpecularShares shares = specular_shares(s);
+    CHECK(shares.pass == Rgb{0.75f, 0.75f, 0.75f});
+    CHECK(shares.rest == 0.25f);
+    CHECK(is_black(shares.mirrored + shares.transmitted));
+    s.cover = 1.0f;
+    CHECK(is_black(specular_shares(s).pass));
+}
+
+// H0: events times their probability are the shares. 2^14 steps a surface, seed 903, 4.5 standard
+// errors over 3 means of 8 surfaces (level below 1e-4).
+TEST_CASE("weights of drawn events have the shares as means", "[statistical]") {
+    MaterialFactors coat;
+    coat.base_color = {0.5f, 0.4f, 0.3f};
+    coat.roughness = 0.0f;
+    MaterialFactors tinted = glass(true);
+    tinted.base_color = {0.9f, 0.5f, 0.2f};
+    tinted.transmission = 0.7f;
+    for (const MaterialFactors& m : {coat, tinted, glass(true), glass(false)})
+        for (const float cosine : {0.2f, 0.9f}) {
+            SpecularSurface s = surface(m, cosine);
+            s.cover = 0.8f;
+            const mir::SpecularShares shares = specular_shares(s);
+            constexpr int n = 1 << 14;
+            double mean[3] = {};
+            for (int i = 0; i < n; ++i) {
+                mir::Random numbers(903, mir::Stream::test, std::uint64_t(i));
+                const mir::SpecularStep step = specular_step(s, 0.5f, {Transport::power}, numbers);
+                if (step.event != SpecularEvent::stop)
+                    mean[int(step.event) - 1] += double(step.weight.g) / n;
+            }
+            // A weight is at most the sum of all shares over the least ratio of green to luminance.
+            const double error = 4.5 * 3.0 / std::sqrt(double(n));
+            CHECK(mean[0] == Approx(double(shares.pass.g)).margin(error));
+            CHECK(mean[1] == Approx(double(shares.mirrored.g)).margin(error));
+            CHECK(mean[2] == Approx(double(shares.transmitted.g)).margin(error));
+        }
+}
+
+TEST_CASE("what a rough body reflects and lets through is at most all light") {
+    for (const float roughness : {0.1f, 0.3f, 0.6f, 1.0f})
+        for (const bool front : {true, false}) {
+            CAPTURE(roughness, front);
+            const SpecularSurface s = surface(glass(false, roughness), 0.7f, front);
+            double through = 0.0;
+            constexpr int n = 4096;
+            for (int i = 0; i < n; ++i) {
+                mir::Random numbers(904, mir::Stream::test, std::uint64_t(i));
+                const auto step = specular_step(s, 0.04f, {Transport::power}, numbers);
+                if (step.event != SpecularEvent::stop) through += double(step.weight.r) / n;
+                if (is_black(step.weight) || step.event == SpecularEvent::stop) continue;
+                const bool above = step.direction.z > 0.0f;
+                REQUIRE(above == (step.event == SpecularEvent::mirror));
+            }
+            CHECK(through < 1.02);
+            CHECK(through > (roughness > 0.5f ? 0.5 : 0.85) - (front ? 0.1 : 0.2));
+        }
+}
+
+TEST_CASE("a mirror with a bent normal keeps light on its side") {
+    MaterialFactors metal;
+    metal.metallic = 1.0f;
+    metal.roughness = 0.0f;
+    SpecularSurface s = surface(metal, 0.1f);
+    s.normal = glm::normalize(Vec3(-0.6f, 0, 0.8f));
+    s.normal = glm::dot(s.normal, s.wo) > 0.0f ? s.normal : glm::normalize(Vec3(0.6f, 0, 0.8f));
+    mir::Random numbers(905, mir::Stream::test, 0);
+    const mir::SpecularStep step = specular_step(s, 0.0f, {Transport::radiance}, numbers);
+    REQUIRE(step.event == SpecularEvent::mirror);
+    CHECK(step.direction.z > 0.0f);
+}
