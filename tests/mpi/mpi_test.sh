@@ -51,7 +51,6 @@ hashes() {
     compare builtin:sphere '1 3 8' --vpls 32
     compare builtin:cornell-box 3 --vpls 32 --passes 2 --aov bounces
     compare builtin:cornell-box 3 --sampler ir --vpls 9000
-    compare builtin:cornell-box 3 --integrator micro
 }
 
 library() { with_ranks 3 "$ranks"; }
