@@ -121,8 +121,8 @@ class PictureShare {
     std::uint64_t id_ = 0;             ///< of the picture in it
     KeptBands kept_;                   ///< in it
     bool keeps_ = false;
-    std::uint32_t loops_ = 0;      ///< of the picture that have begun
-    std::uint32_t all_loops_ = 0;  ///< of all pictures
+    std::uint32_t loops_ = 0;            ///< of the picture that have begun
+    std::uint32_t all_loops_ = 0;        ///< of all pictures
     std::vector<std::uint32_t> owners_;  ///< processes, by the bands of the last loop
 };
 
