@@ -46,10 +46,14 @@ template <PointFinder R>
 [[nodiscard]] MIR_HD bool find_point(const R& caster, const Ray& ray, SurfacePoint& point) {
     return caster.find_point(ray, point);
 }
-/// The same by a caster that only the host asks.
+/// The same by a caster that only the host asks. Code for both may name it; kernels never call it
+/// (CastsRaysFrom).
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
 template <RayCaster R>
     requires(!PointFinder<R>)
-[[nodiscard]] bool find_point(const R& caster, const Ray& ray, SurfacePoint& point) {
+[[nodiscard]] MIR_HD bool find_point(const R& caster, const Ray& ray, SurfacePoint& point) {
     const auto found = caster.closest_hit(ray);
     if (found) point = *found;
     return found.has_value();

@@ -4,8 +4,8 @@
 #include "mir/core/math.hpp"
 #include "mir/core/strict_float.hpp"
 
-#include <bit>
 #include <cstdint>
+#include <cstring>
 
 namespace mir {
 
@@ -21,7 +21,9 @@ namespace mir {
     double sum = 1.0;
     for (int n = 12; n > 0; --n)
         sum = strict::sub(1.0, strict::mul(sum, strict::mul(rest, 1.0 / n)));
-    const double scale = std::bit_cast<double>(std::uint64_t{1023u - halvings} << 52);
+    const std::uint64_t bits = std::uint64_t{1023u - halvings} << 52;
+    double scale = 0.0;
+    memcpy(&scale, &bits, sizeof scale);
     return static_cast<float>(strict::mul(sum, scale));
 }
 

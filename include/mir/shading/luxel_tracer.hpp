@@ -31,17 +31,21 @@ struct LuxelTracer {
     SurfaceTableView<S, B> surfaces;  ///< materials and their textures
 
     /// What a camera ray sees.
-    [[nodiscard]] MIR_HD SeenLuxel
-    operator()(const Ray& ray, SpecularPlan plan = {}) const requires PointFinder<R> {
-        return seen_along(ray, plan);
-    }
-    /// The same by a caster that only the host asks.
-    [[nodiscard]] SeenLuxel operator()(const Ray& ray, SpecularPlan plan = {}) const
-        requires(!PointFinder<R>) {
-        return seen_along(ray, plan);
+    [[nodiscard]] MIR_HD SeenLuxel operator()(const Ray& ray, SpecularPlan plan = {}) const {
+        SeenLuxel seen;
+        seen.ray = ray;
+        seen.is_background = !find_point(caster, ray, seen.point);
+        if (!seen.is_background && surfaces.is_specular(seen.point.material)) {
+            RayNumbers numbers(ray, plan.first);
+            SpecularTracer{caster, surfaces}.follow(seen, Transport::radiance, numbers, plan.least);
+        }
+        return seen;
     }
     /// What the luxel at (x, y) sees. Its ray is `rays(x, y)`, and `rays.specular_plan(x, y)`,
     /// where there is one, what its chain begins with.
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
     template <class Rays>
     [[nodiscard]] MIR_HD SeenLuxel luxel(const Rays& rays, std::uint32_t x, std::uint32_t y) const {
         if constexpr (requires { rays.specular_plan(x, y); })
@@ -71,20 +75,6 @@ struct LuxelTracer {
     }
     /// Gives the surface at the end of a chain what the chain leaves of its light and reflection.
     MIR_HD void weaken(const SeenLuxel& seen, Surface& surface) const;
-
- private:
-    /// A template, so that it is only made for the host where `R` is for the host alone.
-    template <class Along = Ray>
-    [[nodiscard]] MIR_HD SeenLuxel seen_along(const Along& ray, SpecularPlan plan) const {
-        SeenLuxel seen;
-        seen.ray = ray;
-        seen.is_background = !find_point(caster, ray, seen.point);
-        if (!seen.is_background && surfaces.is_specular(seen.point.material)) {
-            RayNumbers numbers(ray, plan.first);
-            SpecularTracer{caster, surfaces}.follow(seen, Transport::radiance, numbers, plan.least);
-        }
-        return seen;
-    }
 };
 
 template <class R, Space S, Bsdf B>

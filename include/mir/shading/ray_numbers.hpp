@@ -4,7 +4,8 @@
 #include "mir/core/random.hpp"
 #include "mir/core/ray.hpp"
 
-#include <bit>
+#include <cstdint>
+#include <cstring>
 
 namespace mir {
 
@@ -29,8 +30,10 @@ class RayNumbers {
 
  private:
     [[nodiscard]] MIR_HD static std::uint64_t pair(float a, float b) {
-        return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 |
-               std::bit_cast<std::uint32_t>(b);
+        std::uint32_t high = 0, low = 0;
+        memcpy(&high, &a, sizeof high);
+        memcpy(&low, &b, sizeof low);
+        return std::uint64_t{high} << 32 | low;
     }
 
     float first_;
