@@ -4,9 +4,9 @@
 # python/blender/check.sh [CHECK...]   packs the add-on, installs it and renders with it in bpy of
 #                                      PyPI and in the installed Blender; `all`: everything
 #
-# CHECK: engine, views, lamps, pictures. Without any: engine and views. bpy lies in ~/.cache/mir/bpy
-# once it was downloaded (350 MB); MIR_BLENDER names another Blender than `blender`. Each host that
-# cannot be had is skipped, with a reason.
+# CHECK: materials, engine, views, lamps, pictures. Without any: the first three. bpy lies in
+# ~/.cache/mir/bpy once it was downloaded (350 MB); MIR_BLENDER names another Blender than
+# `blender`. Each host that cannot be had is skipped, with a reason.
 set -eu
 
 here=$(cd -- "$(dirname -- "$0")" && pwd)
@@ -15,8 +15,8 @@ cache=${XDG_CACHE_HOME:-$HOME/.cache}/mir/bpy
 bpy_version=5.0.1
 out=$root/build/blender
 log=$out/check.log
-[ $# -gt 0 ] || set -- engine views
-[ "$1" != all ] || set -- engine views lamps pictures
+[ $# -gt 0 ] || set -- materials engine views
+[ "$1" != all ] || set -- materials engine views lamps pictures
 
 say() { printf '%s\n' "blender: $*" >&2; }
 rm -rf "$out"

@@ -8,6 +8,7 @@
 #include <nanobind/stl/string.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace nb = nanobind;
@@ -19,9 +20,9 @@ void check_share(float value, const char* place) {
     if (!(value >= 0.0f && value <= 1.0f)) throw ArgumentError(place, "give a number of 0 to 1");
 }
 
-mir::Rgb reflectance_of(nb::handle value) {
-    const mir::Rgb color = rgb_of(value, "base_color");
-    for (const float c : {color.r, color.g, color.b}) check_share(c, "base_color");
+mir::Rgb shares_of(nb::handle value, const char* place) {
+    const mir::Rgb color = rgb_of(value, place);
+    for (const float c : {color.r, color.g, color.b}) check_share(c, place);
     return color;
 }
 
@@ -56,14 +57,15 @@ struct Lookup {
 std::uint32_t add_material(PyScene& self, const std::string& name, nb::handle base_color,
                            float metallic, float roughness, float specular, float ior,
                            nb::handle emission, bool emits_from_both_sides,
-                           std::uint16_t light_group, float alpha_cutoff,
-                           const ImageIndex& base_color_image,
+                           std::uint16_t light_group, float alpha, bool blend, float alpha_cutoff,
+                           float transmission, bool thin, nb::handle attenuation_color,
+                           float attenuation_distance, const ImageIndex& base_color_image,
                            const ImageIndex& metallic_roughness_image,
                            const ImageIndex& normal_image, const ImageIndex& emission_image,
                            float normal_scale, const std::string& wrap, bool nearest) {
     mir::Material m;
     m.name = name;
-    m.base_color = reflectance_of(base_color);
+    m.base_color = shares_of(base_color, "base_color");
     check_share(m.metallic = metallic, "metallic");
     check_share(m.roughness = roughness, "roughness");
     check_share(m.specular = specular, "specular");
@@ -72,7 +74,15 @@ std::uint32_t add_material(PyScene& self, const std::string& name, nb::handle ba
     m.emission = light_of(emission, "emission");
     m.emits_from_both_sides = emits_from_both_sides;
     m.light_group = light_group;
+    check_share(m.alpha = alpha, "alpha");
+    m.is_blended = blend;
     check_share(m.alpha_cutoff = alpha_cutoff, "alpha_cutoff");
+    check_share(m.transmission = transmission, "transmission");
+    m.is_thin = thin;
+    m.attenuation_color = shares_of(attenuation_color, "attenuation_color");
+    if (!(attenuation_distance > 0.0f))
+        throw ArgumentError("attenuation_distance", "give metres above 0, or infinity");
+    m.attenuation_distance = attenuation_distance;
     const Lookup lookup{self.scene().images.size(), wrap_of(wrap), nearest};
     m.textures.base_color = lookup.texture(base_color_image, "base_color_image");
     m.textures.metallic_roughness =
@@ -113,19 +123,29 @@ std::uint32_t add_image(PyScene& self, nb::handle pixels, const std::string& nam
 void bind_materials(nb::class_<PyScene>& scene) {
     const auto black = nb::make_tuple(0.0, 0.0, 0.0);
     const auto grey = nb::make_tuple(0.8, 0.8, 0.8);
+    const auto white = nb::make_tuple(1.0, 1.0, 1.0);
     scene
         .def("add_material", add_material, nb::kw_only(), nb::arg("name") = "",
              nb::arg("base_color") = grey, nb::arg("metallic") = 0.0f, nb::arg("roughness") = 1.0f,
              nb::arg("specular") = 1.0f, nb::arg("ior") = 1.5f, nb::arg("emission") = black,
              nb::arg("emits_from_both_sides") = false, nb::arg("light_group") = 0,
-             nb::arg("alpha_cutoff") = 0.0f, nb::arg("base_color_image") = nb::none(),
+             nb::arg("alpha") = 1.0f, nb::arg("blend") = false, nb::arg("alpha_cutoff") = 0.0f,
+             nb::arg("transmission") = 0.0f, nb::arg("thin") = true,
+             nb::arg("attenuation_color") = white,
+             nb::arg("attenuation_distance") = std::numeric_limits<float>::infinity(),
+             nb::arg("base_color_image") = nb::none(),
              nb::arg("metallic_roughness_image") = nb::none(), nb::arg("normal_image") = nb::none(),
              nb::arg("emission_image") = nb::none(), nb::arg("normal_scale") = 1.0f,
              nb::arg("wrap") = "repeat", nb::arg("nearest") = false,
              "Adds a material in glTF's metallic-roughness parameters; returns its index.\n\n"
              "base_color: three of 0..1, linear Rec. 709. metallic, roughness, specular: 0..1;\n"
              "specular=0 with metallic=0 is purely Lambertian. emission: radiance of the front,\n"
-             "W m^-2 sr^-1. Images are what add_image() returned; they multiply.")
+             "W m^-2 sr^-1. Images are what add_image() returned; they multiply.\n\n"
+             "alpha: 0..1, times that of the base colour's image; with blend=True the covered\n"
+             "share of the surface. Where it is below alpha_cutoff, there is a hole.\n\n"
+             "transmission: 0..1, share of the light below the interface that goes through. thin:\n"
+             "a sheet, which light leaves as it came; else the surface of a body, which refracts\n"
+             "by ior and leaves attenuation_color of the light after attenuation_distance, m.")
         .def("add_image", add_image, nb::arg("pixels").none(), nb::arg("name") = "",
              "Adds a picture for textures; returns its index.\n\n"
              "pixels: (height, width, 3 or 4) of uint8, the top row first; sRGB where a colour\n"

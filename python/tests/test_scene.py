@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Scenes from arrays."""
 
+import json
+
 import numpy as np
+import pytest
 
 import mir
 
@@ -58,3 +61,36 @@ def test_lights(room, small):
     room.add_spot_light((0, 1, 1), (0, -1, 0), (1, 1, 1), outer_angle=30)
     room.add_directional_light((0, -1, -1), (1, 1, 1))
     assert mir.render(room, **small).direct.mean() > dim
+
+
+def test_glass_and_coverage_come_back_from_a_file(tmp_path):
+    scene = mir.Scene()
+    glass = {"transmission": 1.0, "thin": False, "attenuation_color": (0.5, 0.6, 0.7)}
+    scene.add_material(name="glass", attenuation_distance=2.0, **glass)
+    scene.add_material(name="veil", alpha=0.25, blend=True)
+    for material in (0, 1):
+        scene.add_mesh(np.eye(3), [[0, 1, 2]], material=material)
+    scene.save(tmp_path / "glass.glb")
+    file = (tmp_path / "glass.glb").read_bytes()
+    header = json.loads(file[20 : 20 + int.from_bytes(file[12:16], "little")])
+    by_name = {one["name"]: one for one in header["materials"]}
+    volume = by_name["glass"]["extensions"]["KHR_materials_volume"]
+    assert volume["attenuationDistance"] == 2.0
+    np.testing.assert_allclose(volume["attenuationColor"], (0.5, 0.6, 0.7), rtol=1e-6)
+    assert by_name["veil"]["alphaMode"] == "BLEND"
+    assert by_name["veil"]["pbrMetallicRoughness"]["baseColorFactor"][3] == 0.25
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"alpha": 1.5},
+        {"transmission": -0.1},
+        {"attenuation_color": (0, 2, 0)},
+        {"attenuation_distance": 0.0},
+    ],
+)
+def test_glass_is_checked(wrong):
+    with pytest.raises(mir.Error, match=next(iter(wrong))):
+        mir.Scene().add_material(**wrong)
+

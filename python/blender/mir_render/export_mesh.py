@@ -58,6 +58,12 @@ def _corner_colors(mesh, vertices: np.ndarray, attribute: str | None) -> np.ndar
     return np.clip(colors[vertices] if layer.domain == "POINT" else colors, 0, 1)
 
 
+def is_closed(mesh) -> bool:
+    """True when each edge lies between two polygons: the mesh has an inside."""
+    uses = np.bincount(_read(mesh.loops, "edge_index", 1, np.int32), minlength=len(mesh.edges))
+    return len(uses) > 0 and bool((uses == 2).all())
+
+
 def corners_of(mesh, color_attribute: str | None = None) -> Corners | None:
     """Arrays of an evaluated mesh; None without triangles."""
     mesh.calc_loop_triangles()
@@ -123,7 +129,8 @@ class Meshes:
         if mesh is None:
             return []
         slots = [slot.material for slot in source.material_slots] or [None]
-        chosen = [self._materials.get(material) for material in slots]
+        closed = is_closed(mesh)
+        chosen = [self._materials.get(material, closed) for material in slots]
         attribute = next((one.color_attribute for one in chosen if one.color_attribute), None)
         corners = corners_of(mesh, attribute)
         source.to_mesh_clear()

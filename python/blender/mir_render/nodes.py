@@ -1,15 +1,81 @@
 # SPDX-License-Identifier: MIT
-"""Reading node trees: which node feeds a socket, and which value."""
+"""Reading node trees: which node feeds a socket, and which value; through node groups."""
+
+
+class Input:
+    """An input of a node, and the group nodes that lead to it, the outermost first."""
+
+    def __init__(self, socket, groups: tuple):
+        self._socket = socket
+        self.groups = groups
+
+    def __getattr__(self, name):
+        return getattr(self._socket, name)
+
+
+class Node:
+    """A node, and the group nodes that lead to it, the outermost first."""
+
+    def __init__(self, node, groups: tuple):
+        self._node = node
+        self._groups = groups
+
+    def __getattr__(self, name):
+        return getattr(self._node, name)
+
+    @property
+    def inputs(self) -> "Inputs":
+        """Its inputs by name or number."""
+        return Inputs(self._node.inputs, self._groups)
+
+
+class Inputs:
+    """The inputs of a node by name or number."""
+
+    def __init__(self, sockets, groups: tuple):
+        self._sockets = sockets
+        self._groups = groups
+
+    def __getitem__(self, key) -> Input:
+        return Input(self._sockets[key], self._groups)
+
+    def __contains__(self, name) -> bool:
+        return name in self._sockets
+
+
+def _same(sockets, socket):
+    """The socket of a group's other side: names may repeat, identifiers do not."""
+    return next((one for one in sockets if one.identifier == socket.identifier), None)
+
+
+def _end_of(socket) -> Input:
+    """The input where the way back from this one ends, past reroutes, into and out of groups."""
+    groups = getattr(socket, "groups", ())
+    while socket.is_linked:
+        link = socket.links[0]
+        node, back = link.from_node, None
+        if node.type == "REROUTE":
+            back = node.inputs[0]
+        elif node.type == "GROUP" and node.node_tree is not None:
+            output = active_output(node.node_tree, "GROUP_OUTPUT")
+            back = output and _same(output.inputs, link.from_socket)
+            groups = (*groups, node) if back else groups
+        elif node.type == "GROUP_INPUT" and groups:
+            back = _same(groups[-1].inputs, link.from_socket)
+            groups = groups[:-1] if back else groups
+        if not back:
+            break
+        socket = back
+    return Input(socket, groups)
 
 
 def source_of(socket):
-    """The (node, socket) that feeds an input, past reroutes; None where nothing does."""
-    while socket.is_linked:
-        link = socket.links[0]
-        if link.from_node.type != "REROUTE":
-            return (link.from_node, link.from_socket)
-        socket = link.from_node.inputs[0]
-    return None
+    """The (node, socket) that feeds an input, past reroutes and groups; None where nothing does."""
+    end = _end_of(socket)
+    if not end.is_linked:
+        return None
+    link = end.links[0]
+    return (Node(link.from_node, end.groups), link.from_socket)
 
 
 def input_of(node, *names):
@@ -30,9 +96,10 @@ def color_of(value) -> tuple:
 
 def constant_of(socket):
     """The value of an input: of a node that holds one, else its own; and whether that is all."""
-    source = source_of(socket)
-    if source is None:
-        return socket.default_value, True
-    if source[0].type in {"RGB", "VALUE"}:
-        return source[1].default_value, True
-    return socket.default_value, False
+    end = _end_of(socket)
+    if not end.is_linked:
+        return end.default_value, True
+    source = end.links[0].from_socket
+    if source.node.type in {"RGB", "VALUE"}:
+        return source.default_value, True
+    return end.default_value, False

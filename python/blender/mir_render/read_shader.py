@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Shader nodes to surfaces. What mir lacks goes into the list of losses."""
 
+from dataclasses import replace
+
 from .nodes import color_of, constant_of, input_of, source_of
 from .surface import BLACK, Surface, added, mixed, reflection_of, without_reflection
 
@@ -8,13 +10,11 @@ from .surface import BLACK, Surface, added, mixed, reflection_of, without_reflec
 # Blender 3.4 and in later versions.
 _LOST_WEIGHTS = (
     ("Subsurface Weight", "Subsurface"),
-    ("Transmission Weight", "Transmission"),
     ("Sheen Weight", "Sheen"),
     ("Coat Weight", "Clearcoat"),
     ("Anisotropic",),
     ("Thin Film Thickness",),
 )
-_GLASS = "what would pass through it is reflected diffusely: mir has no refraction"
 
 
 class ShaderReader:
@@ -29,7 +29,7 @@ class ShaderReader:
             "BSDF_GLOSSY": self._glossy,
             "BSDF_METALLIC": self._glossy,
             "BSDF_GLASS": self._glass,
-            "BSDF_REFRACTION": self._glass,
+            "BSDF_REFRACTION": self._refraction,
             "BSDF_TRANSPARENT": self._transparent,
             "EMISSION": self._emission,
             "MIX_SHADER": self._mix,
@@ -43,6 +43,19 @@ class ShaderReader:
             return Surface(base_color=BLACK)
         node, _ = source
         return self._readers.get(node.type, self._unknown)(node)
+
+    def absorption(self, socket) -> tuple | None:
+        """What a body takes of light, m^-1, by a Volume Absorption node; None: nothing is said."""
+        source = source_of(socket)
+        if source is None:
+            return None
+        node, _ = source
+        if node.type != "VOLUME_ABSORPTION":
+            self._lose(f"'{node.name}', its volume")
+            return None
+        density = max(0.0, self._number(node, "Density", usual=1.0))
+        color = self._color(node, Surface(), "volume", "Color")
+        return tuple(density * min(1.0, max(0.0, 1.0 - c)) for c in color)
 
     def _lose(self, what: str) -> None:
         self._losses.add(self._name, what)
@@ -121,17 +134,30 @@ class ShaderReader:
         return surface
 
     def _glass(self, node) -> Surface:
-        surface = Surface(reflection=reflection_of(self._number(node, "IOR", usual=1.5)))
-        surface.base_color = self._color(node, surface, "base_color", "Color")
-        surface.roughness = self._number(node, "Roughness")
-        self._lose(_GLASS)
+        surface = self._refraction(node)
+        surface.reflection = reflection_of(surface.ior)
         return surface
 
+    def _refraction(self, node) -> Surface:
+        surface = Surface(transmission=1.0, ior=self._number(node, "IOR", usual=1.5))
+        surface.base_color = self._color(node, surface, "base_color", "Color")
+        surface.roughness = self._number(node, "Roughness")
+        self._note_index(node, surface)
+        self._normal(node, surface)
+        return surface
+
+    def _note_index(self, node, surface: Surface) -> None:
+        if surface.ior < 1.0:
+            self._lose(f"the index of refraction of '{node.name}' is 1")
+
     def _transparent(self, node) -> Surface:
-        tint = self._color(node, Surface(), "base_color", "Color")
-        if min(tint) < 1.0:
-            self._lose(f"the colour of '{node.name}' is white")
-        return Surface(base_color=BLACK, opacity=0.0)
+        surface = Surface(base_color=BLACK, opacity=0.0)
+        tint = self._color(node, surface, "base_color", "Color")
+        if min(tint) == max(tint) and not surface.images:
+            surface.opacity = min(1.0, max(0.0, 1.0 - tint[0]))
+            return surface
+        sheet = {"transmission": 1.0, "roughness": 0.0, "is_sheet": True}
+        return replace(surface, base_color=tint, opacity=1.0, **sheet)
 
     def _emission(self, node) -> Surface:
         surface = without_reflection(BLACK)
@@ -148,14 +174,26 @@ class ShaderReader:
         surface.reflection = self._reflection(node)
         strength = self._number(node, "Emission Strength")
         color = self._color(node, surface, "emission", "Emission Color", "Emission")
-        surface.emission = tuple(max(0.0, c * strength) for c in color)
         self._alpha(node, surface)
+        surface.emission = tuple(max(0.0, c * strength * surface.opacity) for c in color)
+        self._transmission(node, surface)
         self._normal(node, surface)
         for names in _LOST_WEIGHTS:
             if self._number(node, *names) != 0.0:
-                glass = names[0].startswith("Transmission")
-                self._lose(_GLASS if glass else f"'{names[0]}' of '{node.name}'")
+                self._lose(f"'{names[0]}' of '{node.name}'")
         return surface
+
+    def _transmission(self, node, surface: Surface) -> None:
+        share = self._number(node, "Transmission Weight", "Transmission")
+        surface.transmission = min(1.0, max(0.0, share))
+        if surface.transmission == 0.0:
+            return
+        surface.ior = self._number(node, "IOR", usual=1.5)
+        self._note_index(node, surface)
+        # Cycles tints each way through the surface by the square root.
+        roots = tuple(max(0.0, c) ** 0.5 for c in surface.base_color)
+        pairs = zip(surface.base_color, roots)
+        surface.base_color = tuple(c + (root - c) * surface.transmission for c, root in pairs)
 
     def _reflection(self, node) -> float:
         """Before Blender 4.0 'Specular' alone sets it, since then it scales that of the IOR."""

@@ -14,12 +14,16 @@ class Surface:
     metallic: float = 0.0
     roughness: float = 1.0
     reflection: float = 0.0  # of the interface at right angles, 0..1; 0: none
-    emission: tuple = BLACK  # W m^-2 sr^-1
-    opacity: float = 1.0
+    emission: tuple = BLACK  # W m^-2 sr^-1, holes counted in
+    opacity: float = 1.0  # covered share
+    transmission: float = 0.0  # of what passes the interface, 0..1, tinted by base_color
+    ior: float = 1.5  # of what transmits
+    absorption: tuple | None = None  # m^-1, inside of a body
+    is_sheet: bool = False  # light goes straight on, whatever the mesh
     color_attribute: str | None = None
     images: dict = field(default_factory=dict)  # Blender's, by "base_color", "normal", "emission"
     lookup: dict = field(default_factory=dict)  # how mir looks into them
-    mask: object = None  # an image whose alpha cuts holes
+    mask: object = None  # an image whose alpha is the covered share
 
 
 def reflection_of(ior: float) -> float:
@@ -40,6 +44,19 @@ def _blend(a, b, weight: float):
     return a * (1.0 - weight) + b * weight
 
 
+def _glass_of(main: Surface, other: Surface) -> Surface:
+    """The one that says how light goes on inside."""
+    return main if main.transmission > 0.0 or other.transmission == 0.0 else other
+
+
+def _mixed_roughness(a: Surface, b: Surface, weight: float) -> float:
+    """That of the two, or of the one that has an interface."""
+    has_interface = [max(one.reflection, one.metallic, one.transmission) > 0.0 for one in (a, b)]
+    if has_interface[0] == has_interface[1]:
+        return _blend(a.roughness, b.roughness, weight)
+    return a.roughness if has_interface[0] else b.roughness
+
+
 def mixed(a: Surface, b: Surface, share: float) -> Surface:
     """One surface for two, b with this share: what mir has is mixed number by number.
 
@@ -52,8 +69,11 @@ def mixed(a: Surface, b: Surface, share: float) -> Surface:
         main,
         base_color=_blend(a.base_color, b.base_color, weight),
         metallic=_blend(a.metallic, b.metallic, weight),
-        roughness=_blend(a.roughness, b.roughness, weight),
+        roughness=_mixed_roughness(a, b, weight),
         reflection=_blend(a.reflection, b.reflection, weight),
+        transmission=_blend(a.transmission, b.transmission, weight),
+        ior=_glass_of(main, other).ior,
+        is_sheet=_glass_of(main, other).is_sheet,
         emission=_blend(a.emission, b.emission, share),
         opacity=opacity,
         images={**other.images, **main.images},
