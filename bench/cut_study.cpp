@@ -3,17 +3,15 @@
 // Error and time of cuts beside plain VPLs, as CSV: `cut_study SCENE [VPLS]`. The truth is the sum
 // of all VPLs of a tree (instant radiosity, seed 1) at 320 x 240 luxels. Plain VPLs are those of
 // another seed under the same bound. One thread; seconds of CPU time, without sampling.
-#include "mir/cpu/embree_scene.hpp"
 #include "mir/cuts/deviation_cut.hpp"
-#include "mir/fill_gbuffer.hpp"
 #include "mir/reconstruct_cuts.hpp"
 #include "mir/sampling/instant_radiosity_sampler.hpp"
 #include "mir/sampling/visible_area.hpp"
-#include "mir/scene/light_table.hpp"
 #include "mir/scenes.hpp"
 #include "mir/sched/cpu_blocks.hpp"
 #include "mir/shading/lambert.hpp"
 #include "mir/shading/vpl_shading.hpp"
+#include "support/study_scene.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -33,49 +31,41 @@ constexpr mir::Extent luxels{320, 240};
 /// A scene, what its camera sees, and VPLs.
 class Study {
  public:
-    explicit Study(const std::string& name)
-        : scene_(mir::builtin::make(name)), gbuffer_(luxels, {256, 256}) {
-        mir::fill_gbuffer<B>(gbuffer_, 0, rays_, engine_.ray_caster(), surfaces_, executor_);
-    }
+    explicit Study(const std::string& name) : of_(mir::builtin::make(name), luxels, 1) {}
 
     [[nodiscard]] mir::VplList vpls(std::uint32_t count, std::uint64_t seed) {
         mir::InstantRadiosityOptions options;
         options.vpls = count;
         options.seed = seed;
         const mir::InstantRadiositySampler<B, mir::cpu::EmbreeRayCaster> sampler(
-            {geometry_, lights_, surfaces_, engine_.ray_caster()}, options);
-        return aggregate(sampler.sample(executor_));
+            {of_.geometry, of_.lights, of_.surfaces, of_.engine.ray_caster()}, options);
+        return aggregate(sampler.sample(of_.executor));
     }
 
     [[nodiscard]] mir::VplShading<B> shading(std::uint32_t count) const {
         const float aspect = static_cast<float>(luxels.width) / static_cast<float>(luxels.height);
-        const mir::LuxelTracer tracer{engine_.ray_caster(), surfaces_.view()};
-        return {mir::default_bound(mir::visible_area(rays_.camera, aspect, tracer), count)};
+        const mir::LuxelTracer tracer{of_.engine.ray_caster(), of_.surfaces.view()};
+        return {mir::default_bound(mir::visible_area(of_.rays.camera, aspect, tracer), count)};
     }
 
     [[nodiscard]] Picture sum(mir::VplSpan<mir::Space::host> vpls,
                               const mir::VplShading<B>& shading) {
-        return reconstruct(mir::sched::CpuBlocks{executor_}, gbuffer_, vpls, engine_.visibility(),
-                           shading);
+        return reconstruct(mir::sched::CpuBlocks{of_.executor}, of_.gbuffer, vpls,
+                           of_.engine.visibility(), shading);
     }
 
     [[nodiscard]] Picture cuts(const mir::VplTree& tree, std::uint32_t picks,
                                const mir::VplShading<B>& shading) {
-        return reconstruct_cuts(gbuffer_, tree, engine_.visibility(), shading,
-                                mir::DeviationCut{picks}, {5}, executor_);
+        return reconstruct_cuts(of_.gbuffer, tree, of_.engine.visibility(), shading,
+                                mir::DeviationCut{picks}, {5}, of_.executor);
     }
 
-    [[nodiscard]] mir::VplTree tree(const mir::VplList& vpls) { return {vpls.span(), executor_}; }
+    [[nodiscard]] mir::VplTree tree(const mir::VplList& vpls) {
+        return {vpls.span(), of_.executor};
+    }
 
  private:
-    mir::InlineExecutor executor_;
-    mir::Scene scene_;
-    mir::WorldGeometry geometry_{scene_};
-    mir::cpu::EmbreeScene engine_{geometry_};
-    mir::LightTable lights_{scene_, geometry_};
-    mir::SurfaceTable<B> surfaces_{scene_};
-    mir::CameraRays rays_{scene_.cameras.front(), mir::luxel_grid(luxels, 1, {}), 7};
-    mir::BlockedGBuffer<B::Params> gbuffer_;
+    mirbench::StudyScene<B> of_;
 };
 
 /// Means of squares of 4 x 4.

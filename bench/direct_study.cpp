@@ -5,13 +5,11 @@
 // four luxels, seeds 1 to 4. Noise is the standard deviation of a pixel over its light, root mean
 // square over the pixels; pixels much darker than the mean weigh less. One thread; seconds of CPU
 // time of one picture.
-#include "mir/cpu/embree_scene.hpp"
-#include "mir/fill_gbuffer.hpp"
 #include "mir/for_each_luxel.hpp"
 #include "mir/kernels/luxel_light.hpp"
-#include "mir/scene/light_table.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "support/hall_of_lamps.hpp"
+#include "support/study_scene.hpp"
 #include "tools/mir/load_scene.hpp"
 
 #include <cmath>
@@ -38,22 +36,23 @@ struct PickByPower {
     }
 };
 
+/// The tree of lamps without the lobes of glossy surfaces: the rule of before LobeSamples.
+struct PickAlone : mir::PickByTree {};
+
 /// A scene and what its camera sees.
 class Study {
  public:
-    explicit Study(mir::Scene scene) : scene_(std::move(scene)) {
-        mir::fill_gbuffer<B>(gbuffer_, 0, rays_, engine_.ray_caster(), surfaces_, executor_);
-    }
+    explicit Study(mir::Scene scene) : of_(std::move(scene), pixels, 4) {}
 
-    [[nodiscard]] const mir::LightTable& lights() const { return lights_; }
-    [[nodiscard]] Sight sight() const { return engine_.visibility(); }
+    [[nodiscard]] const mir::LightTable& lights() const { return of_.lights; }
+    [[nodiscard]] Sight sight() const { return of_.engine.visibility(); }
 
     /// Means over the luxels of each pixel of light(hit, surface, x, y, band).
     template <class Light>
     [[nodiscard]] Picture picture(std::uint64_t seed, const Light& light) {
-        const mir::LuxelBand band{0, grid_, seed};
-        Picture luxels(grid_.luxels());
-        mir::for_each_luxel(gbuffer_, executor_,
+        const mir::LuxelBand band{0, of_.grid, seed};
+        Picture luxels(of_.grid.luxels());
+        mir::for_each_luxel(of_.gbuffer, of_.executor,
                             [&](std::uint32_t x, std::uint32_t y, const auto& of, auto i) {
                                 const mir::Hit hit = of.hit(i);
                                 if (is_empty(hit)) return;
@@ -62,21 +61,13 @@ class Study {
         Picture means(pixels);
         for (std::uint32_t y = 0; y < luxels.height(); ++y)
             for (std::uint32_t x = 0; x < luxels.width(); ++x)
-                means(x / grid_.per_pixel_x, y / grid_.per_pixel_y) +=
-                    luxels(x, y) * (1.0f / static_cast<float>(grid_.per_pixel()));
+                means(x / of_.grid.per_pixel_x, y / of_.grid.per_pixel_y) +=
+                    luxels(x, y) * (1.0f / static_cast<float>(of_.grid.per_pixel()));
         return means;
     }
 
  private:
-    mir::InlineExecutor executor_;
-    mir::Scene scene_;
-    mir::WorldGeometry geometry_{scene_};
-    mir::cpu::EmbreeScene engine_{geometry_};
-    mir::LightTable lights_{scene_, geometry_};
-    mir::SurfaceTable<B> surfaces_{scene_};
-    mir::LuxelGrid grid_ = mir::luxel_grid(pixels, 4, {});
-    mir::CameraRays rays_{scene_.cameras.front(), grid_, 7};
-    mir::BlockedGBuffer<B::Params> gbuffer_{grid_.luxels(), {256, 256}};
+    mirbench::StudyScene<B> of_;
 };
 
 /// From independent pictures of the same thing; 0 of one.
@@ -167,7 +158,9 @@ void run(const std::string& name) {
         if (study.lights().has_emitters())
             report(study, name, "power", samples, shared_samples<PickByPower>(study, samples));
         report(study, name, "tree alone", samples, lone_samples(study, samples));
-        report(study, name, "tree", samples, shared_samples<mir::PickByTree>(study, samples));
+        report(study, name, "tree", samples, shared_samples<PickAlone>(study, samples));
+        report(study, name, "tree and lobes", samples,
+               shared_samples<mir::PickByTree>(study, samples));
     }
 }
 

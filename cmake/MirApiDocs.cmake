@@ -12,7 +12,8 @@ if(DOXYGEN_FOUND)
     foreach(header IN LISTS headers)
         foreach(base IN ITEMS ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/include
                               ${PROJECT_SOURCE_DIR}/backends/cpu/include
-                              ${PROJECT_SOURCE_DIR}/backends/cuda/include)
+                              ${PROJECT_SOURCE_DIR}/backends/cuda/include
+                              ${PROJECT_SOURCE_DIR}/backends/mpi/include)
             if(EXISTS ${base}/${header})
                 string(APPEND MIR_PUBLIC_HEADERS " \\\n                         \"${base}/${header}\"")
             endif()

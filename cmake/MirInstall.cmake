@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # One export set per component, so that find_package(mir COMPONENTS ...) loads what is asked for.
-# Components of installing are two: `program`, and `development` for who compiles against mir.
+# Components of installing are three: `program`, `mpi` for the program that needs MPI, and
+# `development` for who compiles against mir.
 include(CMakePackageConfigHelpers)
 set(MIR_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/mir)
 
@@ -38,6 +39,10 @@ if(TARGET mir_tool)
             DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
     install(FILES ${manual}/fish/mir.fish
             DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+endif()
+
+if(TARGET mir_mpi_tool)
+    install(TARGETS mir_mpi_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
 endif()
 
 include(MirPkgConfig)

@@ -54,7 +54,11 @@ virtual point lights that Metropolis sampling places where they matter to the
 camera.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmir-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
+set(suggested cmake pkg-config)
+if(TARGET mir_mpi)
+    list(APPEND suggested libopenmpi-dev)
+endif()
+list(JOIN suggested ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "renderer with virtual point lights - development files
 mir is a C++20 library of Metropolis Instant Radiosity. It renders whole
 pictures, and gives its stages one by one to other renderers. This package has

@@ -5,6 +5,7 @@ import shlex
 
 GROWING = "{}"  # stands for the value in options
 MOST_LUXELS = 64  # of a pixel; more paths than these share luxels
+QUALITIES = {1: "draft", 2: "good", 3: "final"}  # of mir render, by the value
 
 
 @dataclasses.dataclass(frozen=True)
@@ -20,7 +21,8 @@ class Configuration:
     def options_at(self, value):
         """Options with the value in its place, and for paths with what it is made of."""
         places = {GROWING: value, "{luxels}": min(value, MOST_LUXELS),
-                  "{samples}": max(1, value // MOST_LUXELS)}
+                  "{samples}": max(1, value // MOST_LUXELS),
+                  "{quality}": QUALITIES.get(value, "good")}
         words = list(self.options)
         for place, number in places.items():
             words = [word.replace(place, str(number)) for word in words]
@@ -29,6 +31,13 @@ class Configuration:
 
 def of_mir(name, group, values, options, denoise=False):
     return Configuration(name, group, tuple(values), tuple(shlex.split(options)), "mir", denoise)
+
+
+def qualities():
+    """What mir render does without further options."""
+    yield of_mir("quality", "quality", QUALITIES, "--quality {quality}")
+    yield of_mir("quality, denoised", "quality, denoised", QUALITIES, "--quality {quality}",
+                 denoise=True)
 
 
 def all_pairs():
@@ -70,7 +79,7 @@ def mitsuba():
 
 def standard():
     """What is measured where nothing else is asked for."""
-    return [*all_pairs(), *cuts(), *paths(), *mitsuba()]
+    return [*qualities(), *all_pairs(), *cuts(), *paths(), *mitsuba()]
 
 
 def quick():

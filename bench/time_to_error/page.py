@@ -7,10 +7,14 @@ def heading(scene, layer):
     return f"{scene}, {'indirect light alone' if layer == 'indirect' else 'whole picture'}"
 
 
-def introduction(metric, levels):
+SECONDS = {"cpu_seconds": "CPU seconds, user and system of the whole process,",
+           "wall_seconds": "Seconds of the whole process by the clock"}
+
+
+def introduction(metric, clock, levels):
     worst = ", without the worst 0.5 % of the pixels" if metric == "relmse_trimmed" else ""
     return ["# Error against time", "",
-            f"CPU seconds, user and system of the whole process, until the scaled relMSE{worst} is "
+            f"{SECONDS[clock]} until the scaled relMSE{worst} is "
             f"{', '.join(f'{level:g}' for level in levels)}: interpolated in log-log between the "
             "pictures of a configuration. ≤: its quickest picture is already better. Not told: "
             "the references are too noisy; more `--reference-paths` help. Slope: "
@@ -20,15 +24,15 @@ def introduction(metric, levels):
             ""]
 
 
-def write(path, results, left_out, metric, levels):
+def write(path, results, left_out, metric, clock, levels):
     """`results`: rows and the references' own errors, by (scene, layer)."""
-    lines = introduction(metric, levels)
+    lines = introduction(metric, clock, levels)
     for (scene, layer), (rows, own_error) in results.items():
         lines += [f"## {heading(scene, layer)}", "",
                   f"{rows[0].width} × {rows[0].height} pixels. The references' own scaled relMSE "
                   f"is {own_error:.2g} each, which the estimate leaves out; errors below "
                   f"{smallest_error(own_error):.2g} they do not tell.", ""]
-        found = tables.curves_of(rows, metric)
+        found = tables.curves_of(rows, metric, clock)
         lines += [*tables.level_table(found, levels, smallest_error(own_error)), ""]
     if left_out:
         lines += ["## Left out", "", *(f"* {scene}: {name}: {reason}"

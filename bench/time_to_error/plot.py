@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Error against CPU seconds as SVG: a panel for each scene and layer, both axes logarithmic."""
+"""Error against seconds as SVG: a panel for each scene and layer, both axes logarithmic."""
 import pathlib
 import sys
 from xml.sax.saxutils import escape
@@ -18,6 +18,7 @@ STYLES = [("circle", "#0072b2", "#56b4e9"), ("square", "#d55e00", "#f0a04b"),
           ("triangle", "#8b0000", "#ff8080"), ("diamond", "#3b3b98", "#a0a0ff")]
 COLUMNS, WIDTH, HEIGHT, LEFT, GAP_X, GAP_Y = 2, 340, 260, 66, 58, 56
 LEGEND_LINE = 18
+AXES = {"cpu_seconds": "CPU seconds", "wall_seconds": "seconds"}
 
 
 def style(groups):
@@ -70,19 +71,19 @@ def draw_legend(out, groups):
                    f'<text x="{LEFT + 34}" y="{row + 4}">{escape(group)}</text>')
 
 
-def shown(rows, metric):
+def shown(rows, metric, clock):
     """Curves without the pictures whose error noise of the references hides."""
     found = {}
-    for name, (curve, group) in tables.curves_of(rows, metric).items():
+    for name, (curve, group) in tables.curves_of(rows, metric, clock).items():
         above = [p for p in curve if p.error > 0]
         if above:
             found[name] = (above, group)
     return found
 
 
-def write(path, results, metric):
+def write(path, results, metric, clock):
     """`results`: rows and the references' own errors, by (scene, layer)."""
-    panels = [(page.heading(*key), shown(rows, metric)) for key, (rows, _) in results.items()]
+    panels = [(page.heading(*key), shown(rows, metric, clock)) for key, (rows, _) in results.items()]
     panels = [(title, found) for title, found in panels if found]
     groups = list(dict.fromkeys(g for _, found in panels for _, g in found.values()))
     head = 44 + len(groups) * LEGEND_LINE
@@ -97,6 +98,6 @@ def write(path, results, metric):
     for i, (title, found) in enumerate(panels):
         draw_panel(out, title, found, groups, LEFT + i % COLUMNS * (WIDTH + GAP_X),
                    head + i // COLUMNS * (HEIGHT + GAP_Y))
-    out.append(f'<text x="{width / 2:.0f}" y="{height - 10}" text-anchor="middle">CPU seconds; '
-               "upwards: scaled relMSE</text></svg>")
+    out.append(f'<text x="{width / 2:.0f}" y="{height - 10}" text-anchor="middle">'
+               f"{AXES[clock]}; upwards: scaled relMSE</text></svg>")
     path.write_text("\n".join(out) + "\n", encoding="utf-8")

@@ -6,7 +6,7 @@ import sys
 import measure
 
 HERE = pathlib.Path(__file__).resolve().parent
-GUIDED = "indirect,albedo,normal"
+GUIDED = "direct,indirect,emission,albedo,normal"  # what mir denoise reads
 
 
 class LeftOut(Exception):
@@ -22,14 +22,15 @@ class Renderers:
 
     def layers(self, configuration):
         """What can be measured of its pictures."""
-        return ["whole"] if configuration.program == "mitsuba" else ["whole", "indirect"]
+        has_layers = configuration.program == "mir" and not configuration.denoise
+        return ["whole", "indirect"] if has_layers else ["whole"]
 
     def check(self, configuration):
         """Raises LeftOut where a program or a module is missing, or the scene is not for it."""
-        if configuration.denoise and "pyoidn" in self._missing:
-            raise LeftOut(self._missing["pyoidn"])
         if configuration.program != "mitsuba":
             return
+        if configuration.denoise and "pyoidn" in self._missing:
+            raise LeftOut(self._missing["pyoidn"])
         if "mitsuba" in self._missing:
             raise LeftOut(self._missing["mitsuba"])
         self._convert()
@@ -44,8 +45,7 @@ class Renderers:
             return measure.run(self._job.render(picture, options))[0]
         noisy = picture.with_suffix(".noisy.exr")
         cost = measure.run(self._job.render(noisy, options, GUIDED))[0]
-        return cost + measure.run([sys.executable, HERE / "denoise.py", noisy, picture,
-                                   "--layer", "indirect"])[0]
+        return cost + measure.run([self._job.mir, "denoise", noisy, picture, "--quiet"])[0]
 
     def _draw_by_mitsuba(self, configuration, options, seed, picture):
         command = [sys.executable, HERE / "mitsuba_render.py", self._convert(), picture,
@@ -74,12 +74,12 @@ class Renderers:
 def missing_programs():
     """Reasons by name of what this Python cannot run."""
     reasons = {}
-    for name, script, option, remedy in (
-            ("mitsuba", "mitsuba_render.py", "--check", "install mitsuba and numpy from PyPI, and "
-             "LLVM 19 or newer, its library named by DRJIT_LIBLLVM_PATH"),
-            ("pyoidn", "denoise.py", "--help", "install pyoidn, OpenEXR and numpy from PyPI")):
+    for name, command, remedy in (
+            ("mitsuba", [HERE / "mitsuba_render.py", "--check"], "install mitsuba and numpy from "
+             "PyPI, and LLVM 19 or newer, its library named by DRJIT_LIBLLVM_PATH"),
+            ("pyoidn", ["-c", "import pyoidn"], "install pyoidn and numpy from PyPI")):
         try:
-            measure.run([sys.executable, HERE / script, option])
+            measure.run([sys.executable, *command])
         except measure.Failed as failure:
             reason = str(failure).split(": ", 1)[1]
             reasons[name] = f"{name} does not run ({reason}); {remedy}"

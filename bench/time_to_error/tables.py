@@ -48,22 +48,22 @@ def write_rows(path, rows):
         writer.writerows(dataclasses.astuple(row) for row in rows)
 
 
-def points_of(rows, metric):
-    """A point for each value: means over the seeds."""
+def points_of(rows, metric, clock):
+    """A point for each value: means over the seeds. `clock` is the field with the seconds."""
     values = {}
     for row in rows:
         values.setdefault(row.value, []).append(row)
-    return [curves.Point(value, statistics.mean(r.cpu_seconds for r in same),
+    return [curves.Point(value, statistics.mean(getattr(r, clock) for r in same),
                          statistics.mean(getattr(r, metric) for r in same))
             for value, same in sorted(values.items())]
 
 
-def curves_of(rows, metric):
+def curves_of(rows, metric, clock):
     """Points and group by configuration, of one scene and layer, in the order of the rows."""
     found = {}
     for row in rows:
         found.setdefault(row.configuration, []).append(row)
-    return {name: (points_of(same, metric), same[0].group) for name, same in found.items()}
+    return {name: (points_of(same, metric, clock), same[0].group) for name, same in found.items()}
 
 
 def seconds_text(reached, longest):

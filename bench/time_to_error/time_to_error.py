@@ -43,7 +43,7 @@ def arguments():
     parser.add_argument("--reference-paths", type=int, default=4096,
                         help="a pixel of each reference (default: 4096)")
     parser.add_argument("--seconds", type=float, default=30.0,
-                        help="a curve ends at a picture of more CPU seconds (default: 30)")
+                        help="a curve ends at a picture of more seconds (default: 30)")
     parser.add_argument("--seeds", type=int, default=1,
                         help="pictures for each point (default: 1)")
     parser.add_argument("--only", action="append", default=[], metavar="TEXT",
@@ -57,6 +57,8 @@ def arguments():
                         help="--environment FILE and what belongs to it")
     parser.add_argument("--levels", default=",".join(f"{v:g}" for v in tables.LEVELS))
     parser.add_argument("--metric", choices=["relmse_trimmed", "relmse"], default="relmse_trimmed")
+    parser.add_argument("--clock", choices=["cpu_seconds", "wall_seconds"], default="cpu_seconds",
+                        help="what is compared (default: cpu_seconds); wall_seconds with a GPU")
     parser.add_argument("--list", action="store_true", help="print the configurations and end")
     parser.add_argument("--quick", action="store_true",
                         help="a tiny picture and two configurations, as a test")
@@ -128,7 +130,7 @@ class SceneStudy:
 
     def _is_last(self, point, growth):
         """True when the next picture would be slow by far, or this one is good enough."""
-        seconds = max(row.cpu_seconds for row in point)
+        seconds = max(getattr(row, self._options.clock) for row in point)
         worst = max(getattr(row, self._options.metric) for row in point)
         limit = self._options.seconds
         return seconds > limit or seconds * growth > 3 * limit or worst < min(self._options.levels)
@@ -179,7 +181,7 @@ def main():
         return
     options.levels = [float(level) for level in options.levels.split(",")]
     options.output.mkdir(parents=True, exist_ok=True)
-    needs_more = any(c.program == "mitsuba" or c.denoise for c in wanted)
+    needs_more = any(c.program == "mitsuba" for c in wanted)
     missing = renderers.missing_programs() if needs_more else {}
     study = Study(options.output)
     results, left_out = {}, []
@@ -194,8 +196,8 @@ def main():
             if of_layer:
                 results[name, layer] = (of_layer, scene.own_error(layer))
         page.write(options.output / "time_to_error.md", results, left_out, options.metric,
-                   options.levels)
-        plot.write(options.output / "time_to_error.svg", results, options.metric)
+                   options.clock, options.levels)
+        plot.write(options.output / "time_to_error.svg", results, options.metric, options.clock)
     print(options.output / "time_to_error.md")
 
 

@@ -10,6 +10,7 @@
 #include "mir/resident/quantised_bvh.hpp"
 #include "mir/resident/uploaded_scene.hpp"
 #include "mir/resident/uploaded_trees.hpp"
+#include "mir/resident/uploaded_triangles.hpp"
 #include "runtime/render_frame.hpp"
 
 #include <cstdint>
@@ -28,8 +29,8 @@ class BackendCuts;
 enum class BackendScheduler { os, rc, rcvp };
 
 /// What a BackendFrame is to build and how it is to work. Pictures are the same for all of them,
-/// bit for bit. Shafts are decided by whole triangles: where some are masked, every ray is a single
-/// one through a wide hierarchy, whatever the options say.
+/// bit for bit. Single rays know triangles that are not opaque through a wide hierarchy alone,
+/// whatever the options say.
 struct BackendFrameOptions {
     /// How VPLs light luxels whose visibility is not stored.
     BackendScheduler scheduler = BackendScheduler::rcvp;
@@ -40,9 +41,9 @@ struct BackendFrameOptions {
 
     /// True when a wide hierarchy is to be built.
     [[nodiscard]] bool needs_bvh() const { return shafts || !kd_tree; }
-    /// The same for a scene with masks.
-    [[nodiscard]] BackendFrameOptions masked() const {
-        return {scheduler, false, false, chain_bytes};
+    /// The same for a scene that is not opaque.
+    [[nodiscard]] BackendFrameOptions see_through() const {
+        return {scheduler, false, shafts, chain_bytes};
     }
 };
 
@@ -140,9 +141,12 @@ class BackendFrame final : public RenderFrame {
                                                    const MetropolisOptions& options, float bound);
 
     void build_bvh();
+    void build_parts();
     [[nodiscard]] const KdTree& host_tree();
-    [[nodiscard]] AlphaMaskView<space> masks_there() const {
-        return {geometry_there_.view(), masks_.data(), surfaces_.view().textures};
+    [[nodiscard]] OpacityView<space> opacity_there() const {
+        return {geometry_there_.view(), masks_.size() == 0 ? nullptr : masks_.data(),
+                see_through_.size() == 0 ? nullptr : see_through_.data(),
+                surfaces_.view().textures};
     }
     [[nodiscard]] BackendLayer<M> layer_for(const Band& band) const {
         return {machine_, band.gbuffer.grid()};
@@ -166,11 +170,16 @@ class BackendFrame final : public RenderFrame {
     UploadedLights<M> lights_;
     UploadedSurfaces<M, B> surfaces_;
     UploadedArray<M, AlphaMask> masks_;
+    UploadedArray<M, SeeThrough> see_through_;
     std::shared_ptr<const KdTree> host_tree_;  ///< null until it is asked for
     std::optional<AnyEngine> rays_;
     std::optional<UploadedKdTree<M>> tree_;
     std::optional<BackendWideBvh<M>> bvh_;
     std::optional<QuantisedBvh<M>> short_bvh_;
+    /// Where some triangle is not opaque, of the opaque ones; shafts go through it.
+    std::optional<BackendWideBvh<M>> opaque_bvh_;
+    std::optional<BackendWideBvh<M>> open_bvh_;  ///< of the others
+    std::optional<QuantisedBvh<M>> short_open_bvh_;
     /// Of all VPLs, or of those of each bounce, which every band gathers.
     std::vector<std::pair<CutVpls, std::shared_ptr<BackendCuts<M>>>> cuts_;
     std::optional<Picture> picture_;

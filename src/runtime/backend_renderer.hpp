@@ -9,6 +9,7 @@
 #include "runtime/checked_render.hpp"
 #include "runtime/render_on_host.hpp"
 #include "runtime/render_vpls.hpp"
+#include "runtime/shared_frame.hpp"
 #include "runtime/shared_tree.hpp"
 #include "runtime/side_threads.hpp"
 #include "runtime/split_frame.hpp"
@@ -39,13 +40,25 @@ class BackendRenderer final : public Renderer {
 
     RenderResult render(const Scene& scene, const RenderSettings& settings,
                         Monitor* monitor) const override {
+        return render(scene, settings, monitor, nullptr);
+    }
+    RenderResult render_share(const Scene& scene, const RenderSettings& settings, Monitor* monitor,
+                              PictureShare& share) const override {
+        return render(scene, settings, monitor, &share);
+    }
+
+ private:
+    using Machines = std::vector<BackendMachine<M>>;
+
+    [[nodiscard]] RenderResult render(const Scene& scene, const RenderSettings& settings,
+                                      Monitor* monitor, PictureShare* share) const {
         settings.validate();
         if (const std::string reason = reason_against(settings, backend_features); !reason.empty())
             throw Error(ErrorCode::unsupported, reason);
         const Machines machines = machines_.chosen(settings.devices);
         // The fingerprint beside the machine's work: it takes as long as a stage.
-        CheckedRender checked(scene, settings, monitor, std::launch::async);
-        RenderResult result = render_in_memory(checked.placed(), settings, machines);
+        CheckedRender checked(scene, settings, monitor, std::launch::async, share);
+        RenderResult result = render_in_memory(checked.placed(), settings, machines, share);
         result.statistics.backend = machines.front().name;
         for (const auto& machine : machines)
             result.statistics.device +=
@@ -53,9 +66,6 @@ class BackendRenderer final : public Renderer {
         result.statistics.scheduler = name_;
         return checked.complete(std::move(result));
     }
-
- private:
-    using Machines = std::vector<BackendMachine<M>>;
 
     /// Luxels scheduled together unless the settings say: enough to fill a large GPU.
     static constexpr Extent default_tile{1024, 1024};
@@ -70,14 +80,15 @@ class BackendRenderer final : public Renderer {
     }
 
     [[nodiscard]] RenderResult render_in_memory(const PlacedScene& placed, RenderSettings settings,
-                                                const Machines& machines) const {
+                                                const Machines& machines,
+                                                PictureShare* share) const {
         Extent tile = settings.tile.value_or(default_tile);
         settings.limits.visibility_bytes =
             std::min<std::uint64_t>(settings.limits.visibility_bytes, usable_bytes(machines) / 2);
         for (;;) {
             settings.tile = tile;
             try {
-                return render(placed, settings, machines);
+                return render(placed, settings, machines, share);
             } catch (const Error& e) {
                 const bool is_smallest =
                     tile.width <= least_tile_side && tile.height <= least_tile_side;
@@ -93,12 +104,13 @@ class BackendRenderer final : public Renderer {
     }
 
     [[nodiscard]] RenderResult render(const PlacedScene& placed, const RenderSettings& settings,
-                                      const Machines& machines) const {
+                                      const Machines& machines, PictureShare* share) const {
         const bool by_vpls = settings.integrator == Integrator::vpl;
         const BackendStructures structures =
-            by_vpls ? structures_of(placed.geometry.is_masked(), settings) : tree_alone;
+            by_vpls ? structures_of(placed.geometry.is_opaque(), settings) : tree_alone;
         const RenderSettings decided = with_light_sum(settings);
         RenderJob job(placed, decided);
+        job.share = share;
         RenderResult result =
             by_vpls ? render_there(job, structures, machines) : render_here(job, machines.front());
         result.statistics.acceleration = structures.name;
@@ -119,9 +131,10 @@ class BackendRenderer final : public Renderer {
             });
         }
         if (job.monitor != nullptr) job.monitor->check();
-        if (frames.size() == 1) return render_vpls(*frames.front());
-        SplitFrame frame(job, std::move(frames));
-        return render_vpls(frame);
+        std::unique_ptr<RenderFrame> frame =
+            frames.size() == 1 ? std::move(frames.front())
+                               : std::make_unique<SplitFrame>(job, std::move(frames));
+        return render_vpls(*shared_out(job, std::move(frame)));
     }
 
     [[nodiscard]] static std::unique_ptr<RenderFrame> frame_on(const BackendMachine<M>& machine,

@@ -10,12 +10,11 @@ constexpr double kd_tree_pays = 13e9;
 
 constexpr BackendStructures both{"kdtree+shafts", true, true};
 constexpr BackendStructures hierarchy{"bvh", false, true};
-constexpr BackendStructures for_masks{"bvh", false, false};
 
 }  // namespace
 
-BackendStructures structures_of(bool is_masked, const RenderSettings& settings) {
-    if (is_masked) return for_masks;
+BackendStructures structures_of(bool is_opaque, const RenderSettings& settings) {
+    if (!is_opaque) return hierarchy;
     switch (settings.acceleration) {
         case Acceleration::kd_tree:
             return tree_alone;

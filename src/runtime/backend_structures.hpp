@@ -16,6 +16,6 @@ struct BackendStructures {
 inline constexpr BackendStructures tree_alone{"kdtree", true, false};
 
 /// As settings want it, or by what pays.
-[[nodiscard]] BackendStructures structures_of(bool is_masked, const RenderSettings& settings);
+[[nodiscard]] BackendStructures structures_of(bool is_opaque, const RenderSettings& settings);
 
 }  // namespace mir

@@ -30,12 +30,12 @@ WorldGeometry placed_triangles(const Scene& scene, const RenderSettings& setting
 }  // namespace
 
 CheckedRender::CheckedRender(const Scene& scene, const RenderSettings& settings, Monitor* monitor,
-                             std::launch fingerprint)
+                             std::launch fingerprint, const PictureShare* share)
     : warnings_(checked(scene, settings)),
       clock_(monitor),
       fingerprint_(std::async(fingerprint, [&scene] { return SceneHash(scene).hex(); })),
       near_(brought_near(scene, clock_)),
-      threads_(settings.threads),
+      threads_(settings.threads, share == nullptr ? 1 : 2),
       geometry_(placed_triangles(near_.scene(), settings, threads_, clock_)),
       placed_{near_.scene(), geometry_, AnyExecutor(threads_), monitor, clock_} {
     warnings_.insert(warnings_.end(), near_.remarks().begin(), near_.remarks().end());

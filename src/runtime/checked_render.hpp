@@ -16,10 +16,11 @@ namespace mir {
 class CheckedRender {
  public:
     /// `monitor` may be null, all else must outlive it. `fingerprint` says when that of the scene
-    /// is made: beside the work or behind it.
+    /// is made: beside the work or behind it. `share` is null, or that of this process in a picture
+    /// of several.
     /// @throws Error for settings or scene that cannot be used.
     CheckedRender(const Scene& scene, const RenderSettings& settings, Monitor* monitor,
-                  std::launch fingerprint);
+                  std::launch fingerprint, const PictureShare* share);
     CheckedRender(const CheckedRender&) = delete;
     CheckedRender& operator=(const CheckedRender&) = delete;
     ~CheckedRender() = default;

@@ -14,12 +14,23 @@ class CpuRenderer : public Renderer {
     CpuRenderer(std::string_view name, HostScheduler scheduler)
         : name_(name), scheduler_(scheduler) {}
 
-    RenderResult render(const Scene& scene, const RenderSettings& wanted,
+    RenderResult render(const Scene& scene, const RenderSettings& settings,
                         Monitor* monitor) const override {
+        return render(scene, settings, monitor, nullptr);
+    }
+    RenderResult render_share(const Scene& scene, const RenderSettings& settings, Monitor* monitor,
+                              PictureShare& share) const override {
+        return render(scene, settings, monitor, &share);
+    }
+
+ private:
+    RenderResult render(const Scene& scene, const RenderSettings& wanted, Monitor* monitor,
+                        PictureShare* share) const {
         const RenderSettings settings = with_light_sum(wanted);
-        CheckedRender checked(scene, settings, monitor, std::launch::deferred);
+        CheckedRender checked(scene, settings, monitor, std::launch::deferred, share);
         const HostTracing tracing = trace_on_host(checked.placed(), settings);
         RenderJob job(checked.placed(), settings);
+        job.share = share;
         RenderResult result = render_on_host(job, *tracing.scene, scheduler_);
         result.statistics.backend = "cpu";
         result.statistics.scheduler = name_;
@@ -27,7 +38,6 @@ class CpuRenderer : public Renderer {
         return checked.complete(std::move(result));
     }
 
- private:
     std::string name_;
     HostScheduler scheduler_;
 };

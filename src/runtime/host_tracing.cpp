@@ -18,13 +18,12 @@ double pairs_that_pay(double triangles) {
     return 128 * triangles * std::max(1.0, std::sqrt(triangles / many));
 }
 
-/// Paths and discs ask ray by ray, which Embree answers fastest. So do luxels where masks forbid
-/// shafts.
+/// Paths and discs ask ray by ray, which Embree answers fastest.
 Acceleration structure_of(const WorldGeometry& geometry, const RenderSettings& s) {
     if (s.acceleration != Acceleration::automatic) return s.acceleration;
     if (embree_tracing() == nullptr) return Acceleration::bvh;
     const double triangles = static_cast<double>(geometry.triangles().size());
-    const bool asks_blocks = s.integrator == Integrator::vpl && !geometry.is_masked();
+    const bool asks_blocks = s.integrator == Integrator::vpl;
     return asks_blocks && pairs(s) >= pairs_that_pay(triangles) ? Acceleration::bvh
                                                                 : Acceleration::embree;
 }

@@ -34,6 +34,7 @@ std::vector<ImageResponse> NormalisationPass::over_image(VplSpan<Space::host> vp
         add(by, *band, vpls, turn, sum);
         if (keep) kept_[i] = std::move(band);
     });
+    frame_.take_over(sum);
     const auto stage = job.clock.measure(&StageSeconds::response);
     return sum.mean();
 }

@@ -67,7 +67,8 @@ class DiscRender {
     [[nodiscard]] Discs make_discs();
     [[nodiscard]] std::vector<Radiance> light(const Discs& discs);
     void check(const Sources& sources);
-    void render_band(const FrameBand& band, const Sources& sources);
+    void render_band(RenderFrame& by, const FrameBand& band, const Sources& sources,
+                     BandTurn& turn);
     [[nodiscard]] Image<Rgb> gather(const Luxels& gbuffer, const LuxelBand& rows,
                                     const Discs& discs, const Radiance& source);
     template <class Done = decltype(no_progress)>
@@ -75,7 +76,7 @@ class DiscRender {
                                                  const Discs& discs, const Radiance& source,
                                                  const Done& done = no_progress);
     void correct(Image<Rgb>& light, const LuxelBand& rows);
-    void append_indirect(const FrameBand& band, const Sources& sources,
+    void append_indirect(RenderFrame& by, const FrameBand& band, const Sources& sources,
                          std::vector<LayerPtr>& layers);
 
     RenderFrame& frame_;
@@ -106,10 +107,10 @@ RenderResult DiscRender<B>::run() {
         s.direct_noise = direct_noise(frame_, job_.settings.direct_samples_per_luxel());
     }
     job_.begin_bands(bands.count());
-    for (std::uint32_t i = 0; i < bands.count(); ++i) {
+    frame_.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
         job_.begin_band();
-        render_band(*bands.make(frame_, i), sources);
-    }
+        render_band(by, *bands.make(by, i), sources, turn);
+    });
     const auto stage = job_.clock.measure(&StageSeconds::film);
     take_layers(frame_.develop(), false, job_.result, job_.executor);
     return job_.take_result();
@@ -209,17 +210,20 @@ void DiscRender<B>::check(const Sources& sources) {
 }
 
 template <Bsdf B>
-void DiscRender<B>::render_band(const FrameBand& band, const Sources& sources) {
+void DiscRender<B>::render_band(RenderFrame& by, const FrameBand& band, const Sources& sources,
+                                BandTurn& turn) {
     std::vector<LayerPtr> layers;
     {
         const auto stage = job_.clock.measure(&StageSeconds::direct);
-        layers.push_back(frame_.direct(band, job_.settings.direct_samples_per_luxel()));
-        layers.push_back(frame_.emission(band));
-        layers.push_back(frame_.coverage(band));
+        layers.push_back(by.direct(band, job_.settings.direct_samples_per_luxel()));
+        layers.push_back(by.emission(band));
+        layers.push_back(by.coverage(band));
     }
-    append_indirect(band, sources, layers);
-    add_luminances(job_, band, frame_.row_luminances(*layers[indirect_layer]), {}, {});
-    frame_.put(band, std::move(layers), nullptr);
+    append_indirect(by, band, sources, layers);
+    const std::vector<double> luminances = by.row_luminances(*layers[indirect_layer]);
+    turn.wait();
+    add_luminances(job_, band, luminances, {}, {});
+    by.put(band, std::move(layers), turn.seam());
 }
 
 /// By the machine where there is one, else on the executor.
@@ -274,11 +278,11 @@ void DiscRender<B>::correct(Image<Rgb>& light, const LuxelBand& rows) {
 
 /// The sum of all bounces and each of them, where asked for. The direct light comes first.
 template <Bsdf B>
-void DiscRender<B>::append_indirect(const FrameBand& band, const Sources& sources,
+void DiscRender<B>::append_indirect(RenderFrame& by, const FrameBand& band, const Sources& sources,
                                     std::vector<LayerPtr>& layers) {
     const auto stage = job_.clock.measure(&StageSeconds::gather);
     const bool apart = job_.settings.bounce_layers;
-    layers.push_back(frame_.black(band));
+    layers.push_back(by.black(band));
     Image<Rgb>& sum = HostLayer::of(*layers.back());
     if (apart) layers.push_back(host_layer(HostLayer::of(*layers[direct_layer])));
     const LuxelBand rows{band.first_row, job_.rays.grid, job_.settings.seed};

@@ -103,6 +103,10 @@ class RenderFrame {
     virtual void add_responses(const FrameBand& band, VplSpan<Space::host> vpls, float bound,
                                BandTurn& turn, ResponseSum& sum) = 0;
 
+    /// Makes a sum of responses that of all bands, also where others have added theirs elsewhere.
+    /// To be called behind the loop that added to it.
+    virtual void take_over(ResponseSum& /*sum*/) {}
+
     /// No light.
     [[nodiscard]] virtual LayerPtr black(const FrameBand& band) = 0;
     /// Next-event light from lamps and environment, and light without extent.

@@ -15,6 +15,8 @@
 
 namespace mir {
 
+class PictureShare;
+
 /// A scene whose triangles lie where they belong, and what works on it. A view.
 struct PlacedScene {
     const Scene& scene;             ///< checked
@@ -85,6 +87,7 @@ struct RenderJob {
     LightTable lights;               ///< of the scene
     AnySurfaces surfaces;            ///< of the scene's materials
     CameraRays rays;                 ///< of the whole image
+    PictureShare* share = nullptr;   ///< of processes that make it together; null: there is one
     RenderResult result;             ///< as far as it has come; take_result() takes it away
 
  private:

@@ -5,10 +5,11 @@
 #include "runtime/render_discs.hpp"
 #include "runtime/render_paths.hpp"
 #include "runtime/render_vpls.hpp"
+#include "runtime/shared_frame.hpp"
 
 mir::RenderResult mir::render_on_host(RenderJob& job, const TracedScene& traced,
                                       HostScheduler scheduler, DiscGather* machine) {
-    const std::unique_ptr<RenderFrame> frame = host_frame(job, traced, scheduler);
+    const std::unique_ptr<RenderFrame> frame = shared_out(job, host_frame(job, traced, scheduler));
     switch (job.settings.integrator) {
         case Integrator::path:
             return render_paths(*frame);

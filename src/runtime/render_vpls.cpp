@@ -221,7 +221,8 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
     job.begin_bands(bands.count());
     frame.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
         job.begin_band();
-        const BandPtr band = kept.empty() ? bands.make(by, i) : std::move(kept[i]);
+        const BandPtr band =
+            kept.empty() || kept[i] == nullptr ? bands.make(by, i) : std::move(kept[i]);
         if (stores && !band->knows_visibility()) find_visible(by, *band, vpls.span());
         BandLight made = light_band(by, *band, bound, light, caustics);
         turn.wait();

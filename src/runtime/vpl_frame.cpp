@@ -28,7 +28,7 @@ HostScheduler scheduler_of(const RenderSettings& settings) {
 struct VplFrame::Parts {
     Parts(const Scene& scene, RenderSettings wanted, Monitor* monitor)
         : settings(with_light_sum(std::move(wanted))),
-          checked(scene, settings, monitor, std::launch::deferred),
+          checked(scene, settings, monitor, std::launch::deferred, nullptr),
           tracing(trace_on_host(checked.placed(), settings)),
           job(checked.placed(), settings),
           scheduler(scheduler_of(settings)),

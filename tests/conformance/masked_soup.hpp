@@ -37,6 +37,29 @@ inline std::vector<mir::Material> soup_materials() {
             masked(0.9f, 0.45f, nearest), masked(1.0f, 0.5f, bilinear)};
 }
 
+/// Materials with holes, blended ones and thin glass, plain and with random images.
+inline std::vector<mir::Material> see_through_materials() {
+    std::vector<mir::Material> materials = soup_materials();
+    mir::Material veil = masked(0.6f, 0.0f);
+    veil.is_blended = true;
+    mir::Material lace = masked(0.9f, 0.0f, texture_of(0));
+    lace.is_blended = true;
+    mir::Material glass = masked(1.0f, 0.0f);
+    glass.base_color = {0.9f, 0.95f, 0.8f};
+    glass.specular = 1.0f;
+    glass.roughness = 0.0f;
+    glass.transmission = 0.9f;
+    mir::Material stained = glass;
+    stained.textures.base_color = texture_of(1);
+    stained.textures.metallic_roughness = texture_of(0);
+    mir::Material broken = masked(1.0f, 0.5f, texture_of(1));
+    broken.roughness = 0.0f;
+    broken.transmission = 0.7f;
+    for (mir::Material& m : std::vector{veil, lace, glass, stained, broken})
+        materials.push_back(std::move(m));
+    return materials;
+}
+
 /// triangle_soup() of the materials `materials`, by turns, whose corners have random texture
 /// coordinates.
 inline World masked_soup(std::uint32_t count, std::uint64_t index,

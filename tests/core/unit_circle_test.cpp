@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mir/core/unit_circle.hpp"
 
+#include "mir/core/circle_turns.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
@@ -43,4 +44,29 @@ TEST_CASE("cosine and sine of tiny turns keep their relative precision") {
         const double angle = 6.283185307179586476925 * static_cast<double>(turns);
         CHECK(mir::unit_circle(turns).y == mirtest::Approx(std::sin(angle)).epsilon(2e-7));
     }
+}
+
+TEST_CASE("turns of a direction keep to their error bound, at any length") {
+    double largest = 0.0;
+    for (int i = 0; i < 1 << 20; ++i) {
+        const double angle = 6.283185307179586476925 * (i / double{1 << 20} - 0.5);
+        const double length = std::exp2(i % 41 - 20);
+        const mir::Vec2 d(length * std::cos(angle), length * std::sin(angle));
+        const double exact = std::atan2(static_cast<double>(d.y), static_cast<double>(d.x)) /
+                             6.283185307179586476925;
+        const auto turns = static_cast<double>(mir::circle_turns(d));
+        largest = std::max(largest, std::fabs(turns - exact));
+    }
+    CHECK(largest < 6e-8);
+}
+
+TEST_CASE("turns are exact at multiples of an eighth and keep the precision of tiny ones") {
+    const mir::Vec2 eighths[] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}};
+    for (int i = 0; i < 5; ++i) {
+        CHECK(mir::circle_turns(3.0f * eighths[i]) == 0.125f * static_cast<float>(i));
+        CHECK(mir::circle_turns({eighths[i].x, -eighths[i].y}) ==
+              (i < 4 ? -0.125f : 0.125f) * static_cast<float>(i));
+    }
+    CHECK(mir::circle_turns({0, 0}) == 0.0f);
+    CHECK(mir::circle_turns({1, 1e-20f}) == mirtest::Approx(1.59154943e-21).epsilon(2e-7));
 }

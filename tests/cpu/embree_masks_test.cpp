@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "conformance/masked_suite.hpp"
+#include "conformance/see_through_suite.hpp"
 #include "mir/cpu/embree_scene.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("Embree knows masks") { mirtest::masked_suite<mir::cpu::EmbreeScene>(); }
+
+TEST_CASE("Embree sees through") { mirtest::see_through_suite<mir::cpu::EmbreeScene>(); }
 
 TEST_CASE("a masked Embree scene may be moved") {
     mir::Scene whole;

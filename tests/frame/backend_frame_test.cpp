@@ -199,8 +199,14 @@ TEST_CASE("Light of VPLs that are no states is traced by every scheduler, with t
     }
 }
 
-TEST_CASE("A frame with alpha masks has the bits of the host's, by every scheduler") {
+TEST_CASE("A frame with masks and glass has the bits of the host's, by every scheduler") {
     Scene scene = lit_room();
+    mir::Material pane = mir::lambertian("pane", {0.9f, 0.8f, 0.7f});
+    pane.specular = 1.0f;
+    pane.roughness = 0.0f;
+    pane.transmission = 0.9f;
+    scene.place(mir::builtin::quad("pane", scene.add(pane), {-0.9f, 0.4f, -0.2f}, {0.8f, 0, 0},
+                                   {0, 0.9f, 0.1f}));
     mirtest::hang_curtain(scene, mir::lambertian("curtain", {0.7f, 0.6f, 0.5f}), 6,
                           {-0.6f, 1.3f, -0.5f}, {1.2f, 0.1f, 0.0f}, {0.0f, -0.1f, 1.1f});
     RenderSettings settings = small_picture();

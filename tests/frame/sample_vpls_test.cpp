@@ -71,6 +71,9 @@ class SamplingFrame final : public mir::RenderFrame {
                                 mir::Monitor*) override {
         return never(nullptr);
     }
+    mir::LayerPtr layer_of(const mir::FrameBand&, mir::Image<mir::Rgb>) override {
+        return never(nullptr);
+    }
     void add(mir::FrameLayer&, const mir::FrameLayer&) override { never(0); }
     std::vector<double> row_luminances(const mir::FrameLayer&) override {
         return never(std::vector<double>{});

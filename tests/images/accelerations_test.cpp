@@ -54,7 +54,7 @@ TEST_CASE("The processor chooses its structure by how many pairs a triangle serv
     CHECK(used(masked) == "bvh");
     mirtest::hang_curtain(masked, mir::lambertian("curtain", {0.7f, 0.6f, 0.5f}), 6,
                           {-0.7f, 1.3f, -0.6f}, {1.4f, 0, 0}, {0, 0, 1.2f});
-    CHECK(used(masked) == "embree");
+    CHECK(used(masked) == "bvh");
 }
 
 TEST_CASE("A scene of more than a million triangles needs more pairs for each", "[extended]") {

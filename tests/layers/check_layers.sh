@@ -9,12 +9,12 @@ cd -- "$1"
 
 # FILE:#include "mir/OTHER", FILE relative to the folder that holds mir/.
 includes() {
-    for base in include backends/cpu/include backends/cuda/include; do
+    for base in include backends/cpu/include backends/cuda/include backends/mpi/include; do
         [ ! -d "$base" ] || (cd "$base" && grep -ro --include='*.hpp' --include='*.cuh' \
             '^#include "mir/[^"]*"' mir)
     done
     # Sources of a component count as its folder.
-    for component in cpu cuda; do
+    for component in cpu cuda mpi; do
         [ ! -d "backends/$component/src" ] || (cd "backends/$component/src" &&
             grep -ro '^#include "mir/[^"]*"' . | sed "s#^\./#mir/$component/#")
     done

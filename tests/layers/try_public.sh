@@ -48,4 +48,4 @@ sed -i '/reconstruct\.hpp/d' include/mir/mir.hpp
 named 'mir.hpp does not include mir/reconstruct.hpp' include/mir/mir.hpp
 cp cmake/public_headers.txt kept
 yes mir/core/rgb.hpp | head -n 60 >>cmake/public_headers.txt
-named 'more than 145 headers' cmake/public_headers.txt
+named 'more than 150 headers' cmake/public_headers.txt

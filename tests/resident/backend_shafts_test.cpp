@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "mir/shaft/device/backend_shafts.hpp"
 
+#include "conformance/masked_soup.hpp"
 #include "conformance/shaft_suite.hpp"
 #include "mir/host/backend.hpp"
 #include "mir/host/tbb_executor.hpp"
+#include "mir/host/wide_bvh_scene.hpp"
 #include "support/lazy_backend.hpp"
 #include "support/shaft_words.hpp"
 
@@ -186,4 +188,46 @@ TEST_CASE("Shafts of a backend that runs late, or on many threads, give the same
     CHECK(mirtest::shaft_words(mir::host::Backend(many), input(stage), {}) == truth);
     mirtest::PutOff work(0);
     CHECK(mirtest::shaft_words(mirtest::LazyBackend(work), input(stage), {}) == truth);
+}
+
+TEST_CASE("Shafts of a backend see through what single segments see through") {
+    const mirtest::World world =
+        mirtest::masked_soup(GENERATE(12u, 200u), 92, mirtest::see_through_materials());
+    const ShaftStage stage = stage_of(world, 3000, 70);
+    const mir::WorldGeometry& geometry = world.geometry;
+    const mir::TrianglesByOpacity parts = mir::triangles_by_opacity(geometry);
+    mir::InlineExecutor executor;
+    const HostBackend backend(executor);
+    auto queue = backend.queue();
+    const mir::WideBvh opaque = mir::build_wide_bvh(geometry, parts.opaque, executor);
+    const mir::WideBvh open = mir::build_wide_bvh(geometry, parts.open, executor);
+    const mirtest::UploadedWideBvh<HostBackend> opaque_there(backend, queue, opaque);
+    const mirtest::UploadedWideBvh<HostBackend> open_there(backend, queue, open);
+    using Sight = mir::WideBvhVisibility<mir::Space::host>;
+    const mir::VeiledClusterVisibility<Sight, Sight> visibility{
+        opaque_there.quantised(),
+        stage.sigma(),
+        {opaque_there.view()},
+        open_there.quantised(),
+        {open_there.view(), geometry.opacity()}};
+    const std::vector<mir::Vpl>& vpls = stage.lit().vpls;
+    std::vector<std::uint32_t> found(stage.hits().stride / 32 * vpls.size(), ~0u);
+    mir::BackendShafts<HostBackend> shafts(backend, stage.hits().stride,
+                                           static_cast<std::uint32_t>(vpls.size()), {48, 96, 40});
+    shafts.fill(queue, stage.hits(), std::nullopt, mir::span_of(vpls), visibility, found.data());
+
+    const mir::WideBvhScene all(geometry);
+    std::vector<std::uint32_t> truth(found.size());
+    std::size_t behind_open = 0;
+    for (std::uint32_t i = 0; i < stage.hits().stride; ++i)
+        for (std::size_t j = 0; j < vpls.size(); ++j) {
+            const mir::Hit hit = stage.hits().load(i);
+            if (!faces(hit, vpls[j])) continue;
+            const bool seen = all.visibility().visible(vpls[j].position, hit.position);
+            truth[i / 32 * vpls.size() + j] |= static_cast<std::uint32_t>(seen) << i % 32;
+            behind_open +=
+                !seen && visibility.segments.visible(vpls[j].position, hit.position) ? 1 : 0;
+        }
+    CHECK(different_bits(found, truth) == 0);
+    CHECK(behind_open > 300);
 }

@@ -67,12 +67,12 @@ TEST_CASE("alpha is linear, and mixed between texels as colours are") {
 
 TEST_CASE("a scene without masks has none to ask") {
     mir::Scene scene = masked_triangle(0.0f, 0.0f);
-    CHECK_FALSE(mir::WorldGeometry(scene).is_masked());
+    CHECK(mir::WorldGeometry(scene).is_opaque());
     CHECK_FALSE(mir::WorldGeometry(scene).alpha_masks().exists());
     CHECK(is_solid(scene, lower_left));
     scene.add(mir::lambertian("other", {1, 1, 1}));
     scene.materials.back().alpha_cutoff = 0.5f;
-    CHECK(mir::WorldGeometry(scene).is_masked());
+    CHECK_FALSE(mir::WorldGeometry(scene).is_opaque());
     CHECK(is_solid(scene, lower_left));
 }
 

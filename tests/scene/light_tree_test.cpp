@@ -4,6 +4,7 @@
 #include "conformance/worlds.hpp"
 #include "mir/core/frame.hpp"
 #include "mir/scene/light_table.hpp"
+#include "mir/scene/lights/lamp_along_ray.hpp"
 #include "mir/scene/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/statistics.hpp"
@@ -260,4 +261,54 @@ TEST_CASE("lamps at one place, or one by one twice as far, make a tree that ends
     CHECK(lit.lights.tree().nodes().size() == 839);
     const Vec3 up(0, 1, 0);
     CHECK(sum(chances(lit, {{0, -1, 0}, up, up})) == Approx(1.0));
+}
+
+namespace {
+
+/// What lamp_along() promises, by asking every lamp.
+std::uint32_t nearest_lamp(const Lit& lit, const LightReceiver& at, Vec3 w,
+                           const std::vector<double>& chances) {
+    const auto lamps = lit.lights.view().lamps;
+    std::uint32_t nearest = mir::LightPick::none;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < lamps.count; ++i) {
+        const std::uint32_t t = lamps.triangles[i];
+        const auto corner = [&](std::uint32_t k) {
+            return glm::dvec3(lit.geometry.view().corner(t, k)) - glm::dvec3(at.position);
+        };
+        const glm::dmat3 edges(corner(1) - corner(0), corner(2) - corner(0), -glm::dvec3(w));
+        const glm::dvec3 place = glm::inverse(edges) * -corner(0);
+        const bool is_met = place.x > 0.0 && place.y > 0.0 && place.x + place.y < 1.0;
+        const bool is_front = glm::dot(w, lamps.lamp_triangles[i].normal) < 0.0f;
+        if (is_met && place.z > 0.0 && place.z < least && chances[i] > 0.0 &&
+            (is_front || lamps.lamp_triangles[i].both_sides)) {
+            nearest = i;
+            least = place.z;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace
+
+TEST_CASE("a ray finds the nearest lamp that shines along it, with the probability of its choice") {
+    std::size_t met = 0;
+    for (const std::uint32_t count : {1u, 2u, 30u, 1000u}) {
+        const Lit lit = mixed(count, 20, 400 + count);
+        mir::Random random = mirtest::test_random(500 + count);
+        for (int k = 0; k < 300; ++k) {
+            const LightReceiver at = random_receiver(random);
+            const std::vector<double> all = chances(lit, at);
+            const Vec3 w = glm::normalize(mirtest::point_in_cube(random) - 0.999f * at.position);
+            const auto found = mir::lamp_along(lit.lights.view(), lit.geometry.view(), at, w);
+            CHECK(found.lamp == nearest_lamp(lit, at, w, all));
+            if (!found.is_found()) continue;
+            ++met;
+            CHECK(found.probability == Approx(all[found.lamp]).epsilon(1e-5));
+            const Vec3 place = lit.geometry.view().position(
+                lit.lights.view().lamps.triangles[found.lamp], found.barycentrics);
+            CHECK(glm::length(at.position + found.distance * w - place) < 1e-5f);
+        }
+    }
+    CHECK(met > 30);
 }

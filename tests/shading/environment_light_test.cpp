@@ -2,6 +2,7 @@
 #include "mir/shading/environment_light.hpp"
 
 #include "mir/scene/shapes.hpp"
+#include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
 #include "support/free_sight.hpp"
@@ -20,7 +21,7 @@ using mirtest::FreeSight;
 using mirtest::Moments;
 
 // Every test of a mean in this file belongs to one family of level 1 %.
-const double level = mirtest::sidak(0.01, 7);
+const double level = mirtest::sidak(0.01, 9);
 
 /// Some surface under a sky. Radiance of a receiver with f = 1 is its irradiance.
 struct Under {
@@ -121,4 +122,31 @@ TEST_CASE("The power of a sky is what passes the bounding sphere, and it comes l
     const mir::LightTable both(s, under.geometry);
     CHECK_FALSE(both.visit(0, has_extent));
     CHECK(both.visit(1, has_extent));
+}
+
+// H0: what a glossy surface mirrors of a sky with a sun has one mean by directions that its lobe
+// chooses too and by luminance alone. Welch's t over 4000 estimates each.
+TEST_CASE("directions into a lobe keep the mean of a sky and take its noise", "[statistical]") {
+    using mir::CookTorrance;
+    const Under under(mirtest::test_sky());
+    const mir::EnvironmentLight<CookTorrance, FreeSight> light{under.lights, {}, 8};
+    const Vec3 up(0, 1, 0);
+    const Vec3 viewer = glm::normalize(Vec3(0.5f, 1, -0.4f));
+    std::uint64_t seed = 190;
+    for (const float alpha : {0.01f, 0.1f}) {
+        const CookTorrance::Params plastic{{0.2f, 0.2f, 0.2f}, {0.04f, 0.04f, 0.04f}, 1, alpha};
+        const mir::Surface<CookTorrance::Params> surface{up, viewer, {}, plastic};
+        Moments both;
+        Moments alone;
+        for (std::uint64_t i = 0; i < 4000; ++i) {
+            const mir::Random random(seed, mir::Stream::test, i);
+            const mir::Random other(seed + 1, mir::Stream::test, i);
+            both.add(static_cast<double>(light({{}, up}, surface, {}, random).g));
+            alone.add(static_cast<double>(light.from_vpls({{}, up}, surface, other).g));
+        }
+        seed += 2;
+        CAPTURE(alpha, both.mean(), alone.mean(), both.variance(), alone.variance());
+        CHECK(mirtest::welch_p_value(both, alone) > level);
+        CHECK(both.variance() < (alpha < 0.05f ? 0.4 : 0.95) * alone.variance());
+    }
 }

@@ -54,19 +54,23 @@ class Curves(unittest.TestCase):
 class Tables(unittest.TestCase):
     def test_points_are_means_over_seeds(self):
         rows = [row(1, 1.0, 0.2), row(1, 3.0, 0.4, seed=2), row(2, 5.0, 0.1)]
-        points = tables.points_of(rows, "relmse_trimmed")
+        points = tables.points_of(rows, "relmse_trimmed", "cpu_seconds")
         self.assertEqual([p.value for p in points], [1, 2])
         self.assertAlmostEqual(points[0].seconds, 2.0)
+        by_clock = tables.points_of(rows, "relmse_trimmed", "wall_seconds")
+        self.assertAlmostEqual(by_clock[0].seconds, 4.0)
         self.assertAlmostEqual(points[0].error, 0.3)
-        self.assertAlmostEqual(tables.points_of(rows, "relmse")[0].error, 0.6)
+        self.assertAlmostEqual(tables.points_of(rows, "relmse", "cpu_seconds")[0].error, 0.6)
 
     def test_a_table_tells_seconds_bounds_and_limits(self):
-        found = tables.curves_of([row(1, 1.0, 0.05), row(2, 2.0, 0.01)], "relmse_trimmed")
+        found = tables.curves_of([row(1, 1.0, 0.05), row(2, 2.0, 0.01)], "relmse_trimmed",
+                                  "cpu_seconds")
         cells = tables.level_table(found, (0.1, 0.01, 0.001), TINY)[2].split(" | ")
         self.assertEqual(cells[:4], ["| plain", "≤ 1", "2", "not reached in 2 s"])
 
     def test_what_the_references_do_not_tell_is_not_told(self):
-        found = tables.curves_of([row(1, 1.0, 0.05), row(2, 2.0, 0.001, "b")], "relmse_trimmed")
+        found = tables.curves_of([row(1, 1.0, 0.05), row(2, 2.0, 0.001, "b")], "relmse_trimmed",
+                                  "cpu_seconds")
         lines = tables.level_table(found, (0.1, 0.01), page.smallest_error(0.2))
         self.assertTrue(all(line.split(" | ")[2] == "not told" for line in lines[2:]))
         self.assertAlmostEqual(page.smallest_error(0.2), 0.06)
@@ -75,7 +79,8 @@ class Tables(unittest.TestCase):
     def test_the_best_of_a_group_is_named_level_by_level(self):
         rows = [row(1, 1.0, 0.1, "a"), row(2, 9.0, 0.01, "a"), row(1, 2.0, 0.1, "b"),
                 row(2, 4.0, 0.01, "b"), row(1, 0.1, 0.001, "c", group="other")]
-        lines = tables.level_table(tables.curves_of(rows, "relmse_trimmed"), (0.1, 0.01), TINY)
+        found = tables.curves_of(rows, "relmse_trimmed", "cpu_seconds")
+        lines = tables.level_table(found, (0.1, 0.01), TINY)
         self.assertEqual(len(lines), 2 + 3 + 1)
         self.assertIn("**≤ 1** (a) | **4** (b)", lines[-1])
 
@@ -95,10 +100,10 @@ class Pages(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             text, drawing = (pathlib.Path(folder) / name for name in ("p.md", "p.svg"))
             page.write(text, results, [("builtin:a", "d", "no such program")], "relmse_trimmed",
-                       tables.LEVELS)
-            plot.write(drawing, results, "relmse_trimmed")
+                       "wall_seconds", tables.LEVELS)
+            plot.write(drawing, results, "relmse_trimmed", "wall_seconds")
             words = text.read_text(encoding="utf-8")
-            for part in ("builtin:a, whole picture", "0.0001", "* builtin:a: d: no such program"):
+            for part in ("builtin:a, whole picture", "by the clock", "0.0001", "* builtin:a: d: no such program"):
                 self.assertIn(part, words)
             titles = xml.dom.minidom.parse(str(drawing)).getElementsByTagName("title")
             self.assertEqual([t.firstChild.data for t in titles], ["a <b>"])
@@ -115,6 +120,9 @@ class Configurations(unittest.TestCase):
         path = [c for c in configurations.standard() if c.name == "path tracer"][0]
         self.assertEqual(path.options_at(4)[-4:], ["--luxels", "4", "--samples", "1"])
         self.assertEqual(path.options_at(256)[-4:], ["--luxels", "64", "--samples", "4"])
+        quality = [c for c in configurations.standard() if c.name == "quality"][0]
+        self.assertEqual([quality.options_at(value)[-1] for value in quality.values],
+                         ["draft", "good", "final"])
 
     def test_added_ones_are_parsed_or_refused(self):
         added = configurations.parsed("cuts, 32: 4096,1024: --picks 32 --vpls {}")

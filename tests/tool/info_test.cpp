@@ -129,9 +129,9 @@ TEST_CASE("info and render say what one will see of what is not supported") {
     const TemporaryFolder folder("info_effects");
     const std::string obj = (folder / "scene.obj").string();
     std::ofstream(obj) << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl glass\nf 1 2 3\n";
-    std::ofstream(folder / "a.mtl") << "newmtl glass\nillum 4\nKd 1 1 1\n";
-    const std::string name = "transparency (illum, Tf)";
-    const std::string words = "glass is opaque, in the colour of its material";
+    std::ofstream(folder / "a.mtl") << "newmtl glass\nTf .5 1 1\nKd 1 1 1\n";
+    const std::string name = "Tf without a model of glass";
+    const std::string words = "the surface lets no coloured light through";
     CHECK(info_json(obj).at("ignored").at(name) == 1);
     CHECK(info_json(obj).at("visible_effects").at(name) == words);
     const std::string line = "ignored: " + name + " (1): " + words + "\n";

@@ -51,13 +51,14 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
          {"upload", "bootstrap", "paths", "residual", "visibility", "response", "download"})
         CHECK(seconds.at(key).get<double>() == 0.0);
     double sum = 0.0;
-    for (const char* key : {"geometry", "build", "bound", "sampling", "gbuffer", "direct",
-                            "reconstruction", "light_budget", "film", "guides", "hash", "other"}) {
+    for (const char* key :
+         {"geometry", "build", "bound", "sampling", "gbuffer", "direct", "reconstruction",
+          "light_budget", "caustics", "film", "guides", "hash", "other"}) {
         CHECK(seconds.at(key).get<double>() > 0.0);
         sum += seconds.at(key).get<double>();
     }
     CHECK(seconds.at("total").get<double>() == Approx(sum));
-    CHECK(seconds.size() == 22);
+    CHECK(seconds.size() == 23);
 }
 
 TEST_CASE("what the bound removed is told by tiles beside its layer") {

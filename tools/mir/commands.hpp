@@ -3,6 +3,10 @@
 
 #include "options.hpp"
 
+namespace mir {
+class PictureTeam;
+}  // namespace mir
+
 namespace mirtool {
 
 // Each runs one command and returns the exit code. They throw mir::Error, which main() reports.
@@ -14,5 +18,8 @@ int run(const CompareOptions& options);
 int run(const DenoiseOptions& options);
 int run(const DevicesOptions& options);
 int run(const ManualOptions& options);
+
+/// Renders together with the other processes of a team. The lead's code is that of run().
+int run_in_team(const RenderOptions& options, mir::PictureTeam& team);
 
 }  // namespace mirtool

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "band_journal.hpp"
 #include "commands.hpp"
 #include "denoising.hpp"
 #include "exit_code.hpp"
@@ -6,6 +7,7 @@
 #include "load_scene.hpp"
 #include "mir/film/filter.hpp"
 #include "mir/runtime/all_renderers.hpp"
+#include "mir/runtime/picture_team.hpp"
 #include "prepare_scene.hpp"
 #include "print_result.hpp"
 #include "progress.hpp"
@@ -19,7 +21,9 @@
 
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace mirtool {
@@ -98,31 +102,70 @@ auto blaming(const std::string& scene, const Work& work) {
     }
 }
 
-}  // namespace
+/// A renderer that renders with the others of a team.
+class TeamRenderer final : public mir::Renderer {
+ public:
+    TeamRenderer(mir::PictureTeam& team, std::unique_ptr<mir::Renderer> own)
+        : team_(team), own_(std::move(own)) {}
+    mir::RenderResult render(const mir::Scene& scene, const mir::RenderSettings& settings,
+                             mir::Monitor* monitor) const override {
+        return team_.render(*own_, scene, settings, monitor);
+    }
 
-int run(const RenderOptions& options) {
+ private:
+    mir::PictureTeam& team_;
+    std::unique_ptr<mir::Renderer> own_;
+};
+
+/// Checked, and with what some of the options mean for others.
+RenderOptions settled(const RenderOptions& options) {
     RenderOptions o = options;
     o.settings.validate();
     check(o.passes);
+    if (o.denoise && !o.has_filter) o.settings.filter = mir::default_filter(mir::FilterKind::box);
+    return o;
+}
+
+/// Bounds Embree's build too, which runs on the same library.
+class ThreadLimit {
+ public:
+    explicit ThreadLimit(unsigned threads) {
+        if (threads > 0) limit_.emplace(tbb::global_control::max_allowed_parallelism, threads);
+    }
+
+ private:
+    std::optional<tbb::global_control> limit_;
+};
+
+mir::Registry::Choice choice_of(const mir::RenderSettings& settings) {
+    mir::Registry registry;
+    mir::add_all_to(registry);
+    return registry.make_for(settings);
+}
+
+/// Renders alone where `team` is null, else as its lead.
+int render_with(const RenderOptions& options, mir::PictureTeam* team) {
+    RenderOptions o = settled(options);
     const std::string shard = o.shard ? choose_shard(o) : std::string();
     const OutputPaths paths = o.shard ? OutputPaths{} : choose_outputs(o);
     const mir::Image<mir::Rgb> reference = read_report_reference(o);
     std::optional<mir::Denoiser> denoiser;
     if (o.denoise) denoiser.emplace(o.denoiser, o.settings.threads);
-    if (o.denoise && !o.has_filter) o.settings.filter = mir::default_filter(mir::FilterKind::box);
-    // Bounds Embree's build too, which runs on the same library.
-    std::optional<tbb::global_control> threads;
-    if (o.settings.threads > 0)
-        threads.emplace(tbb::global_control::max_allowed_parallelism, o.settings.threads);
+    const ThreadLimit threads(o.settings.threads);
     SceneAndReport loaded = load_scene(o.scene, o.settings.limits, o.environment);
     blaming(o.scene, [&] { prepare(o, loaded); });
     check_report_reference(o, reference);
     // Also while files are written, since a signal that ended the program there would leave halves.
     mir::Monitor monitor;
     const CancelOnInterrupt cancel(monitor);
-    mir::Registry registry;
-    mir::add_all_to(registry);
-    const mir::Registry::Choice choice = registry.make_for(o.settings);
+    mir::Registry::Choice choice = choice_of(o.settings);
+    std::optional<BandJournal> bands;
+    if (team != nullptr && o.passes.resume) {
+        bands.emplace(paths.exr + ".bands", o.passes.save_every.value_or(default_save_every));
+        team->keep_in(*bands);
+    }
+    if (team != nullptr)
+        choice.renderer = std::make_unique<TeamRenderer>(*team, std::move(choice.renderer));
     if (o.shard)
         return blaming(o.scene, [&] { return render_shard(shard, choice, o, loaded, monitor); });
     Convergence convergence(reference);
@@ -132,6 +175,7 @@ int run(const RenderOptions& options) {
     result.warnings.insert(result.warnings.begin(), remarks.begin(), remarks.end());
     const Denoising denoising = denoised(denoiser, result, reference, o, monitor);
     write_outputs(paths, result, o);
+    if (bands && result.statistics.complete) bands->remove();
     write_render_report({o, loaded, result, reference, convergence});
     if (!o.quiet) print_summary(result);
     if (!o.quiet) print(denoising);
@@ -142,6 +186,31 @@ int run(const RenderOptions& options) {
             if (!name.empty()) print_result(name);
     }
     return ending(o, result, denoising);
+}
+
+/// Renders what the lead deals.
+int work_for(mir::PictureTeam& team, const RenderOptions& options) {
+    RenderOptions o = settled(options);
+    o.quiet = true;
+    const ThreadLimit threads(o.settings.threads);
+    SceneAndReport loaded = load_scene(o.scene, o.settings.limits, o.environment);
+    blaming(o.scene, [&] { prepare(o, loaded); });
+    mir::Monitor monitor;
+    const CancelOnInterrupt cancel(monitor);
+    const mir::Registry::Choice choice = choice_of(o.settings);
+    team.work(*choice.renderer, loaded.scene, o.settings, &monitor);
+    return exit_done;
+}
+
+}  // namespace
+
+int run(const RenderOptions& options) { return render_with(options, nullptr); }
+
+int run_in_team(const RenderOptions& options, mir::PictureTeam& team) {
+    mir::expects(!options.shard,
+                 "a shard was asked of several processes (they share out the whole picture); leave "
+                 "--shard out, or render shards with mir");
+    return team.is_lead() ? render_with(options, &team) : work_for(team, options);
 }
 
 }  // namespace mirtool

@@ -5,6 +5,6 @@
 namespace mir {
 
 template VplRecords BackendFrame<cuda::Backend, MIR_BSDF>::sample_chains_through(
-    const WideRays<Space::device, AlphaMaskView<Space::device>>&, const MetropolisOptions&, float);
+    const WideRays<Space::device, OpacityView<Space::device>>&, const MetropolisOptions&, float);
 
 }  // namespace mir

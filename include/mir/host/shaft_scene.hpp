@@ -4,40 +4,61 @@
 #include "mir/host/wide_bvh_scene.hpp"
 #include "mir/shaft/host/shaft_visibility.hpp"
 
+#include <optional>
+
 namespace mir {
 
-/// A scene traced through a wide bounding volume hierarchy, whole blocks by shafts. Owns the
-/// hierarchy, hands out the ray caster and the visibility that read it. The geometry must outlive
-/// it. Const use from any thread.
+/// A scene traced through wide bounding volume hierarchies, whole blocks by shafts. Owns them,
+/// hands out the ray caster and the visibility that read them. The geometry must outlive it. Const
+/// use from any thread.
 class ShaftScene {
  public:
     /// @throws Error what build_wide_bvh() throws.
     template <Executor E>
     ShaftScene(const WorldGeometry& geometry, E& executor, const WideBvhOptions& options = {})
-        : scene_(geometry, executor, options), lanes_(lanes_of(bvh(), geometry)) {}
+        : scene_(geometry, executor, options),
+          parts_(parts_of(geometry, executor, options)),
+          opacity_(geometry.opacity()),
+          lanes_(make_triangle_lanes(bvh().triangles())) {}
 
     /// Builds on the calling thread.
-    explicit ShaftScene(const WorldGeometry& geometry)
-        : scene_(geometry), lanes_(lanes_of(bvh(), geometry)) {}
+    explicit ShaftScene(const WorldGeometry& geometry) : ShaftScene(geometry, own_thread()) {}
 
     /// Traces single segments, packets and whole blocks. The scene must outlive it and not be
     /// moved.
     [[nodiscard]] ShaftVisibility visibility() const {
-        return {bvh().view(), lanes_.data(), {}, scene_.visibility().mask};
+        if (!parts_) return {bvh().view(), lanes_.data(), {}, {}};
+        return {bvh().view(), lanes_.data(), {}, {parts_->open.view(), opacity_}};
     }
     /// Closest hits; the scene must outlive it and not be moved.
     [[nodiscard]] WideRayCaster<Space::host> ray_caster() const { return scene_.ray_caster(); }
-    /// The hierarchy that both read.
-    [[nodiscard]] const WideBvh& bvh() const { return scene_.tree(); }
+    /// The hierarchy that shafts go through: that of the opaque triangles.
+    [[nodiscard]] const WideBvh& bvh() const { return parts_ ? parts_->opaque : scene_.tree(); }
 
  private:
-    /// None where triangles are masked: no shaft is traced then.
-    static std::vector<TriangleLanes> lanes_of(const WideBvh& bvh, const WorldGeometry& geometry) {
-        if (geometry.is_masked()) return {};
-        return make_triangle_lanes(bvh.triangles());
+    /// Of a scene that is not opaque.
+    struct Parts {
+        WideBvh opaque;
+        WideBvh open;
+    };
+
+    static InlineExecutor& own_thread() {
+        static InlineExecutor executor;  // without state
+        return executor;
     }
 
-    WideBvhScene scene_;
+    template <Executor E>
+    static std::optional<Parts> parts_of(const WorldGeometry& geometry, E& executor,
+                                         const WideBvhOptions& options) {
+        if (geometry.is_opaque()) return std::nullopt;
+        const TrianglesByOpacity parts = triangles_by_opacity(geometry);
+        return Parts{build_wide_bvh(geometry, parts.opaque, executor, options),
+                     build_wide_bvh(geometry, parts.open, executor, options)};
+    }
+
+    WideBvhScene scene_;  ///< all triangles
+    std::optional<Parts> parts_;
+    OpacityView<Space::host> opacity_;
     std::vector<TriangleLanes> lanes_;
 };
 

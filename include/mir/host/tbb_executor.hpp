@@ -3,6 +3,7 @@
 
 #include "mir/concepts/executor.hpp"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,9 +15,10 @@ namespace mir {
 /// Runs loops on oneTBB. Model of Executor; may be shared by threads.
 class TbbExecutor {
  public:
-    /// `threads` = 0 uses every core.
-    explicit TbbExecutor(unsigned threads = 0)
-        : arena_(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads)) {}
+    /// `threads` = 0 uses every core. Loops of so many `callers` at a time begin at once; those of
+    /// more may wait for a thread.
+    explicit TbbExecutor(unsigned threads = 0, unsigned callers = 1)
+        : arena_(slots(threads, callers), callers), callers_(callers) {}
 
     /// Calls body(i) once for each i in [0, n), on the arena's threads. The order is free; it
     /// returns when all are done. An exception of a body reaches the caller; bodies that have not
@@ -38,10 +40,17 @@ class TbbExecutor {
     }
     /// Threads of the arena, at least 1.
     [[nodiscard]] std::size_t concurrency() const {
-        return static_cast<std::size_t>(arena_.max_concurrency());
+        return static_cast<std::size_t>(arena_.max_concurrency()) - (callers_ - 1);
     }
 
  private:
+    static int slots(unsigned threads, unsigned callers) {
+        if (threads == 0 && callers == 1) return tbb::task_arena::automatic;
+        const int cores =
+            threads == 0 ? tbb::info::default_concurrency() : static_cast<int>(threads);
+        return cores + static_cast<int>(callers) - 1;
+    }
+
     /// Tells thread sanitizers how oneTBB orders caller and bodies. oneTBB orders the caller before
     /// the bodies and the bodies before the return, also when they throw. They cannot see into its
     /// binary.
@@ -75,6 +84,7 @@ class TbbExecutor {
     };
 
     tbb::task_arena arena_;
+    unsigned callers_;
 };
 
 static_assert(Executor<TbbExecutor>);

@@ -67,7 +67,7 @@ class LuxelLight {
                                    shared.share);
         };
         return emitters_(hit, surface, shared, numbers) + listed_(hit, surface, place) +
-               (distant_vpls_ ? environment_(hit, surface, {}, band_.image_numbers())
+               (distant_vpls_ ? environment_.from_vpls(hit, surface, band_.image_numbers())
                               : environment_(hit, surface, shared, numbers));
     }
 

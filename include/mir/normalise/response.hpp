@@ -53,6 +53,18 @@ class ResponseSum {
         bands_.count(band);
     }
 
+    /// Goes on below rows that another sum of this image and these VPLs has added.
+    /// @throws Error(invalid_argument) when the sums are of other VPLs, or the rows of another
+    /// image.
+    void go_on(std::uint32_t rows, std::span<const ImageResponse> sums) {
+        bands_.go_on(rows, sums.size());
+        sums_.assign(sums.begin(), sums.end());
+    }
+    /// Rows of luxels added so far.
+    [[nodiscard]] std::uint32_t rows() const { return bands_.rows(); }
+    /// Sums over those rows, for another to go on.
+    [[nodiscard]] std::span<const ImageResponse> sums() const { return sums_; }
+
     /// Responses in the order of the VPLs.
     /// @throws Error(invalid_argument) before all rows were added.
     [[nodiscard]] std::vector<ImageResponse> mean() const { return bands_.mean(sums_); }

@@ -48,6 +48,16 @@ class ResponseBands {
 
     void count(Extent band) { rows_ += band.height; }
 
+    [[nodiscard]] std::uint32_t rows() const { return rows_; }
+
+    /// @throws Error(invalid_argument) for rows or VPLs of another image.
+    void go_on(std::uint32_t rows, std::size_t vpls) {
+        expects(vpls == vpls_ && rows <= luxels_.height,
+                "a response was to go on from sums of another image or other VPLs; give it those "
+                "of the same picture");
+        rows_ = rows;
+    }
+
     /// @throws Error(invalid_argument) before all rows were added.
     [[nodiscard]] std::vector<ImageResponse> mean(std::vector<ImageResponse> sums) const {
         expects(rows_ == luxels_.height,

@@ -184,7 +184,7 @@ std::optional<SurfacePoint> PathTracer<B, R, V, Rules>::next_point(const Walk& w
     return world_.caster.closest_hit(ray);
 }
 
-/// Where a path goes on to: the end of a specular chain, or the first surface.
+/// Where a path goes on to. The end of a specular chain, or the first surface.
 template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
 SpecularEnd PathTracer<B, R, V, Rules>::met_along(const Walk& walk, Vec3 direction,
                                                   Random& random) const {

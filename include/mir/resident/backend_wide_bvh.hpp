@@ -34,8 +34,16 @@ class BackendWideBvh {
     ///         where they are to be split; what the backend throws.
     BackendWideBvh(const B& backend, typename B::Queue& queue, const WorldGeometry& geometry,
                    GeometryView<B::space> uploaded, const WideBvhOptions& options = {})
-        : BackendWideBvh(backend, queue,
-                         detail::WideBuild<B>(backend, queue, geometry, uploaded, options)) {}
+        : BackendWideBvh(backend, queue, geometry, uploaded,
+                         TriangleChoice<B::space>::all(geometry, uploaded), options) {}
+
+    /// The same of some triangles alone, with the reach of the whole scene.
+    BackendWideBvh(const B& backend, typename B::Queue& queue, const WorldGeometry& geometry,
+                   GeometryView<B::space> uploaded, const TriangleChoice<B::space>& chosen,
+                   const WideBvhOptions& options = {})
+        : BackendWideBvh(
+              backend, queue,
+              detail::WideBuild<B>(backend, queue, geometry, uploaded, chosen, options)) {}
 
     /// For kernels on any queue; valid until this is moved or ends.
     [[nodiscard]] WideBvhView<B::space> view() const {

@@ -4,6 +4,7 @@
 #include "mir/accel/wide/write_wide.hpp"
 #include "mir/resident/detail/wide_collapse.hpp"
 #include "mir/resident/wait_at_end.hpp"
+#include "mir/scene/triangle_choice.hpp"
 
 namespace mir::detail {
 
@@ -12,18 +13,20 @@ namespace mir::detail {
 template <Backend B>
 class WideBuild {
  public:
-    /// `queue` must outlive it.
+    /// Of the triangles `chosen`. `queue` must outlive it.
     WideBuild(const B& backend, typename B::Queue& queue, const WorldGeometry& geometry,
-              GeometryView<B::space> uploaded, const WideBvhOptions& options)
-        : plan_(cluster_plan(geometry, options)),
-          split_(backend, queue, uploaded, plan_),
+              GeometryView<B::space> uploaded, const TriangleChoice<B::space>& chosen,
+              const WideBvhOptions& options)
+        : plan_(cluster_plan(geometry, chosen.count, options)),
+          uploaded_(with_triangles(uploaded, chosen)),
+          numbers_(chosen.numbers),
+          split_(backend, queue, uploaded_, plan_),
           scratch_(backend.template buffer<std::byte>(queue.scratch_bytes(plan_.room() + 1))),
           tree_(backend, plan_),
           collapse_(backend, plan_),
-          uploaded_(uploaded),
           wait_(queue) {
         if (plan_.triangles == 0) return;
-        tree_.build(queue, uploaded, split_, scratch_);
+        tree_.build(queue, uploaded_, split_, scratch_);
         collapse_.run(queue, tree_, scratch_);
     }
 
@@ -41,15 +44,24 @@ class WideBuild {
         queue.for_each(collapse_.node_count(), WriteWideNodes{tree_.view().nodes, collapse_.notes(),
                                                               to, plan_.leaf_size, plan_.reach});
         queue.for_each(references(), WriteRows<B::space>{uploaded_, to});
+        if (numbers_ != nullptr) queue.for_each(references(), Renumber{numbers_, to.indices});
     }
 
  private:
+    /// The chosen triangles alone; nothing else of triangles is read.
+    static GeometryView<B::space> with_triangles(GeometryView<B::space> view,
+                                                 const TriangleChoice<B::space>& chosen) {
+        view.triangles = chosen.corners;
+        return view;
+    }
+
     ClusterPlan plan_;
+    GeometryView<B::space> uploaded_;
+    const std::uint32_t* numbers_;
     SplitPlan<B> split_;
     typename B::template Buffer<std::byte> scratch_;
     ClusterTree<B> tree_;
     WideCollapse<B> collapse_;
-    GeometryView<B::space> uploaded_;
     WaitAtEnd<typename B::Queue> wait_;
 };
 

@@ -18,6 +18,8 @@
 
 namespace mir {
 
+class PictureShare;
+
 /// A compiled way to render: one virtual call per image, static inside.
 class Renderer {
  public:
@@ -27,6 +29,16 @@ class Renderer {
     /// @throws Error for settings, scene or device that cannot be used; Error(cancelled).
     virtual RenderResult render(const Scene& scene, const RenderSettings& settings,
                                 Monitor* monitor) const = 0;
+
+    /// The same, of the part that this process has in a picture of several (PictureTeam). Only a
+    /// team has shares to give.
+    /// @throws The same; Error(unsupported) where it is not overridden.
+    virtual RenderResult render_share(const Scene& /*scene*/, const RenderSettings& /*settings*/,
+                                      Monitor* /*monitor*/, PictureShare& /*share*/) const {
+        throw Error(ErrorCode::unsupported,
+                    "this renderer makes whole pictures alone (its work cannot be shared out among "
+                    "processes); let each process render pictures of its own");
+    }
 };
 
 /// Renderers by backend and name of the scheduler. Filled explicitly: self-registering objects

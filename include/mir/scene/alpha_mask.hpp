@@ -39,6 +39,11 @@ struct AlphaMaskView {
     /// False when is_solid() is true everywhere and need not be asked.
     [[nodiscard]] MIR_HD bool exists() const { return masks != nullptr; }
 
+    /// Itself: holes are the same for every segment.
+    [[nodiscard]] MIR_HD const AlphaMaskView& between(Vec3 /*a*/, Vec3 /*b*/) const {
+        return *this;
+    }
+
     /// At barycentrics of the triangle's second and third corner.
     [[nodiscard]] MIR_HD bool is_solid(std::uint32_t triangle, Vec2 barycentrics) const {
         if (!exists()) return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/circle_turns.hpp"
 #include "mir/core/discrete_distribution_2d.hpp"
 #include "mir/core/rgb.hpp"
 #include "mir/core/unit_circle.hpp"
@@ -77,9 +78,9 @@ struct EnvironmentView {
     }
 
     [[nodiscard]] MIR_HD std::size_t texel_of(Vec3 w) const {
-        const float azimuth = atan2f(w.z, w.x) * (0.5f * inv_pi) + 0.5f + turns;
+        const float azimuth = circle_turns({w.x, w.z}) + 0.5f + turns;
         const float column = azimuth - floorf(azimuth);
-        const float row = atan2f(sqrtf(w.x * w.x + w.z * w.z), w.y) * inv_pi;
+        const float row = 2.0f * circle_turns({w.y, sqrtf(w.x * w.x + w.z * w.z)});
         return static_cast<std::size_t>(index(row, height)) * width + index(column, width);
     }
     MIR_HD static std::uint32_t index(float place, std::uint32_t count) {

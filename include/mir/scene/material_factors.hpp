@@ -13,8 +13,8 @@ struct MaterialFactors {
     float roughness = 1.0f;            ///< 0..1, GGX alpha is its square
     float specular = 1.0f;             ///< weight of the dielectric interface, 0..1
     float ior = 1.5f;                  ///< index of refraction of the dielectric interface, >= 1
-    /// Share of the light below the dielectric interface that goes through, tinted by `base_color`,
-    /// 0..1; the rest is diffuse. Metals let nothing through.
+    /// Share of the light below the interface that goes through, 0..1. It is tinted by
+    /// `base_color`; the rest is diffuse. Metals let nothing through.
     float transmission = 0.0f;
     bool is_thin = true;  ///< a sheet that light leaves as it came; false: the surface of a body
 };

@@ -4,12 +4,12 @@
 #include "mir/concepts/executor.hpp"
 #include "mir/core/limits.hpp"
 #include "mir/core/raw_allocator.hpp"
-#include "mir/scene/alpha_mask_table.hpp"
 #include "mir/scene/bounds.hpp"
 #include "mir/scene/detail/check_mesh.hpp"
 #include "mir/scene/detail/lifted_corners.hpp"
 #include "mir/scene/detail/mesh_parts.hpp"
 #include "mir/scene/geometry_view.hpp"
+#include "mir/scene/opacity_table.hpp"
 #include "mir/scene/scene.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class WorldGeometry {
     /// one place with a wall is lifted off it on every side from which it shines, and a lamp in one
     /// place with later lamps off those: what is seen there is the first lamp.
     /// @throws Error(invalid_input) on an index out of range, a coordinate that is not finite and
-    ///         what AlphaMaskTable refuses; Error(limit_exceeded) before memory is taken.
+    ///         what OpacityTable refuses; Error(limit_exceeded) before memory is taken.
     template <Executor E>
     WorldGeometry(const Scene& scene, const Limits& limits, E& executor);
 
@@ -50,16 +50,20 @@ class WorldGeometry {
                 colors_.empty() ? nullptr : colors_.data()};
     }
 
+    /// Says which triangles stop which segments. Ray engines ask it before they say that two points
+    /// do not see each other. Valid until the geometry is moved or ends.
+    [[nodiscard]] OpacityView<Space::host> opacity() const { return opacity_->view(view()); }
     /// Says which points of the triangles are there. Ray engines ask it before they accept a hit.
-    /// Valid until the geometry is moved or ends.
-    [[nodiscard]] AlphaMaskView<Space::host> alpha_masks() const {
-        if (alpha_masks_->empty()) return {};
-        return {view(), alpha_masks_->masks().data(), alpha_masks_->textures()};
-    }
-    /// True when triangles may have holes.
-    [[nodiscard]] bool is_masked() const { return !alpha_masks_->empty(); }
+    /// Valid as long.
+    [[nodiscard]] AlphaMaskView<Space::host> alpha_masks() const { return opacity().masks(); }
+    /// True when every triangle stops all light: none has holes or is seen through.
+    [[nodiscard]] bool is_opaque() const { return masks().empty() && see_through().empty(); }
     /// Of the materials; empty when none is masked.
-    [[nodiscard]] std::span<const AlphaMask> masks() const { return alpha_masks_->masks(); }
+    [[nodiscard]] std::span<const AlphaMask> masks() const { return opacity_->masks(); }
+    /// Of the materials; empty when none is seen through.
+    [[nodiscard]] std::span<const SeeThrough> see_through() const {
+        return opacity_->see_through();
+    }
 
     /// Vertices of all instances, one instance behind the other, metres.
     [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
@@ -147,7 +151,7 @@ class WorldGeometry {
     std::vector<Rgb> colors_;
     Array<TriangleIndices> triangles_;
     Array<std::uint32_t> materials_;
-    std::shared_ptr<const AlphaMaskTable> alpha_masks_;  ///< copies share it
+    std::shared_ptr<const OpacityTable> opacity_;  ///< copies share it
     Bounds bounds_;
     float ray_offset_ = 0.0f;
     std::uint64_t dropped_ = 0;
@@ -182,7 +186,7 @@ inline Mat3 of_size_one(const Mat3& m) {
 
 template <Executor E>
 WorldGeometry::WorldGeometry(const Scene& scene, const Limits& limits, E& executor)
-    : alpha_masks_(std::make_shared<const AlphaMaskTable>(scene)) {
+    : opacity_(std::make_shared<const OpacityTable>(scene)) {
     for (const Mesh& mesh : scene.meshes) detail::check_mesh(scene, mesh);
     detail::check_instances(scene, limits);
     const detail::MeshParts parts = detail::mesh_parts(scene);

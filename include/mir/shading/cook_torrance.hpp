@@ -103,6 +103,19 @@ struct CookTorrance {
         return {2.0f * cos_o * n - wo, smaller(k, ReflectionLobe::largest_sharpness)};
     }
 
+    /// A direction into the lobe that the interface reflects, which lobe() must have.
+    MIR_HD static Vec3 lobe_direction(const Params& p, Vec3 n, Vec3 wo, Vec2 u) {
+        const Frame frame = Frame::around(n);
+        return frame.to_world(ggx_sample_reflection(frame.to_local(wo), p.alpha, u));
+    }
+    /// Density of lobe_direction() at `wi`, per steradian. No branches: loops over lanes ask it.
+    [[gnu::always_inline]] MIR_HD static float lobe_density(const Params& p, Vec3 n, Vec3 wi,
+                                                            Vec3 wo) {
+        const float cos_o = glm::dot(n, wo);
+        const Vec3 h = wi + wo;
+        return ggx_reflection_pdf(cos_o, glm::dot(n, h) / sqrtf(length_squared(h)), p.alpha);
+    }
+
     /// True when nothing is reflected in any direction. No branches: loops over lanes ask it.
     MIR_HD static bool is_black(const Params& p) {
         const int no_interface =
@@ -112,8 +125,8 @@ struct CookTorrance {
                 static_cast<int>(mir::is_black(p.scale))) != 0;
     }
 
-    /// Reflection `c` times as strong, which a point has at the end of a specular chain that
-    /// leaves `c` of the light.
+    /// Reflection `c` times as strong. The end of a specular chain that leaves `c` of the light
+    /// has it.
     MIR_HD static Params scaled(Params p, Rgb c) {
         p.scale = p.scale * c;
         return p;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/random.hpp"
+#include "mir/shading/lobe_samples.hpp"
 #include "mir/shading/sampled_light.hpp"
 
 namespace mir {
@@ -9,7 +10,8 @@ namespace mir {
 /// Light of the environment at a luxel, estimated from `samples` directions. They are drawn by
 /// luminance: f L_e cos / p averaged over the samples, with shadow rays from outside the scene. The
 /// samples of luxels that share are one Kronecker sequence with a random shift, as those of
-/// EmitterLight. Directions that all luxels share are VPLs at infinity. Unbiased. Host and device.
+/// EmitterLight. Surfaces with a lobe look along LobeSamples, too. Directions that all luxels share
+/// are VPLs at infinity. Unbiased. Host and device.
 template <Bsdf B, Visibility V>
 class EnvironmentLight {
  public:
@@ -32,17 +34,21 @@ class EnvironmentLight {
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
                                         SharedSamples shared, const Random& random) const {
         if (environment_.empty() || samples_ == 0) return {};
-        const Vec2 shift(random.at(3), random.at(4));
-        return mean_of_samples(
-            hit.position, visibility_, samples_,
-            [&](std::uint32_t k) {
-                const std::uint32_t i = k * shared.shares + shared.share;
-                return environment_.sample(kronecker_point(shift, i));
-            },
-            [hit, s, sphere = sphere_](const EnvironmentSample& from) {
-                return LitPoint{sphere.outside(hit.position, from.direction),
-                                unshadowed(hit, s, from)};
-            });
+        const auto by_luminance = drawn(shared, random);
+        if constexpr (LobedBsdf<B>)
+            if (LobeSamples<B>::are_for(s)) {
+                const LobeSamples<B> lobe(s, shared, random);
+                return mean(hit, s, lobe, by_luminance) +
+                       mean(hit, s, lobe, [&](std::uint32_t k) { return seen(lobe.direction(k)); });
+            }
+        return mean(hit, s, NoLobe{}, by_luminance);
+    }
+
+    /// The same from directions that all luxels share, and that no lobe chooses: VPLs at infinity.
+    [[nodiscard]] MIR_HD Rgb from_vpls(const Hit& hit, const Surface<typename B::Params>& s,
+                                       const Random& random) const {
+        if (environment_.empty() || samples_ == 0) return {};
+        return mean(hit, s, NoLobe{}, drawn({}, random));
     }
 
     /// What one sample brings if nothing is in its way, W m^-2 sr^-1.
@@ -55,6 +61,31 @@ class EnvironmentLight {
     [[nodiscard]] MIR_HD Vec3 outside(Vec3 from, Vec3 w) const { return sphere_.outside(from, w); }
 
  private:
+    /// Draws of directions by luminance.
+    [[nodiscard]] MIR_HD auto drawn(SharedSamples shared, const Random& random) const {
+        return [this, shared, shift = Vec2(random.at(3), random.at(4))](std::uint32_t k) {
+            const std::uint32_t i = k * shared.shares + shared.share;
+            return environment_.sample(kronecker_point(shift, i));
+        };
+    }
+
+    [[nodiscard]] MIR_HD EnvironmentSample seen(Vec3 w) const {
+        const Rgb light = environment_.radiance(w);
+        return {w, light, environment_.density(light)};
+    }
+
+    template <class Lobe, class Draw>
+    [[nodiscard]] MIR_HD Rgb mean(const Hit& hit, const Surface<typename B::Params>& s,
+                                  const Lobe& lobe, const Draw& draw) const {
+        return mean_of_samples(hit.position, visibility_, samples_, draw,
+                               [hit, s, lobe, sphere = sphere_](const EnvironmentSample& from) {
+                                   EnvironmentSample both = from;
+                                   both.pdf += lobe.density(from.direction);
+                                   return LitPoint{sphere.outside(hit.position, from.direction),
+                                                   unshadowed(hit, s, both)};
+                               });
+    }
+
     EnvironmentView<space> environment_;
     BoundingSphere sphere_;
     V visibility_;

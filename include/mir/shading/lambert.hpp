@@ -31,8 +31,8 @@ struct Lambert {
     /// True when nothing is reflected in any direction.
     MIR_HD static bool is_black(const Params& p) { return mir::is_black(p.reflectance); }
 
-    /// Reflection `c` times as strong, which a point has at the end of a specular chain that
-    /// leaves `c` of the light.
+    /// Reflection `c` times as strong. The end of a specular chain that leaves `c` of the light
+    /// has it.
     MIR_HD static Params scaled(const Params& p, Rgb c) { return {p.reflectance * c}; }
     /// The same parameters: there is no interface.
     MIR_HD static Params without_lobe(const Params& p) { return p; }

@@ -89,7 +89,7 @@ struct LuxelTracer {
 
 template <class R, Space S, Bsdf B>
 MIR_HD void LuxelTracer<R, S, B>::weaken(const SeenLuxel& seen, Surface& surface) const {
-    if constexpr (SpecularEndBsdf<B>) {
+    if constexpr (SpecularBsdf<B>) {
         const SurfacePoint& p = seen.point;
         const bool ends_specular = !seen.is_background && surfaces.is_specular(p.material);
         if (seen.events == 0 && !ends_specular) return;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "mir/core/random.hpp"
+#include "mir/scene/lights/lamp_along_ray.hpp"
+#include "mir/shading/lobe_samples.hpp"
 #include "mir/shading/sampled_light.hpp"
 
 namespace mir {
@@ -19,7 +21,8 @@ struct PickByTree {
 /// Light of the lamps of a LightTree at a luxel, from `samples` points. `Pick` chooses the lamp: f
 /// L_e cos cos / (d^2 p) averaged over the samples. The samples of all luxels of a pixel are one
 /// Kronecker sequence with a random shift per pixel: each point is uniform, so the estimate is
-/// unbiased, and together they are spread evenly over the lamps. Host and device.
+/// unbiased, and together they are spread evenly over the lamps. Surfaces with a lobe look for the
+/// lamps along LobeSamples, too. Host and device.
 template <Bsdf B, Visibility V, class Pick = PickByTree>
 class EmitterLight {
  public:
@@ -41,10 +44,15 @@ class EmitterLight {
         if (lights_.tree.empty() || samples_ == 0) return {};
         const Shift shift(random.block(0));
         const LightReceiver at{hit.position, s.normal, hit.normal};
-        return mean_of_samples(
-            hit.position, visibility_, samples_,
-            [&](std::uint32_t k) { return sample(at, shift, shared, k); },
-            [hit, s](const LampPoint& from) { return unshadowed(hit, s, from); });
+        const auto by_lamps = [&](std::uint32_t k) { return sample(at, shift, shared, k); };
+        if constexpr (samples_lobes)
+            if (lights_.lamps.count > 0 && LobeSamples<B>::are_for(s)) {
+                const LobeSamples<B> lobe(s, shared, random);
+                return mean(hit, s, lobe, by_lamps) + mean(hit, s, lobe, [&](std::uint32_t k) {
+                           return met(at, lobe.direction(k));
+                       });
+            }
+        return mean(hit, s, NoLobe{}, by_lamps);
     }
 
  private:
@@ -66,11 +74,29 @@ class EmitterLight {
         Vec3 position{0};
         float offset = 0.0f;
         Vec3 normal{0};
-        Rgb radiance;  ///< of a lamp without surface what leaves towards the luxel, W sr^-1
-        float pdf = 1.0f;
+        Rgb radiance;      ///< of a lamp without surface what leaves towards the luxel, W sr^-1
+        float pdf = 1.0f;  ///< of the samples of lamps, m^-2
         std::uint32_t both_sides = 0;  ///< 0 or 1
         std::uint32_t is_place = 0;    ///< 0 or 1; 1: without surface
     };
+
+    /// LobeSamples are weighed against the probabilities of the tree.
+    static constexpr bool samples_lobes = LobedBsdf<B> && std::is_same_v<Pick, PickByTree>;
+
+    template <class Lobe, class Draw>
+    [[nodiscard]] MIR_HD Rgb mean(const Hit& hit, const Surface<typename B::Params>& s,
+                                  const Lobe& lobe, const Draw& draw) const {
+        return mean_of_samples(
+            hit.position, visibility_, samples_, draw,
+            [hit, s, lobe](const LampPoint& from) { return unshadowed(hit, s, lobe, from); });
+    }
+
+    /// No light, at a place that can be computed with.
+    [[nodiscard]] MIR_HD static LampPoint nothing(const LightReceiver& at) {
+        LampPoint point;
+        point.position = at.position + at.geometric;
+        return point;
+    }
 
     /// Sample `k` of the luxel: its lamps interleave with those of the pixel's other luxels. The
     /// shift goes over all lamps: a share of its own for each luxel would light one corner of every
@@ -82,14 +108,24 @@ class EmitterLight {
         const double sum = static_cast<double>(i) / n + shift.pick;
         const LightPick pick = Pick::pick(lights_, at, sum < 1.0 ? sum : sum - 1.0);
         const Vec2 uv = kronecker_point(shift.uv, i);
-        LampPoint point;
-        point.position = at.position + at.geometric;
-        if (!pick.is_found()) return point;
+        if (!pick.is_found()) return nothing(at);
         const auto probability = static_cast<float>(pick.probability);
         if (pick.light >= lights_.lamps.count)
             return lights_.listed[pick.light - lights_.lamps.count].visit(
                 [&](const auto& source) { return point_of(source, at.position, uv, probability); });
-        const EmitterSample e = lights_.lamps.point_on(geometry_, pick.light, uv);
+        return lamp_point(pick.light, probability, uv);
+    }
+
+    /// The point of a lamp in a direction.
+    [[nodiscard]] MIR_HD LampPoint met(const LightReceiver& at, Vec3 direction) const {
+        const LampAlongRay lamp = lamp_along(lights_, geometry_, at, direction);
+        if (!lamp.is_found()) return nothing(at);
+        return lamp_point(lamp.lamp, lamp.probability, lamp.barycentrics);
+    }
+
+    [[nodiscard]] MIR_HD LampPoint lamp_point(std::uint32_t lamp, float probability,
+                                              Vec2 uv) const {
+        const EmitterSample e = lights_.lamps.point_on(geometry_, lamp, uv);
         return {e.position,
                 e.offset,
                 e.normal,
@@ -109,8 +145,10 @@ class EmitterLight {
     }
 
     // Inlined by force, as VplShading.
+    template <class Lobe>
     [[nodiscard, gnu::always_inline]] MIR_HD static LitPoint unshadowed(
-        const Hit& hit, const Surface<typename B::Params>& s, const LampPoint& e) {
+        const Hit& hit, const Surface<typename B::Params>& s, const Lobe& lobe,
+        const LampPoint& e) {
         const bool is_behind = glm::dot(hit.position - e.position, e.normal) < 0.0f;
         const bool from_back = (e.both_sides & static_cast<std::uint32_t>(is_behind)) != 0;
         const Vec3 normal = e.normal * (from_back ? -1.0f : 1.0f);
@@ -119,7 +157,10 @@ class EmitterLight {
         const float d2 = length_squared(d);
         const Vec3 wi = d * (1.0f / std::sqrt(d2));
         const float cosine = e.is_place != 0 ? 1.0f : -glm::dot(wi, normal);
-        const Rgb light = reflected<B>(hit, s, wi) * e.radiance * (cosine / (d2 * e.pdf));
+        float density = d2 * e.pdf;
+        if constexpr (!std::is_same_v<Lobe, NoLobe>)
+            density += e.is_place != 0 ? 0.0f : lobe.density(wi) * cosine;
+        const Rgb light = reflected<B>(hit, s, wi) * e.radiance * (cosine / density);
         // At the lamp itself 1/d^2 has no value.
         const float y = luminance(light);
         const bool is_light =

@@ -49,7 +49,7 @@ struct SpecularShares {
     Rgb pass;           ///< goes straight on
     Rgb mirrored;       ///< reflected by an interface without a lobe of its own
     Rgb transmitted;    ///< refracted, or spread by a rough sheet
-    float rest = 1.0f;  ///< covered share, of which the Bsdf is
+    float rest = 1.0f;  ///< covered share, which the Bsdf is of
 };
 
 /// What a surface does to a ray. The interface of opaque materials has the Fresnel term of their

@@ -39,7 +39,7 @@ struct SpecularTracer {
     template <class Numbers>
     MIR_HD void follow(SpecularEnd& end, Transport transport, Numbers& numbers,
                        float least = 0.0f) const {
-        if constexpr (SpecularEndBsdf<B>) {
+        if constexpr (SpecularBsdf<B>) {
             std::uint32_t inside = nowhere;
             while (!end.is_background && surfaces.is_specular(end.point.material)) {
                 if (end.events == longest) return lose(end);
@@ -78,7 +78,7 @@ struct SpecularTracer {
     template <class Numbers>
     [[nodiscard]] MIR_HD SpecularStep step_of(const SpecularEnd& end, const SpecularSurface& s,
                                               SpecularRules rules, Numbers& numbers) const {
-        typename B::Params p = specular_end_params<B>(s.factors);
+        typename B::Params p = surfaces.textured_params(s.factors);
         if (surfaces.is_inside_body(end.point.material, end.point.front)) p = B::without_lobe(p);
         const bool shines = surfaces.shines(end.point);
         const float albedo = shines ? 1.0f : luminance(B::albedo(p, s.normal, s.wo));

@@ -26,10 +26,10 @@ class SurfaceTable {
     explicit SurfaceTable(const Scene& scene) : textures_(scene) {
         for (const Material& m : scene.materials) {
             bends_rays_ = bends_rays_ || bends_rays(scene, m);
-            entries_.push_back({specular_end_params<B>(m), m.emission, m.emits_from_both_sides,
-                                lobe_share(scene, m), mean_albedo(scene, m), m.factors(),
-                                m.textures, is_specular(scene, m), m.is_blended, m.alpha,
-                                absorption(m)});
+            entries_.push_back({specular_end_params<B>(material_params(m, B{}), m.roughness),
+                                m.emission, m.emits_from_both_sides, lobe_share(scene, m),
+                                mean_albedo(scene, m), m.factors(), m.textures,
+                                is_specular(scene, m), m.is_blended, m.alpha, absorption(m)});
         }
     }
 
@@ -69,12 +69,12 @@ class SurfaceTable {
  private:
     /// Whether some of what it reflects, or lets through, goes in one direction.
     static bool is_specular(const Scene& scene, const Material& m) {
-        return SpecularEndBsdf<B> && (m.is_blended || bends_rays(scene, m));
+        return SpecularBsdf<B> && (m.is_blended || bends_rays(scene, m));
     }
     /// Whether some of it goes on in one direction that is not that of before.
     static bool bends_rays(const Scene& scene, const Material& m) {
         bool mirrors = false;
-        if constexpr (SpecularEndBsdf<B>) mirrors = B::has_interface;
+        if constexpr (SpecularBsdf<B>) mirrors = B::has_interface;
         if (m.transmission > 0.0f && m.metallic < 1.0f) return true;
         const bool reflects = m.metallic > 0.0f || m.specular > 0.0f;
         return mirrors && reflects && is_smooth(m.roughness * least_green(scene, m));

@@ -8,6 +8,7 @@
 #include "mir/scene/geometry_view.hpp"
 #include "mir/scene/see_through.hpp"
 #include "mir/scene/texture_view.hpp"
+#include "mir/scene/textured_factors.hpp"
 #include "mir/shading/material_params.hpp"
 
 #include <concepts>
@@ -21,14 +22,19 @@ concept TexturedBsdf = Bsdf<B> && requires(const MaterialFactors& factors) {
     { material_params(factors, B{}) } -> std::same_as<typename B::Params>;
 };
 
+/// A Bsdf whose surfaces are followed as mirrors and glass: it may end their chains, and knows one
+/// point of a material.
+template <class B>
+concept SpecularBsdf = SpecularEndBsdf<B> && TexturedBsdf<B>;
+
 /// What chains leave to the Bsdf of a material: all of it but the lobes that are no wider than a
 /// direction.
-template <Bsdf B, class M>
-[[nodiscard]] MIR_HD typename B::Params specular_end_params(const M& material) {
-    const typename B::Params p = material_params(material, B{});
-    if constexpr (SpecularEndBsdf<B>)
-        if (is_smooth(material.roughness)) return B::without_lobe(p);
-    return p;
+template <Bsdf B>
+[[nodiscard]] MIR_HD typename B::Params specular_end_params(const typename B::Params& all,
+                                                            float roughness) {
+    if constexpr (SpecularBsdf<B>)
+        if (is_smooth(roughness)) return B::without_lobe(all);
+    return all;
 }
 
 /// One material in the parameters of a Bsdf.
@@ -93,7 +99,7 @@ struct SurfaceTableView {
     /// True when rays that meet the material may go on as specular chains. Never of a model that
     /// cannot stand at their end.
     [[nodiscard]] MIR_HD bool is_specular(std::uint32_t material) const {
-        if constexpr (SpecularEndBsdf<B>)
+        if constexpr (SpecularBsdf<B>)
             return entries[material].is_specular;
         else
             return false;
@@ -106,10 +112,7 @@ struct SurfaceTableView {
     /// Share of the surface that a blended material covers there, 0..1; 1 of others.
     [[nodiscard]] MIR_HD float coverage(std::uint32_t material, const VertexAttributes& at) const {
         const SurfaceEntry<B>& e = entries[material];
-        if (!e.is_blended) return 1.0f;
-        const Texture& base = e.textures.base_color;
-        if (!base.is_set()) return e.alpha;
-        return e.alpha * textures.look_up(base, at.texture_coordinates, TexelEncoding::linear).w;
+        return e.is_blended ? covered_share(e.alpha, e.textures.base_color, textures, at) : 1.0f;
     }
     /// True for what is inside of a body: there chains carry the lobe of a rough surface, too.
     [[nodiscard]] MIR_HD bool is_inside_body(std::uint32_t material, bool front) const {
@@ -135,6 +138,11 @@ struct SurfaceTableView {
     [[nodiscard]] MIR_HD float lobe_share(std::uint32_t material) const {
         return entries[material].lobe_share;
     }
+    /// Parameters of a point where the material is `m`.
+    [[nodiscard]] MIR_HD static typename B::Params textured_params(
+        const MaterialFactors& m) requires TexturedBsdf<B> {
+        return specular_end_params<B>(material_params(m, B{}), m.roughness);
+    }
 
  private:
     [[nodiscard]] MIR_HD Surface surface(const SurfacePoint& p, Vec3 wo, Vec3 normal) const {
@@ -158,8 +166,7 @@ MIR_HD typename B::Params SurfaceTableView<S, B>::params(std::uint32_t material,
     const SurfaceEntry<B>& e = entries[material];
     if constexpr (TexturedBsdf<B>) {
         const bool is_white = at.color.r == 1.0f && at.color.g == 1.0f && at.color.b == 1.0f;
-        if (!is_white || e.textures.changes_reflection())
-            return specular_end_params<B>(factors(e, at));
+        if (!is_white || e.textures.changes_reflection()) return textured_params(factors(e, at));
     }
     return e.params;
 }
@@ -167,19 +174,8 @@ MIR_HD typename B::Params SurfaceTableView<S, B>::params(std::uint32_t material,
 template <Space S, Bsdf B>
 MIR_HD MaterialFactors SurfaceTableView<S, B>::factors(const SurfaceEntry<B>& e,
                                                        const VertexAttributes& at) const {
-    MaterialFactors f = e.factors;
-    f.base_color = f.base_color * at.color;
-    const Texture& base = e.textures.base_color;
-    if (base.is_set())
-        f.base_color =
-            f.base_color * textures.color(base, at.texture_coordinates, TexelEncoding::srgb);
-    const Texture& interface = e.textures.metallic_roughness;
-    if (interface.is_set()) {
-        const Rgb c = textures.color(interface, at.texture_coordinates, TexelEncoding::linear);
-        f.roughness *= c.g;
-        f.metallic *= c.b;
-    }
-    return f;
+    return textured_factors(e.factors, e.textures.base_color, e.textures.metallic_roughness,
+                            textures, at);
 }
 
 /// Source: Khronos glTF 2.0 specification, 3.9.3 (normal textures).

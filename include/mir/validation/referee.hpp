@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace mir::validation {
 
@@ -28,7 +29,7 @@ class Referee {
     /// A vector of doubles: products of coordinates round far below single precision.
     using Double3 = mir::detail::Double3;
 
-    /// The geometry must outlive it. Masks of its materials are not looked at.
+    /// The geometry must outlive it. closest() does not look at masks.
     explicit Referee(const WorldGeometry& geometry) : geometry_(&geometry) {}
 
     /// Answer to "is a hidden from b", with the margin by which it holds.
@@ -45,18 +46,24 @@ class Referee {
         [[nodiscard]] bool doubtful(double below) const { return std::fabs(margin) < below; }
     };
 
-    /// Judges the closed segment from a to b, leaving out the triangles `skip` and `skip_too`.
+    /// Judges the closed segment from a to b, leaving out the triangles `skip` and `skip_too`. What
+    /// is not opaque hides what WorldGeometry::opacity() says; near where that changes the margin
+    /// is 0.
     [[nodiscard]] Verdict segment(Vec3 a, Vec3 b, std::uint32_t skip = none,
                                   std::uint32_t skip_too = none) const {
         Verdict verdict;
         const Double3 origin(a);
         const Double3 direction = Double3(b) - origin;
+        const OpacityView<Space::host> surfaces = geometry_->opacity();
         for (std::uint32_t i = 0; i < geometry_->triangles().size(); ++i) {
             if (i == skip || i == skip_too) continue;
             const auto hit = line(i, origin, direction);
             if (!hit) continue;
             const double along = std::min(hit->t, 1.0 - hit->t);
-            verdict.margin = std::max(verdict.margin, std::min(hit->inside(), along));
+            const double depth = std::min(hit->inside(), along);
+            verdict.margin = std::max(
+                verdict.margin,
+                surfaces.stops_all(i) ? depth : margin_of(surfaces.between(a, b), i, *hit, depth));
         }
         return verdict;
     }
@@ -111,6 +118,20 @@ class Referee {
     }
 
  private:
+    /// What a triangle that is not opaque adds to a verdict, if it is cut that deeply. Beside the
+    /// hit it may hide something else.
+    [[nodiscard]] static double margin_of(const SegmentOpacity<Space::host>& stops, std::uint32_t i,
+                                          const LineHit& hit, double depth) {
+        constexpr double beside = 1e-4;
+        if (depth < -beside) return depth;
+        int solid = 0;
+        for (const auto& [du, dv] :
+             {std::pair{0.0, 0.0}, {beside, 0.0}, {-beside, 0.0}, {0.0, beside}, {0.0, -beside}})
+            solid += stops.is_solid(i, {hit.u + du, hit.v + dv}) ? 1 : 0;
+        if (solid == 0) return -std::numeric_limits<double>::infinity();
+        return solid == 5 ? depth : std::min(depth, 0.0);
+    }
+
     const WorldGeometry* geometry_;
 };
 

@@ -185,8 +185,7 @@ Report check_concurrent_visibility(const V& visibility, const WorldGeometry& geo
 
 /// All axioms of Visibility, for a model and the triangles it knows. Use those of the program's own
 /// scene, or triangle_soup() of several scales and places. Brute force takes time in proportion to
-/// the triangles; a few hundred are enough. It takes triangles for whole, so the scene must have no
-/// alpha masks.
+/// the triangles; a few hundred are enough.
 template <Visibility V>
 Report check_visibility(const V& visibility, const WorldGeometry& geometry) {
     Report report;

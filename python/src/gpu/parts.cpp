@@ -28,10 +28,10 @@ void check_count(std::size_t count, const char* place) {
 
 /// The tree of a scene in the memory of a GPU, copied when it is first asked for.
 Tree tree_of(const Tracing& tracing, Call& call) {
-    if (tracing.geometry.alpha_masks().exists())
+    if (!tracing.geometry.is_opaque())
         throw mir::Error(mir::ErrorCode::unsupported,
-                         "scene: arrays of a GPU were given (rays there do not know materials with "
-                         "holes); give arrays of the processor");
+                         "scene: arrays of a GPU were given (rays there do not know materials that "
+                         "are seen through); give arrays of the processor");
     std::shared_ptr<const void>& there = tracing.on_gpus[call.backend().device()];
     if (!there) {
         // Others see it once it is copied: another thread may ask while this one waits. The tree of

@@ -14,8 +14,8 @@ namespace mir {
 template <Backend M, Bsdf B>
 template <class Use>
 auto BackendFrame<M, B>::with_rays(const Use& use) const {
-    if (job_.geometry.is_masked())
-        return use(WideRays<space, AlphaMaskView<space>>{bvh_->view(), masks_there()});
+    if (!job_.geometry.is_opaque())
+        return use(WideRays<space, OpacityView<space>>{bvh_->view(), opacity_there()});
     if (tree_) return use(KdRays<space>{tree_->view()});
     return use(WideRays<space>{bvh_->view()});
 }
@@ -23,10 +23,19 @@ auto BackendFrame<M, B>::with_rays(const Use& use) const {
 template <Backend M, Bsdf B>
 template <class Use>
 auto BackendFrame<M, B>::with_tile_visibility(const Use& use) const {
+    if (short_open_bvh_) {
+        using Sight = WideBvhVisibility<space, Opaque>;
+        using Veil = WideBvhVisibility<space, OpacityView<space>>;
+        return use(VeiledClusterVisibility<Sight, Veil>{short_bvh_->view(),
+                                                        sigma_,
+                                                        {opaque_bvh_->view(), {}},
+                                                        short_open_bvh_->view(),
+                                                        {open_bvh_->view(), opacity_there()}});
+    }
     return with_rays([&](const auto& rays) {
         const auto sight = rays.sight();
         using Sight = std::remove_const_t<decltype(sight)>;
-        if constexpr (std::is_same_v<Sight, WideBvhVisibility<space, AlphaMaskView<space>>>) {
+        if constexpr (std::is_same_v<Sight, WideBvhVisibility<space, OpacityView<space>>>) {
             return use(sight);
         } else {
             if (!short_bvh_) return use(sight);

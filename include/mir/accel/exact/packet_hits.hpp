@@ -6,7 +6,7 @@
 #include "mir/accel/exact/triangle_rows.hpp"
 #include "mir/concepts/visibility.hpp"
 #include "mir/core/lanes.hpp"
-#include "mir/scene/alpha_mask.hpp"
+#include "mir/scene/opacity.hpp"
 
 #include <cmath>
 
@@ -127,19 +127,20 @@ std::uint32_t hit_lanes_of(const TriangleRows& rows, const SharedEnd& end,
     return hit;
 }
 
-/// Lanes of `hit`, those that hit_lanes() found for triangle number `triangle`, where it is there.
-/// One by one: lanes that hit a masked triangle are few.
-inline std::uint32_t solid_lanes(const TriangleRows& rows, std::uint32_t triangle, Vec3 origin,
-                                 const PointPacket& points, std::uint32_t hit,
-                                 const AlphaMaskView<Space::host>& mask) {
-    if (!mask.exists()) return hit;
-    std::uint32_t solid = 0;
+/// Lanes of `hit`, those that hit_lanes() found for triangle number `triangle`, that it stops. One
+/// by one: lanes that hit a triangle that is not opaque are few.
+inline std::uint32_t stopped_lanes(const TriangleRows& rows, std::uint32_t triangle, Vec3 origin,
+                                   const PointPacket& points, std::uint32_t hit,
+                                   const OpacityView<Space::host>& opacity) {
+    if (opacity.stops_all(triangle)) return hit;
+    std::uint32_t stopped = 0;
     for (std::uint32_t rest = hit; rest != 0;) {
         const std::uint32_t k = pop_lowest(rest);
         const Vec3 to{points.x[k], points.y[k], points.z[k]};
-        if (hits_segment(rows, origin, to, triangle, mask)) solid |= 1u << k;
+        if (hits_segment(rows, origin, to, triangle, opacity.between(origin, to)))
+            stopped |= 1u << k;
     }
-    return solid;
+    return stopped;
 }
 
 }  // namespace mir::detail

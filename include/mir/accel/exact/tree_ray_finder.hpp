@@ -7,8 +7,8 @@
 namespace mir {
 
 /// Finds first triangles by a tree over them. Model of RayFinder; the same bits on host and device.
-/// `TreeView` is what traversal reads of the tree: it has first_hit() and is_hidden(). `M` as for
-/// TreeVisibility. What it reads must outlive it. Thread-safe.
+/// `TreeView` is what traversal reads of the tree: it has first_hit() and is_hidden(). `M` says
+/// which points of triangles are there. What it reads must outlive it. Thread-safe.
 template <class TreeView, class M = UsualMask<TreeView::space>>
 struct TreeRayFinder {
     static constexpr Space space = TreeView::space;  ///< of the tree
@@ -22,7 +22,8 @@ struct TreeRayFinder {
     [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray) const {
         return first_hit(tree, ray, mask);
     }
-    /// Whether a triangle hides two points from each other, metres: is_hidden().
+    /// Whether a triangle lies between two points, metres: is_hidden(). One that is seen through
+    /// does, too.
     [[nodiscard]] MIR_HD bool hides(Vec3 from, Vec3 to) const {
         return is_hidden(tree, from, to, mask);
     }

@@ -31,10 +31,10 @@ class TreeScene {
               return Builder::build(geometry, executor, {});
           }()) {}
 
-    /// Answers from the tree with the masks of the scene. Valid while this object and the geometry
-    /// stay where they are.
+    /// Answers from the tree with the opacity of the scene. Valid while this object and the
+    /// geometry stay where they are.
     [[nodiscard]] TreeVisibility<View> visibility() const {
-        return {tree_.view(), geometry_->alpha_masks()};
+        return {tree_.view(), geometry_->opacity()};
     }
     /// Casts rays at the same surfaces; valid as long.
     [[nodiscard]] FinderRayCaster<TreeRayFinder<View>> ray_caster() const {

@@ -10,14 +10,14 @@ namespace mir {
 /// Answers from a tree over triangles: a value that may be passed to a kernel. Model of Visibility,
 /// on the host of PacketVisibility too. Both faces give the bits of hits_segment() asked of every
 /// triangle, on the host and on the device. `View` is what traversal reads of the tree: it has
-/// is_hidden(), and on the host visible_in_packet(). `M` says which points of triangles are there,
-/// an Opaque or an AlphaMaskView. What it reads must outlive it. Thread-safe.
-template <class View, class M = UsualMask<View::space>>
+/// is_hidden(), and on the host visible_in_packet(). `M` says which triangles stop a segment, an
+/// Opaque or an OpacityView. What it reads must outlive it. Thread-safe.
+template <class View, class M = UsualOpacity<View::space>>
 struct TreeVisibility {
     static constexpr Space space = View::space;  ///< of the tree
 
     View tree;  ///< of the scene
-    M mask{};   ///< which points of triangles are there
+    M mask{};   ///< which triangles stop a segment
 
     /// True when no triangle hides the points (metres) from each other: !is_hidden(). The same
     /// bit when they change places.

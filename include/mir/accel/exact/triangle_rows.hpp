@@ -92,8 +92,8 @@ MIR_HD bool is_solid(const TriangleRows& rows, Vec3 from, Vec3 to, const RowsAtE
 
 }  // namespace detail
 
-/// The same of triangle number `triangle` with holes by `mask`. The mask is an Opaque or an
-/// AlphaMaskView.
+/// The same of triangle number `triangle` where `mask` says that it is there. The mask is an
+/// Opaque, an AlphaMaskView or a SegmentOpacity of the segment.
 template <class Mask>
 [[nodiscard]] MIR_HD bool hits_segment(const TriangleRows& rows, Vec3 from, Vec3 to,
                                        std::uint32_t triangle, const Mask& mask) {

@@ -29,9 +29,9 @@ template <InstructionSet Set>
 class PacketWalk {
  public:
     PacketWalk(const KdTreeView<Space::host>& tree, Vec3 origin, const PointPacket& points,
-               std::uint32_t active, const AlphaMaskView<Space::host>& mask)
+               std::uint32_t active, const OpacityView<Space::host>& opacity)
         : tree_(tree),
-          mask_(mask),
+          opacity_(opacity),
           origin_(origin),
           end_(shared_end(origin, &points, active)),
           points_(points),
@@ -52,7 +52,7 @@ class PacketWalk {
     void test_leaf(KdNode leaf);
 
     const KdTreeView<Space::host>& tree_;
-    const AlphaMaskView<Space::host>& mask_;
+    const OpacityView<Space::host>& opacity_;
     Vec3 origin_;
     SharedEnd end_;
     const PointPacket& points_;
@@ -100,7 +100,7 @@ void PacketWalk<Set>::test_leaf(KdNode leaf) {
         const TriangleRows& rows = tree_.triangles[*reference];
         const std::uint32_t hit =
             hit_lanes<Set>(rows, origin_rows(rows, origin_), end_, points_, open_);
-        if (hit != 0) open_ &= ~solid_lanes(rows, *reference, origin_, points_, hit, mask_);
+        if (hit != 0) open_ &= ~stopped_lanes(rows, *reference, origin_, points_, hit, opacity_);
     }
 }
 
@@ -133,7 +133,7 @@ std::uint32_t PacketWalk<Set>::run() {
 template <InstructionSet Set = InstructionSet::baseline>
 [[nodiscard]] std::uint32_t visible_in_packet(const KdTreeView<Space::host>& tree, Vec3 origin,
                                               const PointPacket& points, std::uint32_t active,
-                                              const AlphaMaskView<Space::host>& mask = {}) {
+                                              const OpacityView<Space::host>& opacity = {}) {
     std::uint32_t seen = 0;
     std::uint32_t together = 0;
     const bool origin_within = within_reach(origin, tree.reach);
@@ -142,11 +142,11 @@ template <InstructionSet Set = InstructionSet::baseline>
         const Vec3 point{points.x[k], points.y[k], points.z[k]};
         if (origin_within && within_reach(point, tree.reach))
             together |= 1u << k;
-        else if (!is_hidden(tree, origin, point, mask))
+        else if (!is_hidden(tree, origin, point, opacity))
             seen |= 1u << k;
     }
     if (together == 0) return seen;
-    return seen | detail::PacketWalk<Set>(tree, origin, points, together, mask).run();
+    return seen | detail::PacketWalk<Set>(tree, origin, points, together, opacity).run();
 }
 
 }  // namespace mir

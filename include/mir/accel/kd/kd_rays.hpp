@@ -10,7 +10,7 @@
 namespace mir {
 
 /// Says by a kd-tree in memory of space `S` whether two points see each other.
-template <Space S, class M = UsualMask<S>>
+template <Space S, class M = UsualOpacity<S>>
 using KdTreeVisibility = TreeVisibility<KdTreeView<S>, M>;
 
 /// Finds the first triangle along a ray by such a tree.

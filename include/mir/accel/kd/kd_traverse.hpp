@@ -156,19 +156,20 @@ struct FindFirst {
 
 /// True when a triangle of the tree hides the points from each other. Equal in bits to an "or" of
 /// hits_segment() over all triangles, and under exchange of the points, which are cut to the tree's
-/// reach. `mask` says which points of triangles are there, an Opaque or an AlphaMaskView. Cheapest
-/// when `from` is the end next to which most occluders are; thread-safe.
+/// reach. `mask` says which triangles stop the segment, an Opaque, an AlphaMaskView or an
+/// OpacityView. Cheapest when `from` is the end next to which most occluders are; thread-safe.
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD bool is_hidden(const KdTreeView<S>& tree, Vec3 from, Vec3 to,
                                     const Mask& mask = {}) {
+    const auto& stops = mask.between(from, to);
     if (!is_left_within_reach(from, to, tree.reach)) return false;
-    detail::FindAny<S, Mask> any{tree, mask, from, to};
+    detail::FindAny<S, std::remove_cvref_t<decltype(stops)>> any{tree, stops, from, to};
     return detail::walk(tree, from, to, any);
 }
 
 /// The first triangle along a ray, with t in metres; TriangleHit::none if there is none. Equal in
 /// bits to keep_closer() over all triangles.
-/// `mask` as for is_hidden(). Thread-safe.
+/// `mask` says which points of triangles are there, an Opaque or an AlphaMaskView. Thread-safe.
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD TriangleHit first_hit(const KdTreeView<S>& tree, const Ray& ray,
                                            const Mask& mask = {}) {

@@ -121,14 +121,14 @@ inline constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
 template <InstructionSet Set, class Hull, std::uint32_t Packets = 1>
 class WidePacketWalk {
  public:
-    /// From the origin to `Packets` packets of points, some of them active. `mask` outlives the
-    /// walk; nullptr: all triangles are whole.
+    /// From the origin to `Packets` packets of points, some of them active. `opacity` outlives
+    /// the walk; nullptr: all triangles are opaque.
     WidePacketWalk(const WideBvhView<Space::host>& bvh, const Hull& hull, Vec3 origin,
                    const PointPacket* points, std::uint32_t active,
-                   const AlphaMaskView<Space::host>* mask = nullptr)
+                   const OpacityView<Space::host>* opacity = nullptr)
         : bvh_(bvh),
           hull_(hull),
-          mask_(mask),
+          opacity_(opacity),
           end_(shared_end(origin, points, active)),
           points_(points),
           open_(active) {
@@ -252,21 +252,21 @@ class WidePacketWalk {
             const std::uint32_t t = round.triangles[i];
             const TriangleRows& rows = bvh_.triangles[t];
             std::uint32_t hit = hit_lanes_of<Set, Packets>(rows, end_, points_, open_);
-            if (mask_ != nullptr && hit != 0) hit = solid(rows, t, hit);
+            if (opacity_ != nullptr && hit != 0) hit = stopped(rows, t, hit);
             blocker_ = hit != 0 ? t : blocker_;
             open_ &= ~hit;
         }
     }
 
-    /// Lanes of `hit` where the triangle is there.
-    [[nodiscard]] std::uint32_t solid(const TriangleRows& rows, std::uint32_t t,
-                                      std::uint32_t hit) const {
-        std::uint32_t there = 0;
+    /// Lanes of `hit` that the triangle stops.
+    [[nodiscard]] std::uint32_t stopped(const TriangleRows& rows, std::uint32_t t,
+                                        std::uint32_t hit) const {
+        std::uint32_t lanes = 0;
         for (std::uint32_t p = 0; p < Packets; ++p)
-            there |= solid_lanes(rows, bvh_.indices[t], end_.origin, points_[p],
-                                 lanes_of_packet(hit, p), *mask_)
+            lanes |= stopped_lanes(rows, bvh_.indices[t], end_.origin, points_[p],
+                                   lanes_of_packet(hit, p), *opacity_)
                      << p * lane_count;
-        return there;
+        return lanes;
     }
 
     /// Where children lie, by their number.
@@ -280,7 +280,7 @@ class WidePacketWalk {
         {reinterpret_cast<const char*>(bvh_.triangles), sizeof(TriangleRows)},
         {reinterpret_cast<const char*>(bvh_.nodes), sizeof(WideNode)}};  ///< leaves, nodes
     const Hull& hull_;
-    const AlphaMaskView<Space::host>* mask_;
+    const OpacityView<Space::host>* opacity_;
     SharedEnd end_;
     const PointPacket* points_;
     PacketSlabs<Set> slabs_[Packets];
@@ -293,11 +293,11 @@ class WidePacketWalk {
 }  // namespace detail
 
 /// Bit i: bit i of `active` is set and point i sees the origin. These are the bits of
-/// !is_hidden(bvh, origin, point i, mask). Thread-safe.
+/// !is_hidden(bvh, origin, point i, opacity). Thread-safe.
 template <InstructionSet Set = InstructionSet::baseline>
 [[nodiscard]] std::uint32_t visible_in_packet(const WideBvhView<Space::host>& bvh, Vec3 origin,
                                               const PointPacket& points, std::uint32_t active,
-                                              const AlphaMaskView<Space::host>& mask = {}) {
+                                              const OpacityView<Space::host>& opacity = {}) {
     std::uint32_t seen = 0;
     std::uint32_t together = 0;
     const bool origin_within = within_reach(origin, bvh.reach);
@@ -306,13 +306,13 @@ template <InstructionSet Set = InstructionSet::baseline>
         const Vec3 point{points.x[k], points.y[k], points.z[k]};
         if (origin_within && within_reach(point, bvh.reach))
             together |= 1u << k;
-        else if (!is_hidden(bvh, origin, point, mask))
+        else if (!is_hidden(bvh, origin, point, opacity))
             seen |= 1u << k;
     }
     if (together == 0) return seen;
     const detail::PacketHull hull(origin, points, together, bvh.reach);
     detail::WidePacketWalk<Set, detail::PacketHull> walk(bvh, hull, origin, &points, together,
-                                                         &mask);
+                                                         &opacity);
     return seen | walk.run();
 }
 

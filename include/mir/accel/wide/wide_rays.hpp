@@ -10,7 +10,7 @@
 namespace mir {
 
 /// Decides by a wide hierarchy in `S` whether two points see each other.
-template <Space S, class M = UsualMask<S>>
+template <Space S, class M = UsualOpacity<S>>
 using WideBvhVisibility = TreeVisibility<WideBvhView<S>, M>;
 
 /// Finds the first triangle along a ray by such a hierarchy.

@@ -196,19 +196,20 @@ struct FindFirstInLeaf {
 
 /// True when a triangle of the hierarchy hides the points from each other. Equal in bits to an "or"
 /// of hits_segment() over all triangles, and under exchange of the points, which are cut to the
-/// hierarchy's reach. `mask` says which points of triangles are there, an Opaque or an
-/// AlphaMaskView. Thread-safe.
+/// hierarchy's reach. `mask` says which triangles stop the segment, an Opaque, an
+/// AlphaMaskView or an OpacityView. Thread-safe.
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD bool is_hidden(const WideBvhView<S>& bvh, Vec3 from, Vec3 to,
                                     const Mask& mask = {}) {
+    const auto& stops = mask.between(from, to);
     if (!is_left_within_reach(from, to, bvh.reach)) return false;
-    detail::FindAnyInLeaf<S, Mask> any{bvh, mask, from, to};
+    detail::FindAnyInLeaf<S, std::remove_cvref_t<decltype(stops)>> any{bvh, stops, from, to};
     return detail::walk(bvh, from, to, any);
 }
 
 /// The first triangle along a ray, with t in metres; TriangleHit::none if there is none. Equal in
 /// bits to keep_closer() over all triangles.
-/// `mask` as for is_hidden(). Thread-safe.
+/// `mask` says which points of triangles are there, an Opaque or an AlphaMaskView. Thread-safe.
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD TriangleHit first_hit(const WideBvhView<S>& bvh, const Ray& ray,
                                            const Mask& mask = {}) {

@@ -99,4 +99,12 @@ struct WriteRows {
     }
 };
 
+/// Kernel over places: turns numbers among chosen triangles into those of the scene.
+struct Renumber {
+    const std::uint32_t* numbers = nullptr;  ///< in the scene
+    std::uint32_t* indices = nullptr;
+
+    MIR_HD void operator()(std::uint32_t i) const { indices[i] = numbers[indices[i]]; }
+};
+
 }  // namespace mir::detail

@@ -11,6 +11,7 @@
 #include "mir/shaft/device/open_segments.hpp"
 #include "mir/shaft/device/page_order.hpp"
 #include "mir/shaft/device/page_words.hpp"
+#include "mir/shaft/device/veil_shafts.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -60,7 +61,7 @@ class BackendShafts {
           counters_(backend.template buffer<std::uint32_t>(9)) {}
 
     /// Starts to fill the words (VisibilityWords) of all pairs of `hits` and `vpls`. Bit for bit
-    /// what VisibilityPass and fill_bits() give with visibility.segments. `hits` are padded with
+    /// what VisibilityPass and fill_bits() give with visibility.visible(). `hits` are padded with
     /// empty ones. With the layout of their tile they are in blocked order, and put into clusters
     /// while it works; without one they are taken as they are.
     /// @throws Error(invalid_argument) when `hits` are no multiple of 256, or not as many as the
@@ -137,6 +138,12 @@ class BackendShafts {
                                    words, listed_blocks, listed, pool.words, open});
         queue.for_each_group(options_.groups,
                              OpenSegments{hits, vpls, visibility.segments, words, open});
+        if constexpr (VeiledVisibility<V>)
+            queue.for_each_group(
+                VeilShafts<P, decltype(visibility.veil)>::groups(hits.stride, batch),
+                VeilShafts<P, decltype(visibility.veil)>{hits, clusters_.data(), vpls, batch,
+                                                         visibility.veil_bvh, visibility.sigma,
+                                                         visibility.veil, words});
     }
 
     SoaView<const Hit> in_clusters(typename B::Queue& queue, SoaView<const Hit> hits,

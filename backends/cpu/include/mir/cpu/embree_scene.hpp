@@ -4,7 +4,7 @@
 #include "mir/accel/exact/find_surface.hpp"
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/cpu/detail/embree.hpp"
-#include "mir/cpu/detail/embree_mask.hpp"
+#include "mir/cpu/detail/embree_opacity.hpp"
 #include "mir/cpu/embree_visibility.hpp"
 #include "mir/scene/world_geometry.hpp"
 
@@ -41,9 +41,9 @@ class EmbreeScene {
     /// Builds the acceleration structure in at most `max_bytes` of memory. The threads are those of
     /// the task library.
     /// @throws Error(device) with Embree's words when it reports a failure, the memory bound
-    ///         included; when triangles are masked and Embree was built without filter functions.
-    ///         Error(invalid_input) when a coordinate is beyond 1.8e18 m, where Embree ends the
-    ///         process. Rays must not start there either.
+    ///         included; when some triangle is not opaque and Embree was built without filter
+    ///         functions. Error(invalid_input) when a coordinate is beyond 1.8e18 m, where Embree
+    ///         ends the process. Rays must not start there either.
     explicit EmbreeScene(const WorldGeometry& geometry,
                          std::int64_t max_bytes = std::numeric_limits<std::int64_t>::max());
 
@@ -86,7 +86,7 @@ class EmbreeScene {
     static bool account(void* budget, ssize_t bytes, bool after);
 
     const WorldGeometry* geometry_;
-    std::unique_ptr<AlphaMaskView<Space::host>> mask_;  ///< read by Embree's filters
+    std::unique_ptr<OpacityView<Space::host>> opacity_;  ///< read by Embree's filters
     std::unique_ptr<DeviceErrors> errors_ = std::make_unique<DeviceErrors>();
     std::unique_ptr<MemoryBudget> budget_ = std::make_unique<MemoryBudget>();
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device_;
@@ -115,16 +115,16 @@ inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray, float r
     if (std::min(std::min(u, v), 1.0f - u - v) <= by_edge)
         keep_in_sight(point, geometry->view(), ray, query.ray.tfar,
                       [sight = EmbreeVisibility{scene}](Vec3 from, Vec3 to) {
-                          return !sight.visible(from, to);
+                          return sight.is_blocked(from, to);
                       });
     return point;
 }
 
 inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
     : geometry_(&geometry),
-      mask_(geometry.is_masked()
-                ? std::make_unique<AlphaMaskView<Space::host>>(geometry.alpha_masks())
-                : nullptr),
+      opacity_(geometry.is_opaque()
+                   ? nullptr
+                   : std::make_unique<OpacityView<Space::host>>(geometry.opacity())),
       device_(rtcNewDevice(nullptr)) {
     constexpr float embree_reach = 1.8e18f;
     const Bounds& bounds = geometry.bounds();
@@ -142,7 +142,7 @@ inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_
     rtcSetDeviceErrorFunction(device_.get(), &EmbreeScene::remember, errors_.get());
     budget_->most.store(max_bytes, std::memory_order_release);
     rtcSetDeviceMemoryMonitorFunction(device_.get(), &EmbreeScene::account, budget_.get());
-    if (mask_) detail::require_filters(device_.get());
+    if (opacity_) detail::require_filters(device_.get());
     scene_.reset(rtcNewScene(device_.get()));
     throw_if_failed();
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -166,7 +166,7 @@ inline void EmbreeScene::add_triangles() {
         std::memcpy(vertices, positions.data(), positions.size_bytes());
         std::memcpy(indices, triangles.data(), triangles.size_bytes());
         rtcSetGeometryMask(mesh, detail::all_rays);
-        if (mask_) detail::filter_by(mesh, *mask_);
+        if (opacity_) detail::filter_by(mesh, *opacity_);
         rtcCommitGeometry(mesh);
         rtcAttachGeometry(scene_.get(), mesh);
     }

@@ -3,7 +3,7 @@
 
 #include "mir/concepts/visibility.hpp"
 #include "mir/core/instruction_set.hpp"
-#include "mir/cpu/detail/embree.hpp"
+#include "mir/cpu/detail/embree_opacity.hpp"
 
 #include <limits>
 
@@ -18,6 +18,33 @@ struct EmbreeVisibility {
 
     /// Tests the closed segment by one ray from `a`, with Embree's robust intersector.
     [[nodiscard]] bool visible(Vec3 a, Vec3 b) const {
+        const detail::Segments segments{a, &b.x, &b.y, &b.z};
+        return !meets(a, b, &segments);
+    }
+
+    /// True when a triangle lies between the points. One that is seen through does, too.
+    [[nodiscard]] bool is_blocked(Vec3 a, Vec3 b) const { return meets(a, b, nullptr); }
+
+    /// As PacketVisibility says, by one packet of sixteen rays from `origin`. Segments that touch
+    /// an edge or a vertex to the last bit may be judged otherwise than by visible().
+    [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
+                                               std::uint32_t active) const {
+        RTCRay16 rays;
+        alignas(64) int valid[16];
+        const InstructionSet set = best_instruction_set();
+        run_with(set, [&] { fill(rays, valid, origin, points, active); });
+        const detail::Segments segments{origin, points.x, points.y, points.z};
+        detail::occluded16(valid, scene, rays, &segments);
+        std::uint32_t seen = 0;
+        run_with(set, [&] {
+            for (std::uint32_t k = 0; k < 16; ++k)
+                seen |= static_cast<std::uint32_t>(rays.tfar[k] >= 0.0f) << k;
+        });
+        return seen & active;
+    }
+
+ private:
+    [[nodiscard]] bool meets(Vec3 a, Vec3 b, const detail::Segments* segments) const {
         const Vec3 d = b - a;
         RTCRay ray{};
         ray.org_x = a.x;
@@ -28,28 +55,9 @@ struct EmbreeVisibility {
         ray.dir_z = d.z;
         ray.tfar = 1.0f;
         ray.mask = detail::all_rays;
-        detail::occluded1(scene, ray);
-        return ray.tfar >= 0.0f;
+        detail::occluded1(scene, ray, segments);
+        return ray.tfar < 0.0f;
     }
-
-    /// As PacketVisibility says, by one packet of sixteen rays from `origin`. Segments that touch
-    /// an edge or a vertex to the last bit may be judged otherwise than by visible().
-    [[nodiscard]] std::uint32_t visible_packet(Vec3 origin, const PointPacket& points,
-                                               std::uint32_t active) const {
-        RTCRay16 rays;
-        alignas(64) int valid[16];
-        const InstructionSet set = best_instruction_set();
-        run_with(set, [&] { fill(rays, valid, origin, points, active); });
-        detail::occluded16(valid, scene, rays);
-        std::uint32_t seen = 0;
-        run_with(set, [&] {
-            for (std::uint32_t k = 0; k < 16; ++k)
-                seen |= static_cast<std::uint32_t>(rays.tfar[k] >= 0.0f) << k;
-        });
-        return seen & active;
-    }
-
- private:
     static void fill(RTCRay16& rays, int* valid, Vec3 origin, const PointPacket& points,
                      std::uint32_t active) {
         for (std::uint32_t k = 0; k < 16; ++k) {
@@ -66,6 +74,7 @@ struct EmbreeVisibility {
             rays.tfar[k] = on ? 1.0f : 0.0f;
             rays.time[k] = 0.0f;
             rays.mask[k] = detail::all_rays;
+            rays.id[k] = k;
             valid[k] = on ? -1 : 0;
         }
     }

@@ -72,16 +72,18 @@ inline void check_triangle_count(std::size_t triangles, const WideBvhOptions& op
                     "some out");
 }
 
+/// Of so many triangles of a scene.
 /// @throws Error(invalid_argument) on options out of range; Error(invalid_input) on coordinates
 ///         beyond 1e36 metres; Error(limit_exceeded) on 2^31 triangles and more, 2^30 where
 ///         they are to be split.
-inline ClusterPlan cluster_plan(const WorldGeometry& geometry, const WideBvhOptions& options) {
+inline ClusterPlan cluster_plan(const WorldGeometry& geometry, std::uint32_t triangles,
+                                const WideBvhOptions& options) {
     check(options);
     check_coordinates(geometry);
     check_triangle_count(geometry.triangles().size(), options);
     const Bounds& bounds = geometry.bounds();
     ClusterPlan plan;
-    plan.triangles = static_cast<std::uint32_t>(geometry.triangles().size());
+    plan.triangles = triangles;
     plan.splits = static_cast<std::uint32_t>(static_cast<double>(options.splits) * plan.triangles);
     plan.leaf_size = options.leaf_size;
     plan.radius = options.radius;
