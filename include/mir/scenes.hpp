@@ -46,7 +46,7 @@ Scene door_ajar();
 /// each other, so each bounce goes from one to the other.
 Scene corner();
 
-/// A furnished corner of a room with a mirror, a window pane and a glass of water. Daylight comes
+/// A furnished corner of a room with mirror, window pane and glass of water. Daylight comes
 /// through the pane, which is a sheet; what stands in the mirror is seen once more; the glass has
 /// interfaces between air, glass and water.
 Scene glass_room();

@@ -50,7 +50,7 @@ void add_card(Mesh& m, Vec3 foot, Vec3 up, Vec3 across) {
 void add_leaf(Mesh& m, std::uint32_t k) {
     const Vec3 foot(2.0f * spread(k, 0.618034f) - 1.0f, 0.08f + 0.95f * spread(k, 0.754878f),
                     0.44f * spread(k, 0.569840f) - 0.22f);
-    const float phi = 2.0f * pi * spread(k, 0.381966f);
+    const float phi = 2.0f * pi * spread(k, 0.732051f);
     const float lift = 0.2f + 0.9f * spread(k, 0.707107f);
     const Vec3 up = glm::normalize(Vec3(std::cos(phi), lift, std::sin(phi)));
     const float size = 0.13f + 0.06f * spread(k, 0.414214f);
