@@ -46,6 +46,23 @@ Scene door_ajar();
 /// each other, so each bounce goes from one to the other.
 Scene corner();
 
+/// A furnished corner of a room with mirror, window pane and glass of water. Daylight comes
+/// through the pane, which is a sheet; what stands in the mirror is seen once more; the glass has
+/// interfaces between air, glass and water.
+Scene glass_room();
+
+/// A metal ring and a glass ball on a table under a small lamp. The ring, a short open cylinder,
+/// throws a heart-shaped caustic, the ball a bright spot: light that no VPL can bring.
+Scene caustics();
+
+/// A hedge of leaf cards in front of a wall. Most are cut out by an alpha mask, every sixth is
+/// blended: rays and shadows go through parts of 1400 triangles.
+Scene leaves();
+
+/// sphere_room(Lamp::down) with its main lamp in a hollow shade of glass. All that lamp's light
+/// goes through the shade's walls, 2 cm thick: next-event estimation finds none of it.
+Scene sphere_behind_glass();
+
 /// A scene that is generated in code, and what it shows.
 struct Entry {
     std::string_view name;         ///< what make() takes
@@ -54,7 +71,7 @@ struct Entry {
 };
 
 /// Every built-in scene, those of check_rooms.hpp too, in the order in which help lists them.
-extern const std::array<Entry, 15> scenes;
+extern const std::array<Entry, 19> scenes;
 
 /// Makes the scene called `name`.
 /// @throws Error(invalid_argument) that lists the names when there is none.

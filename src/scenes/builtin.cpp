@@ -6,7 +6,7 @@
 
 namespace mir::builtin {
 
-constinit const std::array<Entry, 15> scenes{{
+constinit const std::array<Entry, 19> scenes{{
     {"cornell-box", "the Cornell box", [] { return cornell_box(Lamp::down); }},
     {"cornell-inverted", "the Cornell box with its lamp turned to the ceiling",
      [] { return cornell_box(Lamp::up); }},
@@ -23,6 +23,13 @@ constinit const std::array<Entry, 15> scenes{{
      [] { return garage(); }},
     {"door-ajar", "all light comes through a door ajar, small", [] { return door_ajar(); }},
     {"corner", "a floor and a wall that meet, and a lamp", [] { return corner(); }},
+    {"glass-room", "a room with a mirror, a window pane and a glass of water",
+     [] { return glass_room(); }},
+    {"caustics", "light that a metal ring and a glass ball throw on a table",
+     [] { return caustics(); }},
+    {"leaves", "a hedge of masked and blended leaves", [] { return leaves(); }},
+    {"sphere-behind-glass", "the paper's sphere, main lamp in a glass shade",
+     [] { return sphere_behind_glass(); }},
     {"furnace", "closed box whose radiance is exactly 1", [] { return furnace_box(); }},
     {"parallel-squares", "form factor 0.199824896", [] { return parallel_squares(); }},
     {"perpendicular-squares", "form factor 0.200043776", [] { return perpendicular_squares(); }},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mir/scenes.hpp"
+#include "scenes/glass.hpp"
 
 namespace mir::builtin {
 
@@ -29,6 +30,17 @@ Scene sphere_room(Lamp lamp) {
         Camera::look_at({-2.6f, 2.1f, 3.7f}, {0.4f, 1.3f, -1.0f}, {0, 1, 0}, 0.95f));
     s.cameras.back().name = "room";
     s.cameras.back().aspect_ratio = 4.0f / 3.0f;
+    return s;
+}
+
+Scene sphere_behind_glass() {
+    Scene s = sphere_room(Lamp::down);
+    s.name = "sphere-behind-glass";
+    const std::uint32_t glass = s.add(body_glass("glass", 1.5f));
+    s.place(
+        box("lampshade", glass, {-1.2f, 3.65f, -1.2f}, {2.4f, 0, 0}, {0, 0.33f, 0}, {0, 0, 2.4f}));
+    s.place(inside_out(box("lampshade, inside", glass, {-1.18f, 3.67f, -1.18f}, {2.36f, 0, 0},
+                           {0, 0.29f, 0}, {0, 0, 2.36f})));
     return s;
 }
 
