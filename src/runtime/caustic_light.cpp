@@ -30,7 +30,7 @@ PathTracerOptions residual_of(const RenderSettings& s) {
     PathTracerOptions options;
     options.paths = PathPart::residual;
     options.max_bounce = s.bounce_limit();
-    options.directions = (s.caustics + s.luxels_per_pixel - 1) / s.luxels_per_pixel;
+    options.directions = s.caustics;
     return options;
 }
 
