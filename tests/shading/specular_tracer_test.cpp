@@ -172,6 +172,31 @@ TEST_CASE("a mirror at 45 degrees shows the unfolded room") {
     CHECK(met > 50);
 }
 
+TEST_CASE("a pane that changes nothing changes no bit of what is seen") {
+    mir::Scene s;
+    s.place(mir::builtin::sphere("ball", s.add(mir::lambertian("b", {0.5f, 0.5f, 0.5f})), {0, 0, 0},
+                                 1.0f, 20, 10));
+    // The size of a scene decides how far points are lifted: the pane must not make it larger.
+    for (const float y : {-3.0f, 3.0f})
+        s.place(mir::builtin::quad("plate", 0, {-3, y, 2}, {6, 0, 0}, {0, 0, -5}));
+    s.environment = mirtest::constant_sky({1, 1, 1});
+    mir::Scene behind_pane = s;
+    behind_pane.place(mir::builtin::quad("pane", behind_pane.add(glass(true, 1.0f)), {-3, -3, 2},
+                                         {6, 0, 0}, {0, 6, 0}));
+    const Seen a(s);
+    const Seen b(behind_pane);
+    for (int i = 0; i < 300; ++i) {
+        const mir::SeenLuxel here = a.tracer()(fan(i, {0, 0.2f, 4}));
+        const mir::SeenLuxel there = b.tracer()(fan(i, {0, 0.2f, 4}));
+        REQUIRE(here.is_background == there.is_background);
+        REQUIRE(there.events == 0);
+        REQUIRE(here.point.position == there.point.position);
+        const Vec3 lamp(1, 3, 5);
+        REQUIRE(a.tree.visibility().visible(lamp, here.point.position + here.point.offset) ==
+                b.tree.visibility().visible(lamp, here.point.position + here.point.offset));
+    }
+}
+
 TEST_CASE("between two mirrors each bounce has its reflectance") {
     mir::Scene s;
     mir::Material m = mirror();

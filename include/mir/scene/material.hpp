@@ -45,6 +45,13 @@ struct Material {
     [[nodiscard]] bool is_see_through() const {
         return is_blended || (transmission > 0.0f && is_thin && metallic < 1.0f);
     }
+    /// True when all light passes it unchanged: it is as if it were not there, in every bit.
+    [[nodiscard]] bool is_nothing() const {
+        if (emits() || textures.base_color.is_set()) return false;
+        if (is_blended && alpha == 0.0f) return true;
+        const bool clear = transmission == 1.0f && metallic == 0.0f && roughness == 0.0f;
+        return clear && is_thin && ior == 1.0f && base_color == Rgb{1.0f, 1.0f, 1.0f};
+    }
     /// True when it has no specular part. Textures do not change that, because they multiply.
     [[nodiscard]] bool is_lambertian() const {
         return metallic == 0.0f && specular == 0.0f && transmission == 0.0f;

@@ -32,21 +32,27 @@ namespace mir {
 class OpacityTable {
  public:
     /// @throws Error(invalid_input) when an alpha or a transmission lies outside 0..1 or a cutoff
-    /// is
-    ///         negative or not finite; where some material is not opaque, what TextureTable throws.
+    ///         is negative or not finite; where some material is not opaque, what TextureTable
+    ///         throws.
     explicit OpacityTable(const Scene& scene) {
         for (const Material& m : scene.materials) check(m);
         const auto any = [&](auto is) {
             return std::any_of(scene.materials.begin(), scene.materials.end(), is);
         };
-        const bool has_masks = any([](const Material& m) { return m.is_masked(); });
+        // Colours of vertices may tint what is clear.
+        const bool is_tinted = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                           [](const Mesh& m) { return !m.colors.empty(); });
+        const auto is_nothing = [&](const Material& m) { return !is_tinted && m.is_nothing(); };
+        const bool has_masks =
+            any([&](const Material& m) { return m.is_masked() || is_nothing(m); });
         const bool has_see_through = any([](const Material& m) { return m.is_see_through(); });
         if (!has_masks && !has_see_through) return;
         const TextureTable given(scene);
         images_.assign(given.images().begin(), given.images().end());
         texels_.resize(images_.size());
         for (const Material& m : scene.materials) {
-            if (has_masks) masks_.push_back(alpha_mask_of(m));
+            if (has_masks)
+                masks_.push_back(is_nothing(m) ? AlphaMask{0.0f, 1.0f, {}} : alpha_mask_of(m));
             if (has_see_through) see_through_.push_back(see_through_of(m));
             if (m.is_masked() || m.is_see_through()) keep(scene, m.textures.base_color);
             if (m.is_see_through()) keep(scene, m.textures.metallic_roughness);
