@@ -92,7 +92,10 @@ class BackendRenderer final : public Renderer {
             } catch (const Error& e) {
                 const bool is_smallest =
                     tile.width <= least_tile_side && tile.height <= least_tile_side;
-                if (e.code() != ErrorCode::out_of_memory || is_smallest) throw;
+                // Others count the loops of a shared picture: one that began again would wait for
+                // them for ever.
+                const bool is_shared = share != nullptr;
+                if (e.code() != ErrorCode::out_of_memory || is_smallest || is_shared) throw;
             }
             if (placed.monitor != nullptr)
                 placed.monitor->contributions = placed.monitor->gathers = 0;

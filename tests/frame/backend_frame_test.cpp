@@ -23,6 +23,8 @@
 #include "support/masked_scene.hpp"
 #include "support/test_sky.hpp"
 
+#include <algorithm>
+
 namespace {
 
 using mir::BackendFrameOptions;
@@ -58,8 +60,12 @@ RenderResult draw_on_backend(const Scene& scene, const RenderSettings& settings,
     };
     Frame frame(job, Host(executor), make_tree, options);
     RenderResult result = mir::render_vpls(frame);
-    // Chains and all that follows need no rays of the host.
-    const bool on_host = options.scheduler == BackendScheduler::os ||
+    // Chains and all that follows need no rays of the host; what glass throws on surfaces does.
+    const bool throws_light =
+        settings.caustics > 0 &&
+        std::any_of(scene.materials.begin(), scene.materials.end(),
+                    [](const mir::Material& m) { return m.transmission > 0.0f; });
+    const bool on_host = options.scheduler == BackendScheduler::os || throws_light ||
                          settings.sampler != mir::SamplerKind::metropolis;
     CHECK(trees == (options.kd_tree || on_host ? 1 : 0));
     return result;

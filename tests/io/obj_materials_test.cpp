@@ -86,7 +86,8 @@ TEST_CASE("colours of MTL as spectra and CIE XYZ are not read, and counted") {
 }
 
 TEST_CASE("models of glass let light through, and those that refract are bodies") {
-    for (const char* lines : {"illum 4", "illum 6", "illum 7\nTf 1 1 1\nNi 1.5", "illum 9"}) {
+    for (const char* lines : {"illum 4\nNi 1.5", "illum 6\nNi 1.5", "illum 7\nTf 1 1 1\nNi 1.5",
+                              "illum 9\nNi 1.5", "illum 7\nNi 1.5\nd 0"}) {
         INFO(lines);
         CHECK(lost(lines).empty());
         const mir::Material glass = material(lines);
@@ -96,15 +97,27 @@ TEST_CASE("models of glass let light through, and those that refract are bodies"
         CHECK(glass.base_color == Rgb{1, 1, 1});
         CHECK_FALSE(glass.is_blended);
     }
-    CHECK(material("illum 4").is_thin);
-    CHECK(material("illum 9").is_thin);
-    CHECK_FALSE(material("illum 6").is_thin);
-    CHECK_FALSE(material("illum 7").is_thin);
+    CHECK(material("illum 4\nNi 1.5").is_thin);
+    CHECK(material("illum 9\nNi 1.5").is_thin);
+    CHECK_FALSE(material("illum 6\nNi 1.5").is_thin);
+    CHECK_FALSE(material("illum 7\nNi 1.5").is_thin);
     CHECK(material("illum 7\nNi 1.33").ior == 1.33f);
     CHECK(material("illum 7\nTf .5 1 .25\nKd 0 0 0").base_color == Rgb{.5f, 1, .25f});
-    CHECK(material("illum 7\nTf 0 0 0").base_color == Rgb{1, 1, 1});
-    CHECK(material("illum 7\nPr .5").roughness == .5f);
-    CHECK_FALSE(material("illum 7\nd .5").is_blended);
+    CHECK(material("illum 7\nNi 1.5\nTf 0 0 0").base_color == Rgb{1, 1, 1});
+    CHECK(material("illum 7\nNi 1.5\nPr .5").roughness == .5f);
+}
+
+TEST_CASE("a model of glass that exporters write for every material is none by itself") {
+    for (const char* lines : {"Kd .6 .1 .1\nillum 4\nTf 1 1 1\nNi 1", "illum 9", "illum 6\nNi 1"}) {
+        INFO(lines);
+        CHECK_FALSE(material(lines).is_see_through());
+        CHECK(material(lines).transmission == 0.0f);
+        CHECK(lost(lines).empty());
+    }
+    const mir::Material veil = material("Kd .6 .1 .1\nillum 9\nNi 1.45\nd .5");
+    CHECK(veil.is_blended);
+    CHECK(veil.transmission == 0.0f);
+    CHECK(veil.base_color == Rgb{.6f, .1f, .1f});
 }
 
 TEST_CASE("opacity of MTL is the covered share") {
@@ -127,7 +140,7 @@ TEST_CASE("opacity of MTL is the covered share") {
 
 TEST_CASE("a filter of MTL without a model of glass is counted") {
     const Ignored once = {{"Tf without a model of glass", 1}};
-    for (const char* lines : {"Tf .5 1 1", "Tf 0.5", "Kt .9 .9 .9", "Tf 0 0 0\nillum 2"}) {
+    for (const char* lines : {"Tf .5 1 1", "Tf 0.5", "Kt .9 .9 .9"}) {
         INFO(lines);
         CHECK(lost(lines) == once);
         CHECK_FALSE(material(lines).is_see_through());

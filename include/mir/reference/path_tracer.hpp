@@ -78,10 +78,16 @@ class PathTracer {
     /// As they were given.
     [[nodiscard]] const PathTracerOptions& options() const { return options_; }
 
-    /// What a camera ray sees: the luxel that fill_gbuffer() stores, before the environment.
-    [[nodiscard]] Vertex luxel(const Ray& ray) const {
-        const SeenLuxel seen = luxels_(ray);
+    /// What a camera ray sees: the luxel that fill_gbuffer() stores, before the environment. Where
+    /// is_drawn(), `plan` may ask for another end of its chain.
+    [[nodiscard]] Vertex luxel(const Ray& ray, SpecularPlan plan = {}) const {
+        const SeenLuxel seen = luxels_(ray, plan);
         return {luxels_.hit(seen), luxels_.surface(seen, environment_)};
+    }
+    /// Whether a camera ray meets a surface first from which it may go on.
+    [[nodiscard]] bool is_drawn(const Ray& ray) const {
+        const auto point = world_.caster.closest_hit(ray);
+        return point && luxels_.surfaces.is_specular(point->material);
     }
 
     /// Adds one estimate of the radiance from `first` towards the viewer, W m^-2 sr^-1. D_b is

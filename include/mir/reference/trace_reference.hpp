@@ -57,11 +57,13 @@ class ReferenceRows {
         // Bounces without a layer share the last element.
         std::vector<RgbSum> bounces(std::size_t{image_.last_bounce()} + 2);
         for (std::uint32_t x = 0; x < image_.extent().width; ++x) {
-            const auto luxel = tracer_.luxel(rays_(x, y));
+            const Ray ray = rays_(x, y);
+            const auto luxel = tracer_.luxel(ray);
+            const bool is_drawn = tracer_.is_drawn(ray);
             for (std::uint32_t r = 0; r < options_.replicates; ++r) {
                 for (RgbSum& b : bounces) b = {};
                 for (std::uint32_t s = 0; s < options_.samples; ++s)
-                    add_sample(luxel, x, y, r, s, bounces);
+                    add_sample(ray, luxel, {x, y, r, s, is_drawn}, bounces);
                 for (RgbSum& b : bounces) b = b * (1.0 / options_.samples);
                 image_.add(x, row, r, bounces);
             }
@@ -69,17 +71,30 @@ class ReferenceRows {
     }
 
  private:
-    void add_sample(const typename Tracer::Vertex& seen, std::uint32_t x, std::uint32_t y,
-                    std::uint32_t replicate, std::uint32_t sample,
+    /// A sample of a luxel.
+    struct Sample {
+        std::uint32_t x;
+        std::uint32_t y;
+        std::uint32_t replicate;
+        std::uint32_t number;
+        bool draws_chain;  ///< the luxel's ray may end in several places
+    };
+
+    /// `ray` is that of the luxel, which is `seen`.
+    void add_sample(const Ray& ray, const typename Tracer::Vertex& seen, Sample at,
                     std::span<RgbSum> bounces) const {
         const std::uint64_t round =
-            (std::uint64_t{options_.first_replicate} + replicate) * options_.samples + sample;
+            (std::uint64_t{options_.first_replicate} + at.replicate) * options_.samples + at.number;
         const Extent whole = rays_.grid.luxels();
-        const std::uint64_t luxel = std::uint64_t{y} * whole.width + x;
+        const std::uint64_t luxel = std::uint64_t{at.y} * whole.width + at.x;
         Random random(rays_.seed, Stream::reference, round * whole.area() + luxel);
-        if (options_.film == FilmPosition::luxel) return tracer_.trace(seen, random, bounces);
-        const Ray ray = ray_in_pixel(rays_, x, y, random);
-        tracer_.trace(tracer_.luxel(ray), random, bounces);
+        if (options_.film == FilmPosition::pixel)
+            return tracer_.trace(tracer_.luxel(ray_in_pixel(rays_, at.x, at.y, random)), random,
+                                 bounces);
+        if (!at.draws_chain) return tracer_.trace(seen, random, bounces);
+        const float stratum = static_cast<float>(at.number) + random.next();
+        const float first = stratum / static_cast<float>(options_.samples);
+        tracer_.trace(tracer_.luxel(ray, {smaller(first, 0x1.fffffep-1f), 0.0f}), random, bounces);
     }
 
     const Tracer& tracer_;

@@ -45,7 +45,7 @@ struct Material {
     [[nodiscard]] bool is_see_through() const {
         return is_blended || (transmission > 0.0f && is_thin && metallic < 1.0f);
     }
-    /// True when all light passes it unchanged: it is as if it were not there, in every bit.
+    /// True when all light passes it unchanged. It is as if it were not there, in every bit.
     [[nodiscard]] bool is_nothing() const {
         if (emits() || textures.base_color.is_set()) return false;
         if (is_blended && alpha == 0.0f) return true;

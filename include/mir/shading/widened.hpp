@@ -14,9 +14,9 @@ template <class Params>
 Params widened(const Params& p, float /*least_alpha*/) {
     return p;
 }
-/// The same of its GGX lobe.
+/// The same of its GGX lobe, where it has one.
 inline CookTorrance::Params widened(CookTorrance::Params p, float least_alpha) {
-    p.alpha = larger(p.alpha, least_alpha);
+    if (p.has_lobe()) p.alpha = larger(p.alpha, least_alpha);
     return p;
 }
 
@@ -27,7 +27,7 @@ bool is_widened(const Params& /*p*/, float /*least_alpha*/) {
 }
 /// Whether the GGX lobe is narrower than that.
 inline bool is_widened(const CookTorrance::Params& p, float least_alpha) {
-    return p.alpha < least_alpha;
+    return p.has_lobe() && p.alpha < least_alpha;
 }
 
 }  // namespace mir

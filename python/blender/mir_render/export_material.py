@@ -75,7 +75,7 @@ class Materials:
             base_color=_clamped(surface.base_color),
             metallic=min(1.0, max(0.0, surface.metallic)),
             roughness=min(1.0, max(0.0, surface.roughness)),
-            emission=tuple(c / surface.opacity for c in surface.emission),
+            emission=tuple(surface.emission),
             emits_from_both_sides=True,
             **self._coverage(name, surface),
             **self._interface(name, surface, is_closed),

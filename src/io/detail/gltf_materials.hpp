@@ -75,6 +75,8 @@ class GltfMaterials {
                                   "emissiveFactor x emissiveStrength", place_);
         };
         to.emission = {channel(0), channel(1), channel(2)};
+        // The holes of a blended surface do not shine. Its texture's are not counted.
+        if (to.is_blended) to.emission = to.emission * to.alpha;
     }
 
     void extension(const std::string& name, const tinygltf::Value& value, Material& to) {

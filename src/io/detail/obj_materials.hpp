@@ -233,8 +233,11 @@ inline void ObjMaterials::textures_of(const MtlMaterial& from, Material& to) {
     MaterialTextures& t = to.textures;
     t.base_color = texture("map_Kd");
     if (const auto mask = from.images.find("map_d");
-        mask != from.images.end() && textures_.cut(t.base_color, mask->second))
+        mask != from.images.end() && textures_.cut(t.base_color, mask->second)) {
         to.alpha_cutoff = 0.5f;
+        to.alpha = 1.0f;
+        to.is_blended = false;
+    }
     if (t.base_color.is_set() && !from.has("Kd")) to.base_color = {1.0f, 1.0f, 1.0f};
     t.emission = texture("map_Ke");
     if (t.emission.is_set() && !from.has("Ke")) to.emission = {1.0f, 1.0f, 1.0f};
@@ -243,16 +246,23 @@ inline void ObjMaterials::textures_of(const MtlMaterial& from, Material& to) {
 }
 
 /// Glass by its model, otherwise what is open by `d`, which counts before `Tr`. Models that refract
-/// are bodies, others sheets. A filter that is black is none: exporters write it for opaque
-/// materials, and glass would be opaque.
+/// are bodies, others sheets. Exporters write 4, 6 and 9 for opaque or blended materials, too:
+/// there a colour of the filter, or an index, must say the same. A filter that is black is none.
 inline void ObjMaterials::transparency(MtlMaterial& from, Material& to) {
     const auto model = from.find("illum");
     const auto is_model = [&](float number) { return model && (*model)[0] == number; };
     if (is_model(10.0f)) ++from.lost.ignored["illum 10 (shadows on what is not seen)"];
+    const MtlMaterial::Numbers white = {1.0f, 1.0f, 1.0f};
+    const MtlMaterial::Numbers tf = from.find("Tf").value_or(white);
+    const auto d = from.find("d");
+    const auto tr = from.find("Tr");
+    const float opacity = d ? (*d)[0] : tr ? 1.0f - (*tr)[0] : 1.0f;
+    const bool has_index = from.find("Ni") && (*from.find("Ni"))[0] > 1.0f;
+    const bool is_tinted = tf != white && tf != MtlMaterial::Numbers{0, 0, 0};
+    const bool says_more = is_tinted || (has_index && !(opacity < 1.0f && opacity > 0.0f));
     const bool refracts = is_model(6.0f) || is_model(7.0f);
-    if (refracts || is_model(4.0f) || is_model(9.0f)) {
-        const Rgb filter =
-            factors(from.find("Tf").value_or(MtlMaterial::Numbers{1, 1, 1}), "Tf", from.lost);
+    if (says_more && (refracts || is_model(4.0f) || is_model(9.0f))) {
+        const Rgb filter = factors(tf, "Tf", from.lost);
         to.base_color = is_black(filter) ? Rgb{1.0f, 1.0f, 1.0f} : filter;
         to.transmission = 1.0f;
         to.is_thin = !refracts;
@@ -261,12 +271,7 @@ inline void ObjMaterials::transparency(MtlMaterial& from, Material& to) {
         if (!from.has("Pr")) to.roughness = 0.0f;
         return;
     }
-    const MtlMaterial::Numbers white = {1.0f, 1.0f, 1.0f};
-    if (from.find("Tf").value_or(white) != white)
-        ++from.lost.ignored["Tf without a model of glass"];
-    const auto d = from.find("d");
-    const auto tr = from.find("Tr");
-    const float opacity = d ? (*d)[0] : tr ? 1.0f - (*tr)[0] : 1.0f;
+    if (is_tinted) ++from.lost.ignored["Tf without a model of glass"];
     to.alpha = unit_factor(opacity, d ? "d" : "Tr", place_, from.lost);
     to.is_blended = to.alpha < 1.0f;
 }

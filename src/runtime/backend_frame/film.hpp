@@ -56,7 +56,9 @@ void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers
 
 template <Backend M, Bsdf B>
 std::vector<Image<Rgb>> BackendFrame<M, B>::develop() {
-    return picture_->film.take_images();
+    std::vector<Image<Rgb>> images = picture_->film.take_images();
+    picture_.reset();
+    return images;
 }
 
 }  // namespace mir

@@ -93,9 +93,12 @@ inline Features mtl_models() {
             {"Ks 1\nillum 2", "Ks 1\nillum 3", "Ks 1\nillum 5", "Ks 1\nillum 8"},
             read(material([](const mir::Material& m) { CHECK(m.specular == 1.0f); })),
             "by `Ks` and `Ns`"),
-        key("glass", "`illum` 4, 6, 7, 9", {"illum 4", "illum 6", "illum 7", "illum 9"},
+        key("glass", "`illum` 4, 6, 7, 9",
+            {"illum 4\nNi 1.5", "illum 6\nNi 1.5", "illum 7\nNi 1.5", "illum 9\nTf 1 0.5 1"},
             read(material([](const mir::Material& m) { CHECK(m.transmission == 1.0f); })),
-            "tinted by `Tf`, smooth without `Pr`; 6 and 7 are bodies, the others sheets"),
+            "with `Ni` above 1 or a coloured `Tf`, which tints; smooth without `Pr`; 6 and 7 are "
+            "bodies, "
+            "the others sheets"),
         key("surfaces that only catch shadows", "`illum` 10", {"illum 10"},
             counted({"illum 10 (shadows on what is not seen)"}), "seen like any other"),
         key("filter of what shines through", "`Tf`, `Kt`", {"Tf 0.5 1 1", "Kt 0.5 1 1"},
