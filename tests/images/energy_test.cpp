@@ -22,6 +22,7 @@ mir::RenderSettings few_chains() {
     s.acceleration = mir::Acceleration::embree;  // the engine of Studio
     s.bound.kind = mir::BoundPolicy::Kind::automatic;
     s.direct_samples = 1;
+    s.caustics = 0;  // the bootstrap does not know them
     s.max_bounce = 8;
     s.metropolis.chains = 12;  // fewer than VPLs, or nothing would mutate
     s.metropolis.stride = 8;
