@@ -103,7 +103,7 @@ TEST_CASE("Pictures by Embree and by the kd-tree differ by the pairs that the tw
     std::uint64_t rays = 0;
     std::uint64_t different = 0;
     for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {
-        const auto scene = mirtest::load_scene(named.name, named.file);
+        const auto scene = mirtest::load_opaque_scene(named.name, named.file);
         if (!scene) {
             WARN("skipped: " << named.file << " is not on this machine");
             continue;

@@ -37,4 +37,15 @@ inline std::optional<mir::Scene> load_scene(std::string_view name, std::string_v
     return mir::read_gltf(*folder / file).scene;
 }
 
+/// The same with nothing to see through and no holes, for judges that know triangles alone.
+inline std::optional<mir::Scene> load_opaque_scene(std::string_view name, std::string_view file) {
+    auto scene = load_scene(name, file);
+    if (!scene) return scene;
+    for (mir::Material& m : scene->materials) {
+        m.is_blended = false;
+        m.transmission = m.alpha_cutoff = 0.0f;
+    }
+    return scene;
+}
+
 }  // namespace mirtest

@@ -26,7 +26,7 @@ inline constexpr std::array<SegmentScene, 6> segment_scenes{{
 
 /// Nothing when the scene's file is not on this machine.
 [[nodiscard]] inline std::optional<World> load(const SegmentScene& scene) {
-    auto loaded = load_scene(scene.name, scene.file);
+    auto loaded = load_opaque_scene(scene.name, scene.file);
     if (!loaded) return std::nullopt;
     return World(std::move(*loaded));
 }
