@@ -59,7 +59,7 @@ class MirEngine(bpy.types.RenderEngine):
             self.error_set(str(error))
 
     def view_update(self, context, depsgraph):
-        """Begins anew where something changed."""
+        """Begins again where something changed."""
         if self._viewport is None:
             self._viewport = Viewport(_redraw_of(weakref.ref(self)))
         self._viewport.read(depsgraph)

@@ -18,6 +18,8 @@ import mir_render  # noqa: E402
 import numpy as np  # noqa: E402
 from scenes import camera, shader, square  # noqa: E402
 
+from mir_render.preview import Preview  # noqa: E402
+
 _FOLDER = Path(os.environ["MIR_CHECK_FOLDER"])
 _STEP_SECONDS = 0.5
 _MOST_STEPS = 240
@@ -68,7 +70,25 @@ def _story():
         while not _is(_middle(), channel):
             yield
         print(f"the 3D view is {name}")
+        begun = _begun
+        bpy.data.objects["wall"].select_set(channel == 0)
+        yield
+        yield
+        if begun != _begun:
+            raise AssertionError("a selection began the picture again")
         emission.inputs["Color"].default_value = (0, 1, 0, 1)
+
+
+def _count_pictures() -> None:
+    """Counts in _begun how often a picture is begun."""
+    begin = Preview.begin
+
+    def counted(preview, job) -> None:
+        global _begun
+        _begun += 1
+        begin(preview, job)
+
+    Preview.begin = counted
 
 
 def _run():
@@ -91,7 +111,8 @@ def _run():
 
 
 mir_render.register()
-_steps = 0
+_count_pictures()
+_steps = _begun = 0
 _STORY = _story()
 bpy.context.preferences.view.show_splash = False
 bpy.app.timers.register(_run, first_interval=_STEP_SECONDS)
