@@ -4,9 +4,10 @@
 # python/blender/check.sh [CHECK...]   packs the add-on, installs it and renders with it in bpy of
 #                                      PyPI and in the installed Blender; `all`: everything
 #
-# CHECK: materials, engine, views, lamps, pictures. Without any: the first three. bpy lies in
-# ~/.cache/mir/bpy once it was downloaded (350 MB); MIR_BLENDER names another Blender than
-# `blender`. Each host that cannot be had is skipped, with a reason.
+# CHECK: materials, engine, views, preview, lamps, pictures. Without any: the first four. bpy lies
+# in ~/.cache/mir/bpy once it was downloaded (350 MB); MIR_BLENDER names another Blender than
+# `blender`. Its 3D view is checked where there is xvfb-run. Each host that cannot be had is
+# skipped, with a reason.
 set -eu
 
 here=$(cd -- "$(dirname -- "$0")" && pwd)
@@ -15,8 +16,8 @@ cache=${XDG_CACHE_HOME:-$HOME/.cache}/mir/bpy
 bpy_version=5.0.1
 out=$root/build/blender
 log=$out/check.log
-[ $# -gt 0 ] || set -- materials engine views
-[ "$1" != all ] || set -- materials engine views lamps pictures
+[ $# -gt 0 ] || set -- materials engine views preview
+[ "$1" != all ] || set -- materials engine views preview lamps pictures
 
 say() { printf '%s\n' "blender: $*" >&2; }
 rm -rf "$out"
@@ -35,7 +36,7 @@ checked() {
     name=$1
     shift
     if MIR_CHECK_FOLDER=$out/$name MIR_CHECK_ADDON=$out/old "$@" >"$out/$name.log" 2>&1; then
-        grep -E 'cancellations|edits|: [0-9]+ failures' "$out/$name.log" || true
+        grep -E 'cancellations|edits|restarts|: [0-9]+ failures' "$out/$name.log" || true
     else
         grep -E 'FAILED|Error|failures' "$out/$name.log" >&2 || tail -n 20 "$out/$name.log" >&2
         say "failed in $name; the whole log is in $out/$name.log"
@@ -68,6 +69,12 @@ blender=${MIR_BLENDER:-blender}
 if command -v "$blender" >/dev/null 2>&1; then
     checked blender "$blender" --background --factory-startup --python-exit-code 1 \
         --python "$here/tests/run.py" -- "$@"
+    if command -v xvfb-run >/dev/null 2>&1; then
+        checked viewport env LIBGL_ALWAYS_SOFTWARE=1 xvfb-run --auto-servernum "$blender" \
+            --factory-startup --window-geometry 0 0 640 480 --python "$here/tests/show_viewport.py"
+    else
+        say "the 3D view skipped: xvfb-run is not installed (apt-get install xvfb)"
+    fi
 else
     say "Blender skipped: '$blender' is not installed (apt-get install blender python3-numpy)"
 fi

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The render engine: F12, its progress and its end."""
 
+import weakref
+
 import bpy
 import mir
 
@@ -10,10 +12,22 @@ from .export_scene import export_scene
 from .losses import Losses
 from .options import settings_of
 from .passes import chosen_passes, combined, write
+from .viewport import Viewport
 
 
 class Cancelled(Exception):
     """The user pressed Esc."""
+
+
+def _redraw_of(engine: weakref.ref):
+    """Asks a 3D view to draw again, from any thread. A view that is gone has no engine."""
+
+    def redraw() -> None:
+        alive = engine()
+        if alive is not None:
+            alive.tag_redraw()
+
+    return redraw
 
 
 class MirEngine(bpy.types.RenderEngine):
@@ -24,6 +38,8 @@ class MirEngine(bpy.types.RenderEngine):
     bl_use_preview = False
     bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False
+
+    _viewport = None  # of the engine that a 3D view has for itself
 
     def update_render_passes(self, scene=None, renderlayer=None):
         """Names the passes for the compositor."""
@@ -41,6 +57,20 @@ class MirEngine(bpy.types.RenderEngine):
             pass
         except (mir.Error, CameraError) as error:
             self.error_set(str(error))
+
+    def view_update(self, context, depsgraph):
+        """Begins again where something changed."""
+        if self._viewport is None:
+            self._viewport = Viewport(_redraw_of(weakref.ref(self)))
+        self._viewport.read(depsgraph)
+
+    def view_draw(self, context, depsgraph):
+        """Shows what there is so far."""
+        self._viewport.look(context, depsgraph)
+        self.update_stats("", self._viewport.message)
+        self.bind_display_space_shader(depsgraph.scene)
+        self._viewport.draw(context.region)
+        self.unbind_display_space_shader()
 
     def stop_if_asked(self) -> None:
         """Ends the picture once Esc was pressed."""

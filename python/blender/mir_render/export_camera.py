@@ -15,7 +15,7 @@ class CameraError(Exception):
     """A camera that mir cannot look through."""
 
 
-@dataclass
+@dataclass(frozen=True)
 class Window:
     """The part of the whole picture that Blender asks for; pixels, rows from the top."""
 
@@ -83,6 +83,32 @@ def _lens(camera, matrix: np.ndarray, losses) -> dict:
     }
 
 
+@dataclass(frozen=True)
+class View:
+    """What a camera of mir sees, and the window of its picture."""
+
+    position: np.ndarray
+    axes: np.ndarray  # unit x, y and z as columns; it looks along -z
+    fov: float  # vertical, of the whole picture, degrees
+    window: Window
+
+    def add_to(self, scene, **more) -> int:
+        """Adds its camera; returns the index."""
+        target = self.position - self.axes[:, 2]
+        return scene.add_camera(self.position, target, up=self.axes[:, 1], fov=self.fov, **more)
+
+
+def view_through(name: str, projection, to_world_matrix: np.ndarray, size: tuple) -> View:
+    """The view of a perspective matrix from this place, for a picture of width and height."""
+    window = window_of(*size, projection)
+    fov = math.degrees(2.0 * math.atan(window.whole[1] / size[1] / projection[1][1]))
+    if not _NARROWEST <= fov <= _WIDEST:
+        raise CameraError(
+            f"{name}: the field of view with its shift is {fov:.3g} degrees; mir has 1 to 170"
+        )
+    return View(to_world_matrix[:3, 3], axes_of(to_world_matrix), fov, window)
+
+
 def add_camera(scene, depsgraph, width: int, height: int, losses) -> Window:
     """Adds the scene's camera; returns the window of its picture."""
     settings = depsgraph.scene_eval.render
@@ -95,21 +121,7 @@ def add_camera(scene, depsgraph, width: int, height: int, losses) -> Window:
     if settings.pixel_aspect_x != settings.pixel_aspect_y:
         losses.add(source.name, "pixels are square")
     projection = source.calc_matrix_camera(depsgraph, x=width, y=height)
-    window = window_of(width, height, projection)
     matrix = to_world(source.matrix_world)
-    axes = axes_of(matrix)
-    fov = 2.0 * math.atan(window.whole[1] / height / projection[1][1])
-    if not _NARROWEST <= math.degrees(fov) <= _WIDEST:
-        raise CameraError(
-            f"{source.name}: the field of view with its shift is {math.degrees(fov):.3g} degrees; "
-            "mir has 1 to 170"
-        )
-    scene.add_camera(
-        matrix[:3, 3],
-        matrix[:3, 3] - axes[:, 2],
-        up=axes[:, 1],
-        fov=math.degrees(fov),
-        name=source.name,
-        **_lens(camera, matrix, losses),
-    )
-    return _cropped(window, settings)
+    view = view_through(source.name, projection, matrix, (width, height))
+    view.add_to(scene, name=source.name, **_lens(camera, matrix, losses))
+    return _cropped(view.window, settings)

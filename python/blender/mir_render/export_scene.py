@@ -20,18 +20,22 @@ def export_scene(depsgraph, width: int, height: int, losses, check=lambda: None)
 
     check: is called between objects; what it raises ends the export.
     """
-    settings = depsgraph.scene_eval.render
     scene = mir.Scene(depsgraph.scene_eval.name)
     window: Window = add_camera(scene, depsgraph, width, height, losses)
-    add_world(scene, depsgraph.scene_eval.world, losses)
-    if settings.use_motion_blur:
+    if depsgraph.scene_eval.render.use_motion_blur:
         losses.add(scene.name, "motion blur")
+    add_contents(scene, depsgraph, losses, check)
+    return scene, window
+
+
+def add_contents(scene, depsgraph, losses, check=lambda: None) -> None:
+    """Adds world, lamps and objects: all but a camera."""
+    add_world(scene, depsgraph.scene_eval.world, losses)
     meshes = Meshes(scene, Materials(scene, losses), losses)
     lights = Lights(scene, losses)
     for instance in depsgraph.object_instances:
         check()
         _add(instance, meshes, lights, losses)
-    return scene, window
 
 
 def _add(instance, meshes: Meshes, lights: Lights, losses) -> None:

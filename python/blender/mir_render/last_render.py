@@ -5,6 +5,8 @@ losses: list[str] = []
 warnings: list[str] = []
 budget: dict[str, str] = {}
 
+_ALSO_IN_BUDGET = "caustic_luminance"  # of the statistics
+
 
 def _text(value) -> str:
     if isinstance(value, (list, tuple)):
@@ -32,6 +34,8 @@ def remember_result(result) -> None:
     """Adds what a result tells of itself."""
     warnings[:] = result.warnings
     budget.update(_lines(result.light_budget))
+    if _ALSO_IN_BUDGET in result.statistics:
+        budget.update(_lines({_ALSO_IN_BUDGET: result.statistics[_ALSO_IN_BUDGET]}))
 
 
 def stamp(render_result) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Passes, metadata, frames, edits, cancellations, memory."""
+"""Passes, metadata, light budget, frames, edits, cancellations, memory."""
 
 import os
 import random
@@ -63,6 +63,18 @@ def check_passes_add_up(folder) -> list[str]:
     if np.allclose(red("Combined"), parts, rtol=2e-3, atol=1e-4):
         return []
     return ["passes.exr: its parts do not add up"]
+
+
+def check_light_budget(folder) -> list[str]:
+    """The panel lists where the light came from, with what glass throws on a wall."""
+    glass()
+    render("MIR", folder / "budget.exr", 32, 24, vpls=64)
+    budget = last_render.budget
+    wanted = ("emitted_power", "mean_radiance direct", "indirect_luminance", "removed_share")
+    failures = [f"the light budget has no {one}" for one in wanted if one not in budget]
+    if not float(budget.get("caustic_luminance", 0.0)) > 0.0:
+        failures.append("the light budget has no caustics")
+    return failures
 
 
 def check_frames(folder) -> list[str]:
@@ -158,7 +170,14 @@ def check_edits(folder) -> list[str]:
     return failures
 
 
-CHECKS = (check_passes, check_passes_add_up, check_frames, check_edits, check_cancellations)
+CHECKS = (
+    check_passes,
+    check_passes_add_up,
+    check_light_budget,
+    check_frames,
+    check_edits,
+    check_cancellations,
+)
 
 
 def check(folder) -> list[str]:

@@ -34,6 +34,6 @@ def main(names: list[str]) -> int:
 
 mir_render.register()
 CHOSEN = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
-count = main(CHOSEN or ["materials", "engine", "views", "lamps"])
+count = main(CHOSEN or ["materials", "engine", "views", "preview", "lamps"])
 mir_render.unregister()
 sys.exit(1 if count else 0)
