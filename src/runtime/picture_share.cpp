@@ -23,9 +23,8 @@ Error error_in(BytesReader& in, const std::string& where) {
 class PictureShare::Run {
  public:
     Run(PictureShare& share, SharedLoop& loop, Monitor* monitor)
-        : share_(share), loop_(loop), monitor_(monitor) {
+        : share_(share), loop_(loop), monitor_(monitor), number_(share.all_loops_++) {
         ++share.loops_;
-        number_ = share.all_loops_++;
         if (!share.is_lead()) return;
         done_before_ = share.begin_loop(loop, sums_);
         book_.emplace(loop.bands(), share.owners_, done_before_);

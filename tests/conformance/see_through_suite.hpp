@@ -86,7 +86,7 @@ void see_through_suite() {
     }
     SECTION("a clear pane hides nothing, an opaque one all") {
         const World missing = soup_behind(nullptr);
-        const World opaque = soup_behind(&world.scene.materials[0]);
+        const World opaque = soup_behind(world.scene.materials.data());
         CHECK(differences<Engine>(missing, opaque, 4000) > 200);
         const mir::Material pane = clear_pane();
         CHECK(differences<Engine>(missing, soup_behind(&pane), 4000) == 0);

@@ -43,12 +43,15 @@ bool fails(const Work& work, const char* words) {
     return false;
 }
 
-int failures = 0;
+int& failures() {
+    static int count = 0;
+    return count;
+}
 
 void require(bool ok, const char* what) {
     if (ok) return;
     std::fprintf(stderr, "rank %d: not so: %s\n", rank_of_this(), what);
-    ++failures;
+    ++failures();
 }
 
 void try_ranks() {
@@ -75,5 +78,5 @@ int main(int argc, char** argv) {
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
     try_ranks();
     MPI_Finalize();
-    return failures == 0 ? 0 : 1;
+    return failures() == 0 ? 0 : 1;
 }

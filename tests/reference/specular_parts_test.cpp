@@ -119,7 +119,7 @@ TEST_CASE("light paths and camera paths bring the same caustics", "[statistical]
             const mir::SeenLuxel seen = luxels(ray);
             if (seen.is_background || !seen.is_straight) continue;
             mir::RgbSum bounces[5] = {};
-            tracer.trace({luxels.hit(seen), luxels.surface(seen)}, random, bounces);
+            tracer.trace({decltype(luxels)::hit(seen), luxels.surface(seen)}, random, bounces);
             for (int b = 1; b <= 3; ++b)
                 back[b] += static_cast<double>(luminance(bounces[b].rgb())) / 1024;
         }

@@ -12,6 +12,7 @@
 #include "support/test_sky.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -44,7 +45,7 @@ mir::Material mirror() {
 /// A scene and what luxels see of it.
 template <class B = CookTorrance>
 struct Seen {
-    explicit Seen(const mir::Scene& s) : scene(s) {}
+    explicit Seen(mir::Scene s) : scene(std::move(s)) {}
 
     mir::Scene scene;
     mir::WorldGeometry geometry{scene};

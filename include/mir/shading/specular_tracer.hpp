@@ -41,19 +41,9 @@ struct SpecularTracer {
                        float least = 0.0f) const {
         if constexpr (SpecularBsdf<B>) {
             std::uint32_t inside = nowhere;
-            while (!end.is_background && surfaces.is_specular(end.point.material)) {
-                if (end.events == longest) return lose(end);
-                absorb(end, inside);
-                const SpecularSurface surface = surface_of(end);
-                const SpecularStep step =
-                    step_of(end, surface, {transport, end.events == 0 ? least : 0.0f}, numbers);
-                if (step.event == SpecularEvent::stop || is_black(step.weight))
-                    return stop(end, step);
-                end.light = end.light * step.weight;
-                if (step.event == SpecularEvent::transmit && surface.bounds_body())
-                    inside = surface.front ? end.point.material : nowhere;
-                if (!go_on(end, step) || !survives(end, numbers)) return lose(end);
-            }
+            while (!end.is_background && surfaces.is_specular(end.point.material))
+                if (!advance(end, inside, {transport, end.events == 0 ? least : 0.0f}, numbers))
+                    return;
             if (!end.is_background) absorb(end, inside);
             end.reflection = end.light;
         }
@@ -61,6 +51,29 @@ struct SpecularTracer {
 
  private:
     static constexpr std::uint32_t nowhere = ~0u;
+
+    /// One event. False when the chain is at its end.
+    template <class Numbers>
+    [[nodiscard]] MIR_HD bool advance(SpecularEnd& end, std::uint32_t& inside, SpecularRules rules,
+                                      Numbers& numbers) const {
+        if (end.events == longest) {
+            lose(end);
+            return false;
+        }
+        absorb(end, inside);
+        const SpecularSurface surface = surface_of(end);
+        const SpecularStep step = step_of(end, surface, rules, numbers);
+        if (step.event == SpecularEvent::stop || is_black(step.weight)) {
+            stop(end, step);
+            return false;
+        }
+        end.light = end.light * step.weight;
+        if (step.event == SpecularEvent::transmit && surface.bounds_body())
+            inside = surface.front ? end.point.material : nowhere;
+        if (go_on(end, step) && survives(end, numbers)) return true;
+        lose(end);
+        return false;
+    }
 
     [[nodiscard]] MIR_HD SpecularSurface surface_of(const SpecularEnd& end) const {
         const SurfacePoint& p = end.point;

@@ -47,6 +47,8 @@ inline void reject_holes(const RTCFilterFunctionNArguments* args) {
 
 /// Filter of segments: rejects hits that do not stop them; of queries without Segments, holes.
 inline void reject_open(const RTCFilterFunctionNArguments* args) {
+    // Every context that this filter is asked with is a Query.
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-static-cast-downcast)
     const Segments* segments = static_cast<const Query*>(args->context)->segments;
     if (segments == nullptr) return reject_holes(args);
     const OpacityView<Space::host>& surfaces = opacity_of(args);
