@@ -171,6 +171,17 @@ TEST_CASE("each bad value of a render is one worded warning") {
              s.health.reset();
              s.light_path_luminance = mir::PathLuminance{1.0, 0.3, 300, 40};
          }},
+        {"known to 8 % only, and is more often too dark",
+         [](Statistics& s) {
+             s.health.reset();
+             s.light_path_luminance = mir::PathLuminance{1.0, 0.08, 80000, 208};
+         }},
+        {"hardly any light path reaches",
+         [](Statistics& s) {
+             s.health.reset();
+             s.indirect_luminance = 1.0;
+             s.light_path_luminance = mir::PathLuminance{0.0, 0.0, 300, 0};
+         }},
         {"disagree by", [](Statistics& s) { s.health->large_step_luminance.mean = 1.2; }},
         {"cut short", [](Statistics& s) { s.health->capped = true; }},
         {"no mutation was accepted",

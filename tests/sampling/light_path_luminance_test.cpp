@@ -20,13 +20,14 @@ using Paths = std::vector<std::vector<float>>;
 
 /// The estimate for paths whose VPLs have these intensities, and `dark` ones without a VPL. Inside
 /// a sphere every VPL gives the same to the image, by its intensity.
-mir::PathLuminance estimate(const Paths& paths, std::uint64_t dark, std::size_t most = 2048) {
+mir::PathLuminance estimate(const Paths& paths, std::uint64_t dark, std::size_t most = 2048,
+                            std::uint32_t luxels = 16) {
     const mirtest::AnalyticSphere sphere{2.0f, 0, 0};
     mir::Scene scene;
     scene.add(mir::lambertian("wall", {0.5f, 0.5f, 0.5f}));
     const mir::SurfaceTable<Lambert> surfaces(scene);
     const mir::Camera camera = mir::Camera::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0f);
-    const mir::ImageProbe<Lambert, mirtest::FreeSight> probe({camera, 1.0f, 16, 1}, sphere,
+    const mir::ImageProbe<Lambert, mirtest::FreeSight> probe({camera, 1.0f, luxels, 1}, sphere,
                                                              surfaces, {});
     const mir::SurfacePoint place = sphere.point(Vec3(0, 1, 0));
     mir::VplRecords records;
@@ -69,6 +70,17 @@ TEST_CASE("the VPLs of one path count together") {
     twos.push_back({2.0f});
     CHECK(estimate(twos, 9).relative_error() == Approx(error_of_share(11, 20)));
     CHECK(estimate(twos, 9).contributing == 11);
+}
+
+TEST_CASE("of many paths each is looked at by few luxels rather than not at all") {
+    // One path of 3000 brings all: with all 64 luxels for each of 750 records three of four such
+    // paths would go unseen.
+    Paths rare(3000, {0.0f});
+    rare[1234] = {5.0f};
+    const mir::PathLuminance p = estimate(rare, 0, 750, 64);
+    CHECK(p.contributing == 1);
+    CHECK(p.relative_error() == Approx(1.0));
+    CHECK(p.mean == Approx(5.0 * 0.5 / (4.0 * 3.14159265 * 4.0)).epsilon(1e-3));
 }
 
 TEST_CASE("of many paths some tell the error of all") {

@@ -96,9 +96,20 @@ inline void add_luminance_warnings(const ChainHealth& h, std::vector<std::string
 
 /// Where light paths find the light that the camera sees too rarely. Then few of them bring most of
 /// it, and more often than not too few. VPLs that are merely few are no reason.
-inline void add_light_path_warning(const PathLuminance& p, std::vector<std::string>& warnings) {
+inline void add_light_path_warning(const PathLuminance& p, double indirect_luminance,
+                                   std::vector<std::string>& warnings) {
+    if (p.contributing == 0 && indirect_luminance > 0.0) {
+        warnings.emplace_back(
+            "the brightness of the VPLs' light is not known: hardly any light path reaches what "
+            "the camera sees, and more often than not the picture is too dark; --sampler mir finds "
+            "such light, more --vpls help");
+        return;
+    }
     const double error = p.relative_error();
-    if (error <= 0.1) return;
+    // Where one path in a hundred brings light, the brightest may be missing, and the error with
+    // them.
+    const bool is_rare = static_cast<double>(p.contributing) < 0.01 * static_cast<double>(p.paths);
+    if (error <= (is_rare ? 0.03 : 0.1)) return;
     const double equal_paths = 1.0 / (error * error);
     if (equal_paths >= 0.2 * static_cast<double>(p.paths)) return;
     warnings.push_back("the brightness of the VPLs' light is known to " +
@@ -208,7 +219,8 @@ inline void add_chain_warnings(const RenderStatistics& s, std::vector<std::strin
 inline void add_result_warnings(const RenderResult& result, std::vector<std::string>& warnings) {
     const RenderStatistics& s = result.statistics;
     add_chain_warnings(s, warnings);
-    if (s.light_path_luminance) detail::add_light_path_warning(*s.light_path_luminance, warnings);
+    if (s.light_path_luminance)
+        detail::add_light_path_warning(*s.light_path_luminance, s.indirect_luminance, warnings);
     if (s.dropped_triangles > 0)
         warnings.push_back(std::to_string(s.dropped_triangles) +
                            " triangles without area were left out");

@@ -10,6 +10,7 @@
 #include "mir/shading/vpl_shading.hpp"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace mir {
@@ -30,6 +31,11 @@ class ImageProbe {
     /// Mean radiance over all luxels from a VPL of 1 W sr^-1 at `place`. Its intensity is not read;
     /// luxels that see nothing count: (1/M') sum_l f_1 G V, sr^-1 m^-2.
     [[nodiscard]] Rgb response(const Vpl& place) const;
+
+    /// Parts of at most sixteen luxels, which are asked together.
+    [[nodiscard]] std::size_t parts() const { return groups_.size(); }
+    /// An estimate of response() by part `turn`, modulo parts(). Its mean over parts is response().
+    [[nodiscard]] Rgb response_of_part(const Vpl& place, std::uint64_t turn) const;
 
     /// Mean image luminance of a VPL at `place`, W m^-2 sr^-1. Its intensity is `j` (W sr^-1).
     [[nodiscard]] float flux(const Vpl& place, Rgb j) const {
@@ -65,6 +71,9 @@ class ImageProbe {
     };
 
     void add(const Hit& hit, const typename VplShading<B>::Surface& surface);
+    template <class F>
+    void for_each_lit(const Group& group, const Vpl& place, F&& f) const;
+    [[nodiscard]] Rgb mean_of(std::span<const Group> groups, const Vpl& place) const;
     [[nodiscard]] std::uint32_t visible(const Group& group, Vec3 from, std::uint32_t mask) const;
 
     std::vector<Group> groups_;
@@ -122,37 +131,55 @@ std::uint32_t ImageProbe<B, V>::visible(const Group& group, Vec3 from, std::uint
 
 template <Bsdf B, Visibility V>
 template <class F>
-void ImageProbe<B, V>::for_each_lit(const Vpl& place, F&& f) const {
+void ImageProbe<B, V>::for_each_lit(const Group& group, const Vpl& place, F&& f) const {
     const Vpl unit{place.position, place.normal, {1.0f, 1.0f, 1.0f}};
-    for (const Group& group : groups_) {
-        Rgb shaded[width];
-        std::uint32_t reflecting = 0;
-        run_with(best_instruction_set(), [&] {
-            for (std::uint32_t k = 0; k < width; ++k) {
-                if (!faces(group.hits[k], unit)) continue;
-                shaded[k] = shading_(group.hits[k], group.surfaces[k], unit);
-                if (!is_black(shaded[k])) reflecting |= 1u << k;
-            }
+    Rgb shaded[width];
+    std::uint32_t reflecting = 0;
+    run_with(best_instruction_set(), [&] {
+        for (std::uint32_t k = 0; k < width; ++k) {
+            if (!faces(group.hits[k], unit)) continue;
+            shaded[k] = shading_(group.hits[k], group.surfaces[k], unit);
+            if (!is_black(shaded[k])) reflecting |= 1u << k;
+        }
+    });
+    const std::uint32_t lit = visible(group, unit.position, reflecting);
+    for (std::uint32_t k = 0; k < width; ++k)
+        if ((lit >> k & 1u) != 0) f(group.hits[k], group.surfaces[k], shaded[k]);
+}
+
+template <Bsdf B, Visibility V>
+template <class F>
+void ImageProbe<B, V>::for_each_lit(const Vpl& place, F&& f) const {
+    for (const Group& group : groups_) for_each_lit(group, place, f);
+}
+
+/// As if the groups stood for all luxels, those included that reflect nothing.
+template <Bsdf B, Visibility V>
+Rgb ImageProbe<B, V>::mean_of(std::span<const Group> groups, const Vpl& place) const {
+    double r = 0.0;
+    double g = 0.0;
+    double b = 0.0;
+    for (const Group& group : groups)
+        for_each_lit(group, place, [&](const Hit&, const auto&, Rgb radiance) {
+            r += radiance.r;
+            g += radiance.g;
+            b += radiance.b;
         });
-        const std::uint32_t lit = visible(group, unit.position, reflecting);
-        for (std::uint32_t k = 0; k < width; ++k)
-            if ((lit >> k & 1u) != 0) f(group.hits[k], group.surfaces[k], shaded[k]);
-    }
+    const double share =
+        1.0 / luxels_ * (static_cast<double>(groups_.size()) / static_cast<double>(groups.size()));
+    return {static_cast<float>(r * share), static_cast<float>(g * share),
+            static_cast<float>(b * share)};
 }
 
 template <Bsdf B, Visibility V>
 Rgb ImageProbe<B, V>::response(const Vpl& place) const {
-    double r = 0.0;
-    double g = 0.0;
-    double b = 0.0;
-    for_each_lit(place, [&](const Hit&, const auto&, Rgb radiance) {
-        r += radiance.r;
-        g += radiance.g;
-        b += radiance.b;
-    });
-    const double share = 1.0 / luxels_;
-    return {static_cast<float>(r * share), static_cast<float>(g * share),
-            static_cast<float>(b * share)};
+    return groups_.empty() ? Rgb{} : mean_of(groups_, place);
+}
+
+template <Bsdf B, Visibility V>
+Rgb ImageProbe<B, V>::response_of_part(const Vpl& place, std::uint64_t turn) const {
+    if (groups_.empty()) return {};
+    return mean_of(std::span(groups_).subspan(turn % groups_.size(), 1), place);
 }
 
 }  // namespace mir

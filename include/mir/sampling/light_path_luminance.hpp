@@ -25,12 +25,26 @@ inline std::vector<std::size_t> path_starts(const std::vector<VplRecord>& record
     return starts;
 }
 
+/// Mean image luminance of a VPL by so many parts of the probe's luxels, from part `first` on.
+template <Bsdf B, Visibility V>
+double flux_by_looks(const ImageProbe<B, V>& probe, const Vpl& vpl, std::size_t first,
+                     std::size_t looks) {
+    if (looks == probe.parts()) return static_cast<double>(probe.flux(vpl, vpl.intensity));
+    double sum = 0.0;
+    for (std::size_t k = 0; k < looks; ++k)
+        sum +=
+            static_cast<double>(luminance(probe.response_of_part(vpl, first + k) * vpl.intensity));
+    return sum / static_cast<double>(looks);
+}
+
 }  // namespace detail
 
 /// P_c by the light paths of a sampler whose intensities are final. Its standard error follows from
 /// how much each path gives to the luxels of `probe`: few paths that bring most of the light make
-/// it large, and a picture of such VPLs is mostly too dark and sometimes far too bright. Of more
-/// than `most` records some paths are looked at, evenly; error and counts are those of all.
+/// it large, and a picture of such VPLs is mostly too dark and sometimes far too bright. There are
+/// as many looks as all luxels have at `most` records: of more records each is looked at by fewer
+/// luxels, sixteen at least, and of more than that allows some paths, evenly. Error and counts are
+/// those of all.
 /// `sampled` comes as a sampler of light paths gives it, path after path. The same bits for any
 /// executor.
 template <Bsdf B, Visibility V, Executor E>
@@ -38,15 +52,17 @@ template <Bsdf B, Visibility V, Executor E>
                                                  const ImageProbe<B, V>& probe, E& executor,
                                                  std::size_t most = 1024) {
     const std::vector<std::size_t> starts = detail::path_starts(sampled.records);
-    const std::size_t stride = sampled.records.size() / most + 1;
+    const std::size_t parts = std::max<std::size_t>(probe.parts(), 1);
+    const std::size_t stride =
+        std::max<std::size_t>((sampled.records.size() + most * parts - 1) / (most * parts), 1);
+    const std::size_t looks = std::clamp<std::size_t>(
+        most * parts / std::max<std::size_t>(sampled.records.size() / stride, 1), 1, parts);
     const std::size_t lit = (starts.size() - 1 + stride - 1) / stride;
     std::vector<double> light(lit);
     executor.for_each(lit, [&](std::size_t i) {
         const std::size_t path = i * stride;
-        for (std::size_t r = starts[path]; r < starts[path + 1]; ++r) {
-            const Vpl& vpl = sampled.records[r].vpl;
-            light[i] += static_cast<double>(probe.flux(vpl, vpl.intensity));
-        }
+        for (std::size_t r = starts[path]; r < starts[path + 1]; ++r)
+            light[i] += detail::flux_by_looks(probe, sampled.records[r].vpl, r, looks);
     });
     WeightMoments moments;
     for (const double of_path : light) moments.add(of_path * static_cast<double>(sampled.paths));
