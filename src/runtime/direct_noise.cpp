@@ -4,13 +4,22 @@
 #include "mir/for_each_luxel.hpp"
 #include "mir/kernels/luxel_light.hpp"
 #include "mir/runtime/pass_seed.hpp"
+#include "mir/shading/sky_tries.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace mir {
 namespace {
 
 constexpr std::uint32_t places = 2048;
+
+/// The guide of a block whose luxels all lie at one place, from one set of tries.
+SkyGuide sky_guide_at(const SkyTries<AnyVisibility>& tries, const Hit& hit, const Random& random) {
+    SkyTried tried;
+    for (std::uint32_t k = 0; k < SkyTried::side; ++k) tried.seen[k] = tries(hit, k, 0, random);
+    return {&tried, 1, 1};
+}
 
 /// Mean luminance of all luxels of a pixel, as if all lay at one place. Of each place.
 template <Bsdf B>
@@ -18,19 +27,23 @@ std::vector<double> estimate(RenderJob& job, AnyVisibility visibility,
                              const BlockedGBuffer<typename B::Params>& luxels,
                              DirectSamples samples, std::uint64_t which) {
     const LuxelGrid grid = luxel_grid(luxels.extent(), job.settings.luxels_per_pixel);
-    const LuxelLight<B, AnyVisibility> light(job.lights, visibility, samples,
-                                             {0, grid, pass_seed(job.settings.seed, which)});
+    const LuxelBand numbers{0, grid, pass_seed(job.settings.seed, which)};
+    const LuxelLight<B, AnyVisibility> light(job.lights, visibility, samples, numbers);
+    const bool guides = samples.want_sky_guide() && !job.lights.environment().empty();
+    const SkyTries<AnyVisibility> tries(job.lights.view(), visibility);
     std::vector<double> means(static_cast<std::size_t>(luxels.extent().area()));
     for_each_luxel(
         luxels, job.executor,
         [&](std::uint32_t x, std::uint32_t y, const auto& place, LuxelIndex i) {
             const Hit hit = place.hit(i);
             if (is_empty(hit)) return;
+            std::optional<SkyGuide> sky;
+            if (guides) sky = sky_guide_at(tries, hit, numbers.luxel_numbers(x, y, Stream::sky));
             double sum = 0.0;
             for (std::uint32_t cell = 0; cell < grid.per_pixel(); ++cell)
                 sum += static_cast<double>(luminance(
                     light(hit, place.surface(i), x * grid.per_pixel_x + cell % grid.per_pixel_x,
-                          y * grid.per_pixel_y + cell / grid.per_pixel_x)));
+                          y * grid.per_pixel_y + cell / grid.per_pixel_x, sky ? &*sky : nullptr)));
             means[y * luxels.extent().width + x] = sum / grid.per_pixel();
         });
     return means;

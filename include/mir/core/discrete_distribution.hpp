@@ -63,6 +63,13 @@ struct DiscreteDistributionView {
         // Rounding may put a number beside its own index.
         return smaller(larger(static_cast<float>(place), 0.0f), 0x1.fffffep-1f);
     }
+
+    /// The number, in [0, 1), that sample() maps to `i` and place_in() to `place`.
+    [[nodiscard]] MIR_HD float number_at(std::uint32_t i, float place) const {
+        const double before = i == 0 ? 0.0 : cumulative[i - 1];
+        const double at = before + static_cast<double>(place) * (cumulative[i] - before);
+        return smaller(larger(static_cast<float>(at / total), 0.0f), 0x1.fffffep-1f);
+    }
 };
 
 /// Picks an index with probability proportional to its weight. By binary search in the cumulative

@@ -37,6 +37,11 @@ struct DiscreteDistribution2dView {
         const std::uint32_t x = cells.sample(u.x);
         return {x, y, {cells.place_in(x, u.x), rows.place_in(y, u.y)}};
     }
+
+    /// The numbers for which sample() gives this place, if its cell has weight.
+    [[nodiscard]] MIR_HD Vec2 numbers(const GridCell& at) const {
+        return {row(at.y).number_at(at.x, at.inside.x), rows.number_at(at.y, at.inside.y)};
+    }
 };
 
 /// Picks a cell of a grid with probability proportional to its weight. The row, then the column.

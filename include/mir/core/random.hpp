@@ -14,25 +14,26 @@ enum class Stream : std::uint32_t {
     light_path,
     pilot,
     test,
-    bootstrap,      ///< independent paths that estimate P_c and seed the chains
-    seeding,        ///< choice of the chains' first states
-    mutation,       ///< proposals of a chain
-    suffix,         ///< refreshed light ends of recorded states
-    probe,          ///< luxels that estimate image responses before there is an image
-    candidate,      ///< what resampled importance sampling chooses from
-    reference,      ///< path tracer
-    surfel_light,   ///< lamps as discs see them
-    surfel_gather,  ///< directions in which discs look for discs
-    gather,         ///< directions in which luxels look for discs
-    pass,           ///< seeds of the passes of a progressive render
-    residual,       ///< paths that trace back what the bound removed
-    distant_vpls,   ///< directions towards the environment that all luxels share
-    vsl,            ///< directions in which luxels see the spheres of VSLs
-    missing,        ///< paths that tell what VPLs leave out
-    surfel_place,   ///< where on a disc lamps are looked for, and rays begin
-    cut,            ///< which VPL of a node a luxel gathers
-    caustic,        ///< light paths that the camera sees through mirrors and glass
-    specular_chain  ///< where camera rays go on from mirrors and glass
+    bootstrap,       ///< independent paths that estimate P_c and seed the chains
+    seeding,         ///< choice of the chains' first states
+    mutation,        ///< proposals of a chain
+    suffix,          ///< refreshed light ends of recorded states
+    probe,           ///< luxels that estimate image responses before there is an image
+    candidate,       ///< what resampled importance sampling chooses from
+    reference,       ///< path tracer
+    surfel_light,    ///< lamps as discs see them
+    surfel_gather,   ///< directions in which discs look for discs
+    gather,          ///< directions in which luxels look for discs
+    pass,            ///< seeds of the passes of a progressive render
+    residual,        ///< paths that trace back what the bound removed
+    distant_vpls,    ///< directions towards the environment that all luxels share
+    vsl,             ///< directions in which luxels see the spheres of VSLs
+    missing,         ///< paths that tell what VPLs leave out
+    surfel_place,    ///< where on a disc lamps are looked for, and rays begin
+    cut,             ///< which VPL of a node a luxel gathers
+    caustic,         ///< light paths that the camera sees through mirrors and glass
+    specular_chain,  ///< where camera rays go on from mirrors and glass
+    sky              ///< rays that tell where luxels see the environment
 };
 
 /// 128 bits as four words; a plain array, because device code cannot index std::array.

@@ -11,10 +11,11 @@ namespace mir {
 /// padding included; the bits of direct_light().
 template <class G, class Light>
 struct DirectLightPass {
-    G luxels;          ///< of the tile
-    Tile tile;         ///< in the band
-    Light light;       ///< LuxelLight
-    SoaView<Rgb> out;  ///< W m^-2 sr^-1 by blocked index
+    G luxels;                         ///< of the tile
+    Tile tile;                        ///< in the band
+    Light light;                      ///< LuxelLight
+    SoaView<Rgb> out;                 ///< W m^-2 sr^-1 by blocked index
+    const SkyGuide* skies = nullptr;  ///< of each block, or null
 
     /// Luxel `i` (blocked index) of the tile; black for the padding.
     MIR_HD void operator()(LuxelIndex i) const {
@@ -22,12 +23,13 @@ struct DirectLightPass {
         Rgb sum;
         if (at.x < tile.width && at.y < tile.height) {
             const Hit hit = luxels.hit(i);
-            if (!is_empty(hit)) sum = light(hit, luxels.surface(i), tile.x + at.x, tile.y + at.y);
+            if (!is_empty(hit))
+                sum = light(hit, luxels.surface(i), tile.x + at.x, tile.y + at.y, sky_of(skies, i));
         }
         out.store(i, sum);
     }
 };
 template <class G, class Light>
-DirectLightPass(G, Tile, Light, SoaView<Rgb>) -> DirectLightPass<G, Light>;
+DirectLightPass(G, Tile, Light, SoaView<Rgb>, const SkyGuide*) -> DirectLightPass<G, Light>;
 
 }  // namespace mir

@@ -56,9 +56,10 @@ class LuxelLight {
         : LuxelLight(lights.view(), lights.geometry().view(), visibility, samples, band) {}
 
     /// Radiance towards the viewer of the luxel at (x, y), W m^-2 sr^-1. The luxel is one of the
-    /// band and not empty.
+    /// band and not empty. `sky` is null, or where its block sees the environment.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& surface,
-                                        std::uint32_t x, std::uint32_t y) const {
+                                        std::uint32_t x, std::uint32_t y,
+                                        const SkyGuide* sky = nullptr) const {
         const SharedSamples shared{band_.grid.per_pixel(), band_.cell(x, y)};
         const Random numbers = band_.pixel_numbers(x, y);
         // Numbers behind those of emitters and environment.
@@ -68,7 +69,7 @@ class LuxelLight {
         };
         return emitters_(hit, surface, shared, numbers) + listed_(hit, surface, place) +
                (distant_vpls_ ? environment_.from_vpls(hit, surface, band_.image_numbers())
-                              : environment_(hit, surface, shared, numbers));
+                              : environment_(hit, surface, shared, numbers, sky));
     }
 
  private:

@@ -51,6 +51,21 @@ struct EnvironmentView {
         return width == 0 ? Rgb{} : texels[texel_of(w)];
     }
 
+    /// The numbers for which sample() gives the unit direction `w`, where it can: its texel is not
+    /// black.
+    [[nodiscard]] MIR_HD Vec2 numbers(Vec3 w) const {
+        const Vec2 at = place_of(w);
+        const std::uint32_t x = index(at.x, width);
+        const std::uint32_t y = index(at.y, height);
+        // Uniform by solid angle inside the texel.
+        const Vec2 above = edge(y);
+        const Vec2 below = edge(y + 1);
+        const float s2 = 0.5f * (1.0f - w.y);
+        const float inside = (s2 - above.y * above.y) / (below.y * below.y - above.y * above.y);
+        return by_luminance.numbers(
+            {x, y, {at.x * static_cast<float>(width) - static_cast<float>(x), inside}});
+    }
+
     /// Density with which sample() draws the direction of something with this radiance, sr^-1.
     [[nodiscard]] MIR_HD float density(Rgb light) const {
         return static_cast<float>(static_cast<double>(luminance(light)) / total());
@@ -77,11 +92,15 @@ struct EnvironmentView {
         return {sine * around.x, c2 - s2, sine * around.y};
     }
 
-    [[nodiscard]] MIR_HD std::size_t texel_of(Vec3 w) const {
+    /// Where the image shows a direction: its left and upper edges are 0, the others 1.
+    [[nodiscard]] MIR_HD Vec2 place_of(Vec3 w) const {
         const float azimuth = circle_turns({w.x, w.z}) + 0.5f + turns;
-        const float column = azimuth - floorf(azimuth);
-        const float row = 2.0f * circle_turns({w.y, sqrtf(w.x * w.x + w.z * w.z)});
-        return static_cast<std::size_t>(index(row, height)) * width + index(column, width);
+        return {azimuth - floorf(azimuth),
+                2.0f * circle_turns({w.y, sqrtf(w.x * w.x + w.z * w.z)})};
+    }
+    [[nodiscard]] MIR_HD std::size_t texel_of(Vec3 w) const {
+        const Vec2 at = place_of(w);
+        return static_cast<std::size_t>(index(at.y, height)) * width + index(at.x, width);
     }
     MIR_HD static std::uint32_t index(float place, std::uint32_t count) {
         const auto i = static_cast<std::uint32_t>(place * static_cast<float>(count));

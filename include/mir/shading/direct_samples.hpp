@@ -14,6 +14,8 @@ struct DirectSamples {
     bool distant_vpls = false;  ///< all luxels share these directions, which are VPLs at infinity;
                                 ///< otherwise each pixel draws its own
 
+    bool guides_sky = true;  ///< directions go where rays to the environment come through
+
     /// As many points on lamps as directions, of each luxel's own. Implicit: a count says it all.
     MIR_HD DirectSamples(std::uint32_t each) : emitters(each), environment(each) {}
 
@@ -23,6 +25,11 @@ struct DirectSamples {
         s.environment = count;
         s.distant_vpls = true;
         return s;
+    }
+
+    /// True when a SkyGuide pays: fewer directions than it tries are not worth it.
+    [[nodiscard]] MIR_HD bool want_sky_guide() const {
+        return guides_sky && !distant_vpls && environment >= 4;
     }
 };
 

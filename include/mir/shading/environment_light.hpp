@@ -4,6 +4,7 @@
 #include "mir/core/random.hpp"
 #include "mir/shading/lobe_samples.hpp"
 #include "mir/shading/sampled_light.hpp"
+#include "mir/shading/sky_guide.hpp"
 
 namespace mir {
 
@@ -32,14 +33,16 @@ class EnvironmentLight {
     /// its numbers the fourth and fifth are used, which EmitterLight leaves. Safe to call from any
     /// thread.
     [[nodiscard]] MIR_HD Rgb operator()(const Hit& hit, const Surface<typename B::Params>& s,
-                                        SharedSamples shared, const Random& random) const {
+                                        SharedSamples shared, const Random& random,
+                                        const SkyGuide* guide = nullptr) const {
         if (environment_.empty() || samples_ == 0) return {};
-        const auto by_luminance = drawn(shared, random);
+        const auto by_luminance = drawn(shared, random, guide);
         if constexpr (LobedBsdf<B>)
             if (LobeSamples<B>::are_for(s)) {
                 const LobeSamples<B> lobe(s, shared, random);
-                return mean(hit, s, lobe, by_luminance) +
-                       mean(hit, s, lobe, [&](std::uint32_t k) { return seen(lobe.direction(k)); });
+                return mean(hit, s, lobe, by_luminance) + mean(hit, s, lobe, [&](std::uint32_t k) {
+                           return seen(lobe.direction(k), guide);
+                       });
             }
         return mean(hit, s, NoLobe{}, by_luminance);
     }
@@ -48,7 +51,7 @@ class EnvironmentLight {
     [[nodiscard]] MIR_HD Rgb from_vpls(const Hit& hit, const Surface<typename B::Params>& s,
                                        const Random& random) const {
         if (environment_.empty() || samples_ == 0) return {};
-        return mean(hit, s, NoLobe{}, drawn({}, random));
+        return mean(hit, s, NoLobe{}, drawn({}, random, nullptr));
     }
 
     /// What one sample brings if nothing is in its way, W m^-2 sr^-1.
@@ -62,16 +65,23 @@ class EnvironmentLight {
 
  private:
     /// Draws of directions by luminance.
-    [[nodiscard]] MIR_HD auto drawn(SharedSamples shared, const Random& random) const {
-        return [this, shared, shift = Vec2(random.at(3), random.at(4))](std::uint32_t k) {
+    [[nodiscard]] MIR_HD auto drawn(SharedSamples shared, const Random& random,
+                                    const SkyGuide* guide) const {
+        return [this, shared, guide, shift = Vec2(random.at(3), random.at(4))](std::uint32_t k) {
             const std::uint32_t i = k * shared.shares + shared.share;
-            return environment_.sample(kronecker_point(shift, i));
+            const Vec2 u = kronecker_point(shift, i);
+            if (guide == nullptr) return environment_.sample(u);
+            const GuidedNumbers guided = guide->draw(u);
+            EnvironmentSample sample = environment_.sample(guided.numbers);
+            sample.pdf *= guided.density;
+            return sample;
         };
     }
 
-    [[nodiscard]] MIR_HD EnvironmentSample seen(Vec3 w) const {
+    [[nodiscard]] MIR_HD EnvironmentSample seen(Vec3 w, const SkyGuide* guide) const {
         const Rgb light = environment_.radiance(w);
-        return {w, light, environment_.density(light)};
+        const float guided = guide == nullptr ? 1.0f : guide->density(environment_.numbers(w));
+        return {w, light, environment_.density(light) * guided};
     }
 
     template <class Lobe, class Draw>
