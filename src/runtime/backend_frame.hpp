@@ -91,7 +91,7 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) override {
         return upload(of(band), light);
     }
-    void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) override;
+    void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override;
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
 
  private:

@@ -21,7 +21,7 @@ std::optional<std::uint32_t> BandDealer::next(std::size_t part) {
 
 void BandDealer::wait_for(std::uint32_t band) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return done_ == band || error_; });
+    changed_.wait(lock, [&] { return done_ >= band || error_; });
     if (error_) throw Stopped{};
 }
 

@@ -25,10 +25,10 @@ class BandDealer {
 
     /// The next band of a part; none at the end and when work failed.
     [[nodiscard]] std::optional<std::uint32_t> next(std::size_t part);
-    /// Returns when the bands above are done.
+    /// Returns when the bands above are that far.
     /// @throws Stopped
     void wait_for(std::uint32_t band);
-    /// Work on a band is done, for which its part has waited.
+    /// Work on a band, for which its part has waited, is so far that the next band may follow.
     void finish(std::uint32_t band);
     /// Work on a band has failed: nobody waits or begins any more.
     void fail(std::uint32_t band, std::exception_ptr error);

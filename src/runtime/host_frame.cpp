@@ -115,7 +115,7 @@ class HostFrame final : public RenderFrame {
                                              band.first_row, bound, images));
     }
 
-    void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) override;
+    void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override;
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
 
  private:
@@ -235,7 +235,8 @@ std::vector<double> HostFrame<B>::row_luminances(const FrameLayer& layer) {
 }
 
 template <Bsdf B>
-void HostFrame<B>::put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) {
+void HostFrame<B>::put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) {
+    FilmSeam* const seam = turn.seam();
     {
         const auto stage = job_.clock.measure(&StageSeconds::film);
         if (!film_)
@@ -247,6 +248,7 @@ void HostFrame<B>::put(const FrameBand& band, std::vector<LayerPtr> layers, Film
         film_->add_rows(job_.executor, band.first_row, std::span<const Image<Rgb>* const>(images));
         if (seam != nullptr) *seam = film_->seam();
     }
+    turn.pass();
     const auto stage = job_.clock.measure(&StageSeconds::guides);
     add_guides<B>(job_.result.guides, HostBand<B>::of(band).gbuffer, band.first_row, job_.rays.grid,
                   job_.rays.camera, job_.executor);

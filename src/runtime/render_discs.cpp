@@ -223,7 +223,7 @@ void DiscRender<B>::render_band(RenderFrame& by, const FrameBand& band, const So
     const std::vector<double> luminances = by.row_luminances(*layers[indirect_layer]);
     turn.wait();
     add_luminances(job_, band, luminances, {}, {});
-    by.put(band, std::move(layers), turn.seam());
+    by.put(band, std::move(layers), turn);
 }
 
 /// By the machine where there is one, else on the executor.

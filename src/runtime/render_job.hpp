@@ -88,6 +88,7 @@ struct RenderJob {
     AnySurfaces surfaces;            ///< of the scene's materials
     CameraRays rays;                 ///< of the whole image
     PictureShare* share = nullptr;   ///< of processes that make it together; null: there is one
+    std::vector<Image<Rgb>> layers;  ///< pixels that films of devices have brought home
     RenderResult result;             ///< as far as it has come; take_result() takes it away
 
  private:

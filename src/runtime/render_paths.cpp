@@ -69,7 +69,7 @@ RenderResult render_paths(RenderFrame& frame) {
             layers.push_back(layers.size() == coverage_layer ? by.coverage(*band)
                                                              : host_layer(std::move(image)));
         turn.wait();
-        by.put(*band, std::move(layers), turn.seam());
+        by.put(*band, std::move(layers), turn);
     });
     const auto stage = job.clock.measure(&StageSeconds::film);
     take_layers(frame.develop(), false, job.result, job.executor);

@@ -227,7 +227,7 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
         BandLight made = light_band(by, *band, bound, light, caustics);
         turn.wait();
         add_luminances(job, *band, made.indirect, made.removed, made.residual);
-        by.put(*band, std::move(made.layers), turn.seam());
+        by.put(*band, std::move(made.layers), turn);
     });
     develop(frame);
     return job.take_result();

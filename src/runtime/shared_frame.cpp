@@ -239,9 +239,9 @@ void SharedFrame::add_responses(const FrameBand& band, VplSpan<Space::host> vpls
 
 void SharedFrame::take_over(ResponseSum& sum) { sum.go_on(summed_rows_, sums_); }
 
-void SharedFrame::put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) {
+void SharedFrame::put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) {
     const std::uint32_t pixel = job().rays.grid.per_pixel_y;
-    local_->put(band, std::move(layers), seam);
+    local_->put(band, std::move(layers), turn);
     guided_.push_back({band.first_row / pixel, (band.first_row + band.extent().height) / pixel});
 }
 

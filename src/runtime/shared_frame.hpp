@@ -84,7 +84,7 @@ class SharedFrame final : public RenderFrame {
         return local_->add_residual(band, bound, layers);
     }
 
-    void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) override;
+    void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override;
     /// At the lead, the images of the whole picture.
     /// @throws PixelsSent in all other processes.
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;

@@ -25,21 +25,32 @@ FrameTraits traits_of(const std::vector<std::unique_ptr<RenderFrame>>& parts) {
 /// Of one band after the other, of one part.
 class SplitFrame::Turn final : public BandTurn {
  public:
-    Turn(BandDealer& dealer, FilmSeam& seam) : dealer_(dealer), seam_(seam) {}
+    Turn(SplitFrame& frame, BandDealer& dealer, std::size_t part)
+        : frame_(frame), dealer_(dealer), part_(part) {}
 
     /// The next band of the part; none at the end.
-    [[nodiscard]] std::optional<std::uint32_t> next(std::size_t part) {
-        const std::optional<std::uint32_t> band = dealer_.next(part);
+    [[nodiscard]] std::optional<std::uint32_t> next() {
+        const std::optional<std::uint32_t> band = dealer_.next(part_);
         if (band) band_ = *band;
+        has_passed_ = false;
         return band;
     }
     void wait() override { dealer_.wait_for(band_); }
-    [[nodiscard]] FilmSeam* seam() override { return &seam_; }
+    [[nodiscard]] FilmSeam* seam() override { return &frame_.seam_; }
+    void pass() override {
+        if (std::exchange(has_passed_, true)) return;
+        const std::uint32_t end = frame_.seam_.first_row;
+        const std::uint32_t begin = frame_.developed_.empty() ? 0 : frame_.developed_.back().end;
+        if (end > begin) frame_.developed_.push_back({part_, begin, end});
+        dealer_.finish(band_);
+    }
 
  private:
+    SplitFrame& frame_;
     BandDealer& dealer_;
-    FilmSeam& seam_;
+    std::size_t part_;
     std::uint32_t band_ = 0;
+    bool has_passed_ = false;
 };
 
 SplitFrame::SplitFrame(RenderJob& job, std::vector<std::unique_ptr<RenderFrame>> parts)
@@ -49,11 +60,12 @@ void SplitFrame::for_each_band(std::uint32_t bands, const BandWork& work) {
     if (owners_.size() != bands) owners_.clear();
     BandDealer dealer(bands, parts_.size(), owners_);
     on_side_threads(parts_.size(), [&](std::size_t part) {
-        Turn turn(dealer, seam_);
-        while (const std::optional<std::uint32_t> band = turn.next(part)) {
+        Turn turn(*this, dealer, part);
+        while (const std::optional<std::uint32_t> band = turn.next()) {
             try {
-                work_on(part, *band, work, turn);
-                dealer.finish(*band);
+                work(*parts_[part], *band, turn);
+                turn.wait();
+                turn.pass();
             } catch (const BandDealer::Stopped&) {
                 return;
             } catch (...) {
@@ -62,14 +74,6 @@ void SplitFrame::for_each_band(std::uint32_t bands, const BandWork& work) {
         }
     });
     dealer.rethrow();
-}
-
-/// Waits for the turn of the band, if the work did not.
-void SplitFrame::work_on(std::size_t part, std::uint32_t band, const BandWork& work, Turn& turn) {
-    work(*parts_[part], band, turn);
-    turn.wait();
-    const std::uint32_t begin = developed_.empty() ? 0 : developed_.back().end;
-    if (seam_.first_row > begin) developed_.push_back({part, begin, seam_.first_row});
 }
 
 void SplitFrame::keep_radii(std::vector<float>&& radii) {
@@ -90,7 +94,8 @@ std::vector<Image<Rgb>> SplitFrame::develop() {
         if (images[rows.part].empty()) images[rows.part] = parts_[rows.part]->develop();
     std::vector<Image<Rgb>>& whole = images[developed_.front().part];
     for (const Rows& rows : developed_) {
-        if (rows.part == developed_.front().part) continue;
+        // Parts that share the images of the job have given all of them to the first.
+        if (rows.part == developed_.front().part || images[rows.part].empty()) continue;
         job().executor.for_each(whole.size(), [&](std::size_t layer) {
             const std::span<const Rgb> from = images[rows.part][layer].pixels();
             const std::size_t width = whole[layer].width();

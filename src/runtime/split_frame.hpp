@@ -79,8 +79,8 @@ class SplitFrame final : public RenderFrame {
     }
 
     /// Of a band of the first part, when that puts all of them.
-    void put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) override {
-        first().put(band, std::move(layers), seam);
+    void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override {
+        first().put(band, std::move(layers), turn);
     }
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
 
@@ -94,7 +94,6 @@ class SplitFrame final : public RenderFrame {
     };
 
     [[nodiscard]] RenderFrame& first() const { return *parts_.front(); }
-    void work_on(std::size_t part, std::uint32_t band, const BandWork& work, Turn& turn);
 
     std::vector<std::unique_ptr<RenderFrame>> parts_;
     std::vector<std::size_t> owners_;  ///< parts, by the bands of the last loop

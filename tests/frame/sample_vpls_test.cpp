@@ -78,7 +78,7 @@ class SamplingFrame final : public mir::RenderFrame {
     std::vector<double> row_luminances(const mir::FrameLayer&) override {
         return never(std::vector<double>{});
     }
-    void put(const mir::FrameBand&, std::vector<mir::LayerPtr>, mir::FilmSeam*) override {
+    void put(const mir::FrameBand&, std::vector<mir::LayerPtr>, mir::BandTurn&) override {
         never(0);
     }
     std::vector<mir::Image<mir::Rgb>> develop() override {

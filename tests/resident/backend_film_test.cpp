@@ -63,16 +63,17 @@ std::vector<Image<Rgb>> developed_on(const B& backend, const mir::LuxelGrid& gri
     mir::BackendFilm<B> film(backend, queue, grid, filter, 7,
                              static_cast<std::uint32_t>(layers.size()), most);
     mirtest::BackwardsExecutor executor{2};
+    std::vector<Image<Rgb>> images(layers.size(), Image<Rgb>(grid.pixels));
     std::uint32_t first = 0;
     for (const std::uint32_t height : heights) {
         std::vector<mir::BackendLayer<B>> band;
         for (const Image<Rgb>& layer : layers)
             band.push_back(layer_of(backend, queue, rows_of(layer, first, height), {32, 16}));
         film.add_rows(queue, first, band);
-        film.bring_home(queue, executor);
+        film.bring_home(queue, executor, images);
         first += height;
     }
-    return film.take_images();
+    return images;
 }
 
 bool same_bits(const Image<Rgb>& a, const Image<Rgb>& b) {
@@ -131,6 +132,8 @@ TEST_CASE("Films of a backend and of the host hand rows on to each other, with t
         films.push_back(
             std::make_unique<mir::BackendFilm<Lazy>>(backend, queue, grid, filter, 7, 2, 9 * ny));
     mir::Film host(grid, filter, 7, 2);
+    // Both bring their rows to the same images.
+    std::vector<Image<Rgb>> images(2, Image<Rgb>(grid.pixels));
     mir::FilmSeam seam;
     std::vector<std::uint32_t> ends;  // of pixel rows, by band
     const std::vector<std::uint32_t> heights{2, 1, 9, 1, 1, 7};
@@ -150,17 +153,15 @@ TEST_CASE("Films of a backend and of the host hand rows on to each other, with t
             for (const Image<Rgb>& image : band)
                 there.push_back(layer_of(backend, queue, image, {32, 16}));
             film.add_rows(queue, first, there);
-            film.bring_home(queue, executor);
+            film.bring_home(queue, executor, images);
             seam = film.seam(queue);
         }
         ends.push_back(seam.first_row);
     }
     CHECK(ends.back() == grid.pixels.height);
-    const std::vector<Image<Rgb>> of_first = films[0]->take_images();
-    const std::vector<Image<Rgb>> of_second = films[1]->take_images();
     for (std::size_t l = 0; l < 2; ++l) {
         const Image<Rgb> of_host = host.develop(l);
-        const Image<Rgb>* const makers[] = {&of_first[l], &of_second[l], &of_host};
+        const Image<Rgb>* const makers[] = {&images[l], &images[l], &of_host};
         Image<Rgb> pixels(grid.pixels);
         std::uint32_t y = 0;
         for (std::size_t i = 0; i < ends.size(); ++i)
@@ -190,10 +191,12 @@ TEST_CASE("A film on a backend refuses bands that do not continue it") {
     CHECK_THROWS_AS(film.add_rows(queue, 4, good), mir::Error);
     film.add_rows(queue, 0, good);
     CHECK_THROWS_AS(film.add_rows(queue, 8, good), mir::Error);  // not at home, and too high
-    film.bring_home(queue, executor);
+    std::vector<Image<Rgb>> images(1, Image<Rgb>(grid.pixels)), smaller(1, Image<Rgb>({20, 8}));
+    CHECK_THROWS_AS(film.bring_home(queue, executor, smaller), mir::Error);
+    CHECK_THROWS_AS(film.bring_home(queue, executor, {}), mir::Error);
+    film.bring_home(queue, executor, images);
     CHECK_THROWS_AS(film.add_rows(queue, 8, good), mir::Error);
     auto rest = band({20, 4}, 1);
     film.add_rows(queue, 8, rest);
-    film.bring_home(queue, executor);
-    CHECK(film.take_images().front().extent() == Extent{20, 12});
+    film.bring_home(queue, executor, images);
 }

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,8 +45,6 @@ class BackendFilm {
           sums_(backend.template buffer<double>(std::size_t{1 + 3 * layers} * ring_ *
                                                 grid.pixels.width)) {
         queue.clear(sums_);
-        for (std::uint32_t l = 0; l < layers; ++l)
-            images_.push_back(Image<Rgb>::unwritten(grid.pixels));
     }
 
     /// Adds a band of complete luxel rows and develops finished pixels. Radiance is in W m^-2
@@ -68,13 +67,10 @@ class BackendFilm {
     /// Rows of luxels added so far. Those above the seam that it went on from count.
     [[nodiscard]] std::uint32_t rows() const { return luxel_rows_; }
 
-    /// Copies what was developed last to the images.
+    /// Copies what was developed last to the images of the layers, which are as large as the
+    /// picture. Films that share a picture may do so at the same time: their rows differ.
     template <Executor E>
-    void bring_home(Queue& queue, E& executor);
-
-    /// The images of the layers, once all bands were added and brought home. Leaves the film
-    /// without.
-    [[nodiscard]] std::vector<Image<Rgb>> take_images() { return std::move(images_); }
+    void bring_home(Queue& queue, E& executor, std::span<Image<Rgb>> images);
 
  private:
     [[nodiscard]] FilmSums sums() { return {sums_.data(), grid_.pixels.width, ring_, layers_}; }
@@ -98,10 +94,9 @@ class BackendFilm {
     typename B::template Buffer<double> sums_;
     std::uint32_t luxel_rows_ = 0;  ///< added
     bool in_part_ = false;          ///< a band is being added, or an error ended that
-    std::uint32_t home_ = 0;        ///< rows of pixels in the images
+    std::uint32_t home_ = 0;        ///< rows of pixels at home
     std::uint32_t developed_ = 0;   ///< rows of pixels, those included
     std::optional<typename B::template Buffer<Rgb>> pixels_;
-    std::vector<Image<Rgb>> images_;
 };
 
 template <Backend B>
@@ -183,14 +178,17 @@ void BackendFilm<B>::go_on(Queue& queue, const FilmSeam& seam) {
 
 template <Backend B>
 template <Executor E>
-void BackendFilm<B>::bring_home(Queue& queue, E& executor) {
+void BackendFilm<B>::bring_home(Queue& queue, E& executor, std::span<Image<Rgb>> images) {
+    expects(images.size() == layers_ && images.front().extent() == grid_.pixels,
+            "a film was to bring its pixels to images of another size or number; give one as large "
+            "as the picture for each layer");
     const std::uint32_t rows = developed_ - home_;
     if (rows == 0) return;
     const std::size_t width = grid_.pixels.width;
     bring_rows(backend_, queue, executor, std::as_const(*pixels_).data(),
                std::size_t{rows} * layers_, width, [&](std::size_t i, std::span<const Rgb> row) {
                    std::copy(row.begin(), row.end(),
-                             images_[i / rows].pixels().begin() + (home_ + i % rows) * width);
+                             images[i / rows].pixels().begin() + (home_ + i % rows) * width);
                });
     pixels_.reset();
     home_ = developed_;

@@ -30,7 +30,8 @@ std::vector<double> BackendFrame<M, B>::row_luminances(const FrameLayer& layer) 
 }
 
 template <Backend M, Bsdf B>
-void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers, FilmSeam* seam) {
+void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) {
+    FilmSeam* const seam = turn.seam();
     std::vector<BackendLayer<M>> images;
     for (const LayerPtr& layer : layers) images.push_back(std::move(of(*layer)));
     {
@@ -44,21 +45,24 @@ void BackendFrame<M, B>::put(const FrameBand& band, std::vector<LayerPtr> layers
             picture_->film.go_on(queue_, seam_above(job_, band.first_row, images.size(), seam));
         picture_->film.add_rows(queue_, band.first_row, images);
         if (seam != nullptr) *seam = picture_->film.seam(queue_);
+        if (job_.layers.empty())
+            for (std::size_t l = 0; l < images.size(); ++l)
+                job_.layers.push_back(Image<Rgb>::unwritten(job_.rays.grid.pixels));
     }
+    turn.pass();
     {
         const auto stage = job_.clock.measure(&StageSeconds::guides);
         picture_->guides.template add<B>(queue_, of(band).gbuffer, band.first_row);
     }
     const auto stage = job_.clock.measure(&StageSeconds::download);
-    picture_->film.bring_home(queue_, job_.threads);
+    picture_->film.bring_home(queue_, job_.threads, job_.layers);
     picture_->guides.bring_home(queue_, job_.threads, job_.result.guides);
 }
 
 template <Backend M, Bsdf B>
 std::vector<Image<Rgb>> BackendFrame<M, B>::develop() {
-    std::vector<Image<Rgb>> images = picture_->film.take_images();
     picture_.reset();
-    return images;
+    return std::exchange(job_.layers, {});
 }
 
 }  // namespace mir
