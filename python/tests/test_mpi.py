@@ -49,7 +49,7 @@ def ranks(words, environment, folder):
         cwd=folder,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=300,
     )
 
 

@@ -51,7 +51,7 @@ def as_team(work, count=3, kind=Threads):
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join(60)
+        thread.join(300)
         assert not thread.is_alive()
     return found
 
@@ -79,7 +79,7 @@ def errors_of(work, **how):
     return found
 
 
-@pytest.mark.parametrize("guilty", [0, 1, 2])
+@pytest.mark.parametrize("guilty", [0, 2])
 @pytest.mark.parametrize(
     ("scene", "settings", "code", "words"),
     [
