@@ -23,7 +23,7 @@ mir_packages() {
     case ${MIR_WANT:-render} in
     check) echo "git clang libclang-rt-dev libstb-dev clang-format clang-tidy python3 python3-pip" \
         "python3-venv python3-dev" \
-        "doxygen mmdebstrap lintian libopenmpi-dev openmpi-bin" ;;
+        "doxygen mmdebstrap lintian libopenmpi-dev openmpi-bin python3-mpi4py" ;;
     esac
 }
 
@@ -35,7 +35,7 @@ mir_libraries() {
     test | check) printf ', Catch2, Google Benchmark, patch' ;;
     esac
     case ${MIR_WANT:-render} in
-    check) printf ', git, clang, stb, clang-format, clang-tidy, Python 3 with pip, Doxygen, mmdebstrap, lintian, Open MPI' ;;
+    check) printf ', git, clang, stb, clang-format, clang-tidy, Python 3 with pip, Doxygen, mmdebstrap, lintian, Open MPI, mpi4py' ;;
     esac
 }
 

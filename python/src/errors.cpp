@@ -14,29 +14,25 @@ namespace nb = nanobind;
 namespace mirpy {
 namespace {
 
+struct NamedCode {
+    mir::ErrorCode code;
+    const char* name;
+};
+
+constexpr NamedCode named_codes[] = {{mir::ErrorCode::invalid_argument, "invalid_argument"},
+                                     {mir::ErrorCode::invalid_input, "invalid_input"},
+                                     {mir::ErrorCode::limit_exceeded, "limit_exceeded"},
+                                     {mir::ErrorCode::unsupported, "unsupported"},
+                                     {mir::ErrorCode::no_device, "no_device"},
+                                     {mir::ErrorCode::device, "device"},
+                                     {mir::ErrorCode::out_of_memory, "out_of_memory"},
+                                     {mir::ErrorCode::io, "io"},
+                                     {mir::ErrorCode::cancelled, "cancelled"},
+                                     {mir::ErrorCode::internal, "internal"}};
+
 const char* name_of(mir::ErrorCode code) {
-    switch (code) {
-        case mir::ErrorCode::invalid_argument:
-            return "invalid_argument";
-        case mir::ErrorCode::invalid_input:
-            return "invalid_input";
-        case mir::ErrorCode::limit_exceeded:
-            return "limit_exceeded";
-        case mir::ErrorCode::unsupported:
-            return "unsupported";
-        case mir::ErrorCode::no_device:
-            return "no_device";
-        case mir::ErrorCode::device:
-            return "device";
-        case mir::ErrorCode::out_of_memory:
-            return "out_of_memory";
-        case mir::ErrorCode::io:
-            return "io";
-        case mir::ErrorCode::cancelled:
-            return "cancelled";
-        case mir::ErrorCode::internal:
-            break;
-    }
+    for (const NamedCode& known : named_codes)
+        if (known.code == code) return known.name;
     return "internal";
 }
 
@@ -72,6 +68,12 @@ void translate(const std::exception_ptr& failure, void* /*payload*/) {
 }
 
 }  // namespace
+
+mir::ErrorCode code_named(const std::string& name) {
+    for (const NamedCode& known : named_codes)
+        if (known.name == name) return known.code;
+    return mir::ErrorCode::internal;
+}
 
 void register_errors() { nb::register_exception_translator(translate); }
 

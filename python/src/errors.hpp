@@ -18,6 +18,9 @@ struct ArgumentError : mir::Error {
     std::string place;  ///< name of the argument
 };
 
+/// The code that Python calls so; `internal` where there is none.
+[[nodiscard]] mir::ErrorCode code_named(const std::string& name);
+
 /// Lets errors of the library arrive in Python as mir.Error.
 void register_errors();
 

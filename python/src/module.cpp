@@ -7,6 +7,7 @@
 #include "render.hpp"
 #include "result.hpp"
 #include "scene.hpp"
+#include "team.hpp"
 #include "vpls.hpp"
 #include "watch.hpp"
 
@@ -22,6 +23,7 @@ NB_MODULE(_core, m) {
     mirpy::bind_result(m);
     mirpy::bind_watch(m);
     mirpy::bind_render(m);
+    mirpy::bind_team(m);
     mirpy::bind_parts(m);
     mirpy::bind_gbuffer(m);
     mirpy::bind_compare(m);

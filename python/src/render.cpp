@@ -7,7 +7,7 @@
 #include "mir/runtime/progressive_render.hpp"
 #include "mir/runtime/vpl_frame.hpp"
 #include "pass_goal_of.hpp"
-#include "result.hpp"
+#include "team_renderer.hpp"
 #include "vpls.hpp"
 #include "watch.hpp"
 
@@ -65,22 +65,24 @@ mir::RenderResult render_passes(const mir::Renderer& renderer, const Job& job,
     return passes.result();
 }
 
-PyResult render_now(Job& job, mir::Monitor& monitor) {
+std::unique_ptr<PyResult> render_now(Job& job, mir::Monitor& monitor, mir::PictureTeam* team) {
     job.prepare();
-    const mir::Registry::Choice choice = renderer_for(job.options.settings);
+    mir::Registry::Choice choice = renderer_for(job.options.settings);
+    if (team != nullptr && !team->is_lead()) {
+        team->work(*choice.renderer, job.scene(), job.options.settings, &monitor);
+        return nullptr;
+    }
+    if (team != nullptr)
+        choice.renderer =
+            std::make_unique<mirtool::TeamRenderer>(*team, std::move(choice.renderer));
     const mir::PassGoal goal = mirtool::goal_of(job.options.passes);
     mir::RenderResult result = render_passes(*choice.renderer, job, goal, monitor);
     monitor.check();
-    return complete(job, choice, std::move(result));
+    return std::make_unique<PyResult>(complete(job, choice, std::move(result)));
 }
 
 std::unique_ptr<PyResult> render(PyScene& scene, const Words& words, nb::handle progress) {
-    Job job(scene, words);
-    mir::Monitor monitor;
-    std::unique_ptr<PyResult> result;
-    watched(monitor, progress,
-            [&] { result = std::make_unique<PyResult>(render_now(job, monitor)); });
-    return result;
+    return render_watched(scene, words, progress, nullptr);
 }
 
 PyVpls sample_vpls(PyScene& scene, const Words& words, nb::handle progress) {
@@ -145,6 +147,15 @@ nb::list devices() {
 }
 
 }  // namespace
+
+std::unique_ptr<PyResult> render_watched(PyScene& scene, const Words& words, nb::handle progress,
+                                         mir::PictureTeam* team) {
+    Job job(scene, words);
+    mir::Monitor monitor;
+    std::unique_ptr<PyResult> result;
+    watched(monitor, progress, [&] { result = render_now(job, monitor, team); });
+    return result;
+}
 
 void bind_render(nb::module_& m) {
     m.def("_render", render, nb::arg("scene"), nb::arg("words"), nb::arg("progress").none());

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/runtime/picture_team.hpp"
 #include "picture_words.hpp"
 #include "prepare_scene.hpp"
+#include "result.hpp"
 #include "scene.hpp"
 
 #include <nanobind/nanobind.h>
@@ -36,6 +38,11 @@ class Job {
  public:
     mirtool::RenderOptions options;  ///< prepare() chooses camera and size where they are left open
 };
+
+/// Renders, with the other processes of `team` unless that is null. Null where another process has
+/// the picture. `progress` is that of watched().
+std::unique_ptr<PyResult> render_watched(PyScene& scene, const std::vector<std::string>& words,
+                                         nanobind::handle progress, mir::PictureTeam* team);
 
 /// Declares what renders.
 void bind_render(nanobind::module_& m);

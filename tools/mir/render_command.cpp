@@ -15,6 +15,7 @@
 #include "render_passes.hpp"
 #include "render_shard.hpp"
 #include "report/render_report.hpp"
+#include "team_renderer.hpp"
 #include "text.hpp"
 
 #include <tbb/global_control.h>
@@ -101,21 +102,6 @@ auto blaming(const std::string& scene, const Work& work) {
         throw mir::Error(e.code(), shown(scene) + ": " + what, e.where());
     }
 }
-
-/// A renderer that renders with the others of a team.
-class TeamRenderer final : public mir::Renderer {
- public:
-    TeamRenderer(mir::PictureTeam& team, std::unique_ptr<mir::Renderer> own)
-        : team_(team), own_(std::move(own)) {}
-    mir::RenderResult render(const mir::Scene& scene, const mir::RenderSettings& settings,
-                             mir::Monitor* monitor) const override {
-        return team_.render(*own_, scene, settings, monitor);
-    }
-
- private:
-    mir::PictureTeam& team_;
-    std::unique_ptr<mir::Renderer> own_;
-};
 
 /// Checked, and with what some of the options mean for others.
 RenderOptions settled(const RenderOptions& options) {
