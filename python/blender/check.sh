@@ -53,6 +53,7 @@ bpy_is_here() {
             "bpy==$bpy_version" >>"$log" 2>&1 && touch "$cache/complete-$bpy_version"
 }
 
+checked wheel python3 "$here/tests/refuse_wheel.py"
 if ! python3 -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))'; then
     say "bpy $bpy_version skipped: it needs Python 3.11"
 elif ! bpy_is_here; then
