@@ -4,9 +4,9 @@
 # python/blender/check.sh [CHECK...]   packs the add-on, installs it and renders with it in bpy of
 #                                      PyPI and in the installed Blender; `all`: everything
 #
-# CHECK: materials, engine, views, preview, lamps, pictures. Without any: the first four. bpy lies
-# in ~/.cache/mir/bpy once it was downloaded (350 MB); MIR_BLENDER names another Blender than
-# `blender`. Its 3D view is checked where there is xvfb-run. Each host that cannot be had is
+# CHECK: materials, engine, views, preview, builds, lamps, pictures. Without any: the first four.
+# bpy lies in ~/.cache/mir/bpy once it was downloaded (350 MB); MIR_BLENDER names another Blender
+# than `blender`. Its 3D view is checked where there is xvfb-run. Each host that cannot be had is
 # skipped, with a reason.
 set -eu
 
@@ -17,7 +17,7 @@ bpy_version=5.0.1
 out=$root/build/blender
 log=$out/check.log
 [ $# -gt 0 ] || set -- materials engine views preview
-[ "$1" != all ] || set -- materials engine views preview lamps pictures
+[ "$1" != all ] || set -- materials engine views preview builds lamps pictures
 
 say() { printf '%s\n' "blender: $*" >&2; }
 rm -rf "$out"
@@ -53,6 +53,7 @@ bpy_is_here() {
             "bpy==$bpy_version" >>"$log" 2>&1 && touch "$cache/complete-$bpy_version"
 }
 
+checked wheel python3 "$here/tests/refuse_wheel.py"
 if ! python3 -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))'; then
     say "bpy $bpy_version skipped: it needs Python 3.11"
 elif ! bpy_is_here; then

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/checked_render.hpp"
 
+#include "mir/runtime/cancellable_executor.hpp"
 #include "mir/runtime/check_scene.hpp"
 #include "mir/runtime/check_world.hpp"
 #include "mir/scene/scene_hash.hpp"
@@ -21,9 +22,10 @@ NearScene brought_near(const Scene& scene, StageClock& clock) {
 }
 
 WorldGeometry placed_triangles(const Scene& scene, const RenderSettings& settings,
-                               TbbExecutor& threads, StageClock& clock) {
+                               TbbExecutor& threads, Monitor* monitor, StageClock& clock) {
     const auto stage = clock.measure(&StageSeconds::geometry);
-    AnyExecutor executor(threads);
+    CancellableExecutor loops(threads, monitor);
+    AnyExecutor executor(loops);
     return {scene, settings.limits, executor};
 }
 
@@ -36,7 +38,7 @@ CheckedRender::CheckedRender(const Scene& scene, const RenderSettings& settings,
       fingerprint_(std::async(fingerprint, [&scene] { return SceneHash(scene).hex(); })),
       near_(brought_near(scene, clock_)),
       threads_(settings.threads, share == nullptr ? 1 : 2),
-      geometry_(placed_triangles(near_.scene(), settings, threads_, clock_)),
+      geometry_(placed_triangles(near_.scene(), settings, threads_, monitor, clock_)),
       placed_{near_.scene(), geometry_, AnyExecutor(threads_), monitor, clock_} {
     warnings_.insert(warnings_.end(), near_.remarks().begin(), near_.remarks().end());
     check_world(near_.scene(), settings.camera, geometry_);

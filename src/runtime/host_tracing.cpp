@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/host_tracing.hpp"
 
+#include "mir/runtime/cancellable_executor.hpp"
 #include "runtime/traced_scene.hpp"
 
 #include <algorithm>
@@ -43,18 +44,20 @@ HostTracing trace_on_host(const PlacedScene& placed, const RenderSettings& setti
     if (const std::string reason = reason_against_tracing(settings); !reason.empty())
         throw Error(ErrorCode::unsupported, reason);
     AnyExecutor threads = placed.threads;
+    CancellableExecutor<AnyExecutor> loops(threads, placed.monitor);
+    AnyExecutor executor(loops);
     HostTracing tracing = [&]() -> HostTracing {
         const auto stage = placed.clock.measure(&StageSeconds::build);
         switch (structure_of(placed.geometry, settings)) {
             case Acceleration::kd_tree:
-                return {"kdtree", trace_by_kd_tree(placed.geometry, threads)};
+                return {"kdtree", trace_by_kd_tree(placed.geometry, executor)};
             case Acceleration::bvh:
-                return {"bvh", trace_by_shafts(placed.geometry, threads)};
+                return {"bvh", trace_by_shafts(placed.geometry, executor)};
             case Acceleration::embree:
             case Acceleration::automatic:
                 break;
         }
-        return {"embree", embree_tracing()->trace(placed.geometry)};
+        return {"embree", embree_tracing()->trace(placed.geometry, placed.monitor)};
     }();
     if (placed.monitor != nullptr) placed.monitor->check();
     return tracing;

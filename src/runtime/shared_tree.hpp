@@ -19,7 +19,7 @@ class SharedTree {
     [[nodiscard]] std::shared_ptr<const KdTree> get() {
         const std::lock_guard lock(mutex_);
         if (!tree_)
-            tree_ = std::make_shared<const KdTree>(tree_for_backends(job_.geometry, job_.threads));
+            tree_ = std::make_shared<const KdTree>(tree_for_backends(job_.geometry, job_.executor));
         return tree_;
     }
 

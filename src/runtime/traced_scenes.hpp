@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/accel/kd/kd_tree.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/runtime/any_executor.hpp"
 #include "mir/scene/world_geometry.hpp"
 
@@ -27,8 +28,9 @@ using TracedScenePtr = std::unique_ptr<const TracedScene>;
 
 /// Embree, where the build has it.
 struct EmbreeTracing {
-    std::string version;                            ///< "Embree 3.13.5" or the like
-    TracedScenePtr (*trace)(const WorldGeometry&);  ///< builds cpu::EmbreeScene
+    std::string version;  ///< "Embree 3.13.5" or the like
+    /// Builds cpu::EmbreeScene, which the monitor stops unless it is null.
+    TracedScenePtr (*trace)(const WorldGeometry&, Monitor*);
 };
 /// Null in a build without.
 [[nodiscard]] const EmbreeTracing* embree_tracing();

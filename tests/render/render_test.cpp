@@ -85,6 +85,9 @@ TEST_CASE("mir::render hands every error to its caller") {
     mir::Monitor monitor;
     monitor.cancelled = true;
     CHECK(error_of(scene, quick_settings(), &monitor) == mir::ErrorCode::cancelled);
+    // In its first loop, which places triangles.
+    CHECK(monitor.planned_blocks > 0);
+    CHECK(monitor.blocks == 0);
 }
 
 TEST_CASE("a monitor sees what mir::render did") {

@@ -6,8 +6,9 @@
 namespace mir {
 namespace {
 
-TracedScenePtr trace_by_embree(const WorldGeometry& geometry) {
-    return std::make_unique<TracedScene>(std::make_unique<const cpu::EmbreeScene>(geometry));
+TracedScenePtr trace_by_embree(const WorldGeometry& geometry, Monitor* monitor) {
+    return std::make_unique<TracedScene>(
+        std::make_unique<const cpu::EmbreeScene>(geometry, cpu::EmbreeScene::any_bytes, monitor));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Metropolis Instant Radiosity as a render engine of Blender."""
 
+import platform
 import sys
 from pathlib import Path
 
@@ -20,8 +21,23 @@ if _UNPACKED.is_dir() and str(_UNPACKED) not in sys.path:
     sys.path.append(str(_UNPACKED))
 
 
+def _check_wheel():
+    """Says what to do where the wheel does not fit this Blender."""
+    try:
+        import mir  # noqa: F401
+    except ImportError as error:
+        if error.name == "numpy":
+            raise ImportError("mir_render: numpy is missing; install python3-numpy") from error
+        raise ImportError(
+            f"mir_render: its wheel is for Python 3.11 on Linux x86-64, and this Blender has Python "
+            f"{platform.python_version()} on {platform.system()} {platform.machine()} ({error}); "
+            "use Blender 3.4 or 4.2 to 5.0"
+        ) from error
+
+
 def register():
     """Makes the engine known."""
+    _check_wheel()
     import bpy
 
     from . import engine, options, panel

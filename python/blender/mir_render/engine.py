@@ -11,7 +11,7 @@ from .export_camera import CameraError
 from .export_scene import export_scene
 from .losses import Losses
 from .options import settings_of
-from .passes import chosen_passes, combined, write
+from .passes import chosen_passes, combined, extra_layers, write
 from .viewport import Viewport
 
 
@@ -87,6 +87,7 @@ class MirEngine(bpy.types.RenderEngine):
         last_render.remember_losses(losses)
         settings = settings_of(depsgraph.scene_eval)
         passes = settings["passes"]
+        settings |= extra_layers(depsgraph.view_layer_eval, settings["integrator"])
         settings |= {"width": window.whole[0], "height": window.whole[1]}
 
         def tell(progress):

@@ -83,14 +83,17 @@ def corners_of(mesh, color_attribute: str | None = None) -> Corners | None:
 
 def _used(corners: Corners, chosen: np.ndarray) -> dict:
     """Arguments of add_mesh() for these triangles and the corners that they use."""
-    used, triangles = np.unique(corners.triangles[chosen], return_inverse=True)
+    triangles = corners.triangles[chosen]
+    used = np.zeros(len(corners.positions), bool)
+    used[triangles] = True
+    places = np.cumsum(used, dtype=np.int32) - 1
 
     def rows(values):
         return None if values is None else values[used]
 
     return {
         "vertices": corners.positions[used],
-        "indices": triangles.reshape(-1, 3),
+        "indices": places[triangles],
         "normals": rows(corners.normals),
         "uv": rows(corners.uv),
         "colors": rows(corners.colors),

@@ -21,6 +21,12 @@ class Pass:
     kind: str  # of Blender's sockets
     about: str
     read: Callable  # the array of a mir.Result
+    layer: str = ""  # that has to be asked for
+
+
+def _removed(result) -> np.ndarray:
+    """Black where no VPLs light the picture: nothing is removed there."""
+    return np.zeros_like(result.indirect) if result.removed is None else result.removed
 
 
 PASSES = (
@@ -34,12 +40,21 @@ PASSES = (
          lambda r: r.indirect),
     Pass("emission", "Emission", "RGB", "COLOR", "Light of what the camera sees, the world too",
          lambda r: r.emission),
+    Pass("removed", "Removed", "RGB", "COLOR",
+         "What the bound takes away, in no other pass. Every luxel then gathers all VPLs",
+         _removed, "removed"),
 )  # fmt: skip
 
 
 def chosen_passes(view_layer) -> list[Pass]:
     """Those that are switched on."""
     return [one for one in PASSES if getattr(view_layer.mir_passes, one.option)]
+
+
+def extra_layers(view_layer, integrator: str) -> dict:
+    """Settings of mir.render() that ask for what these passes show, where there is such light."""
+    layers = [one.layer for one in chosen_passes(view_layer) if one.layer]
+    return {"aov": ",".join(layers)} if layers and integrator == "vpl" else {}
 
 
 def combined(result, transparent: bool) -> np.ndarray:

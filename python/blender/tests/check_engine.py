@@ -19,7 +19,7 @@ _MOST_SECONDS = 0.2
 _MOST_GROWTH = 30.0  # MiB over all cancellations and edits: what allocators keep
 
 
-def _resident() -> float:
+def resident() -> float:
     """Memory of this process, MiB."""
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
@@ -65,6 +65,30 @@ def check_passes_add_up(folder) -> list[str]:
     return ["passes.exr: its parts do not add up"]
 
 
+def check_removed(folder) -> list[str]:
+    """Its pass has what the bound takes away, and is black where there is no bound."""
+    cornell_box()
+    scene = bpy.context.scene
+    scene.view_layers[0].mir_passes.removed = True
+    shown = {}
+
+    def note(result, _transparent):
+        shown["removed"] = removed_pass.read(result)
+        return usual(result, _transparent)
+
+    removed_pass = next(one for one in PASSES if one.option == "removed")
+    usual, engine.combined = engine.combined, note
+    failures = []
+    try:
+        for integrator, bound in (("vpl", 0.1), ("path", 0.0), ("micro", 0.0)):
+            render("MIR", folder / "removed.exr", 32, 24, integrator=integrator, bound=bound)
+            if (shown["removed"].mean() > 0.0) != (bound > 0.0):
+                failures.append(f"{integrator}: removed is {shown['removed'].mean():.5f}")
+    finally:
+        engine.combined = usual
+    return failures
+
+
 def check_light_budget(folder) -> list[str]:
     """The panel lists where the light came from, with what glass throws on a wall."""
     glass()
@@ -99,7 +123,7 @@ def check_frames(folder) -> list[str]:
     return failures
 
 
-def _cancel_once(after: float) -> float:
+def cancel_once(after: float) -> float:
     """Seconds from the wish to end until the end."""
     began = time.monotonic()
     usual = engine.MirEngine.stop_if_asked
@@ -124,10 +148,10 @@ def check_cancellations(_folder) -> list[str]:
     scene.render.resolution_x, scene.render.resolution_y = 640, 480
     scene.mir.vpls, scene.mir.passes = 4096, 1000
     moments = random.Random(1)
-    _cancel_once(0.3)
-    before = _resident()
-    waits = [_cancel_once(moments.uniform(0.0, 0.25)) for _ in range(_CANCELLATIONS)]
-    grown = _resident() - before
+    cancel_once(0.3)
+    before = resident()
+    waits = [cancel_once(moments.uniform(0.0, 0.25)) for _ in range(_CANCELLATIONS)]
+    grown = resident() - before
     median, longest = statistics.median(waits), max(waits)
     print(
         f"{len(waits)} cancellations: median {median:.3f} s, longest {longest:.3f} s, "
@@ -154,8 +178,8 @@ def check_edits(folder) -> list[str]:
         block.modifiers.new("bevel", "BEVEL").segments = 1 + k % 4
         bpy.data.lights[0].energy = 30 + 3 * k
         bright = render("MIR", folder / "edit.exr", 32, 24, vpls=64)
-        before = before or (_resident() if k == 4 else None)
-    grown = _resident() - before
+        before = before or (resident() if k == 4 else None)
+    grown = resident() - before
     if not 2.0 < bright.mean() / dark.mean() < 3.5:
         failures.append("a brighter lamp is not seen")
     print(f"20 edits: {grown:+.1f} MiB after the fifth")
@@ -173,6 +197,7 @@ def check_edits(folder) -> list[str]:
 CHECKS = (
     check_passes,
     check_passes_add_up,
+    check_removed,
     check_light_budget,
     check_frames,
     check_edits,

@@ -109,8 +109,8 @@ def cornell_box() -> None:
     camera((0, -3.9, 1), (quarter, 0, 0), 35)
 
 
-def instances() -> None:
-    """A thousand instances of one mesh on the corners of a grid."""
+def instances(subdivisions: int = 2) -> None:
+    """A thousand instances of one ball on the corners of a grid."""
     empty()
     ground = mesh(
         "grid",
@@ -119,7 +119,7 @@ def instances() -> None:
         diffuse("ground"),
     )
     ground.instance_type = "VERTS"
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2, radius=0.15)
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=subdivisions, radius=0.15)
     ball = bpy.context.object
     ball.parent = ground
     orange = shader("orange", "ShaderNodeBsdfPrincipled", Base_Color=(0.8, 0.4, 0.1, 1))

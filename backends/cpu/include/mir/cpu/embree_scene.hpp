@@ -3,6 +3,7 @@
 
 #include "mir/accel/exact/find_surface.hpp"
 #include "mir/concepts/ray_caster.hpp"
+#include "mir/core/monitor.hpp"
 #include "mir/cpu/detail/embree.hpp"
 #include "mir/cpu/detail/embree_opacity.hpp"
 #include "mir/cpu/embree_visibility.hpp"
@@ -38,14 +39,17 @@ static_assert(ShortRayCaster<EmbreeRayCaster>);
 /// owner; the handles it gives out may be used from any thread.
 class EmbreeScene {
  public:
-    /// Builds the acceleration structure in at most `max_bytes` of memory. The threads are those of
-    /// the task library.
+    /// No bound of memory.
+    static constexpr std::int64_t any_bytes = std::numeric_limits<std::int64_t>::max();
+
+    /// Builds the acceleration structure in at most `max_bytes` of memory, until `monitor` is
+    /// cancelled; that may be null. The threads are those of the task library.
     /// @throws Error(device) with Embree's words when it reports a failure, the memory bound
     ///         included; when some triangle is not opaque and Embree was built without filter
     ///         functions. Error(invalid_input) when a coordinate is beyond 1.8e18 m, where Embree
-    ///         ends the process. Rays must not start there either.
-    explicit EmbreeScene(const WorldGeometry& geometry,
-                         std::int64_t max_bytes = std::numeric_limits<std::int64_t>::max());
+    ///         ends the process. Rays must not start there either. Error(cancelled).
+    explicit EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes = any_bytes,
+                         Monitor* monitor = nullptr);
 
     /// Visibility that reads this scene.
     [[nodiscard]] EmbreeVisibility visibility() const { return {scene_.get()}; }
@@ -80,10 +84,15 @@ class EmbreeScene {
         ~MemoryBudget() { static_cast<void>(used.load(std::memory_order_acquire)); }
     };
 
+    /// What a Monitor counts of a build as Monitor::blocks.
+    static constexpr std::uint32_t progress_steps = 1000;
+
     void add_triangles();
     void throw_if_failed() const;
     static void remember(void* errors, RTCError code, const char* text);
     static bool account(void* budget, ssize_t bytes, bool after);
+    static bool goes_on(void* monitor, double done);
+    void commit(Monitor* monitor);
 
     const WorldGeometry* geometry_;
     std::unique_ptr<OpacityView<Space::host>> opacity_;  ///< read by Embree's filters
@@ -120,7 +129,8 @@ inline std::optional<SurfacePoint> EmbreeRayCaster::closest_hit(Ray ray, float r
     return point;
 }
 
-inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes)
+inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_bytes,
+                                Monitor* monitor)
     : geometry_(&geometry),
       opacity_(geometry.is_opaque()
                    ? nullptr
@@ -148,8 +158,7 @@ inline EmbreeScene::EmbreeScene(const WorldGeometry& geometry, std::int64_t max_
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
     add_triangles();
-    rtcCommitScene(scene_.get());
-    throw_if_failed();
+    commit(monitor);
 }
 
 inline void EmbreeScene::add_triangles() {
@@ -174,6 +183,18 @@ inline void EmbreeScene::add_triangles() {
     throw_if_failed();
 }
 
+inline void EmbreeScene::commit(Monitor* monitor) {
+    if (monitor != nullptr) {
+        monitor->begin_loop(progress_steps);
+        // Embree calls it while it commits, and at no other time.
+        rtcSetSceneProgressMonitorFunction(scene_.get(), &EmbreeScene::goes_on, monitor);
+    }
+    rtcCommitScene(scene_.get());
+    // That it was stopped is an error to Embree, too.
+    if (monitor != nullptr) monitor->check();
+    throw_if_failed();
+}
+
 inline void EmbreeScene::throw_if_failed() const {
     const std::lock_guard lock(errors_->mutex);
     if (!errors_->first.empty())
@@ -187,6 +208,13 @@ inline bool EmbreeScene::account(void* budget, ssize_t bytes, bool /*after*/) {
     const std::int64_t most = b->most.load(std::memory_order_acquire);
     // Embree ignores the answer for memory that is given back.
     return b->used.fetch_add(bytes) + bytes <= most;
+}
+
+inline bool EmbreeScene::goes_on(void* monitor, double done) {
+    auto* m = static_cast<Monitor*>(monitor);
+    if (m->cancelled.load(std::memory_order_relaxed)) return false;
+    m->blocks = static_cast<std::uint64_t>(std::clamp(done, 0.0, 1.0) * progress_steps);
+    return true;
 }
 
 inline void EmbreeScene::remember(void* errors, RTCError code, const char* text) {
