@@ -72,6 +72,9 @@ class BackendFilm {
     template <Executor E>
     void bring_home(Queue& queue, E& executor);
 
+    /// The images of the layers, as far as bands were added and brought home.
+    [[nodiscard]] const std::vector<Image<Rgb>>& images() const { return images_; }
+
     /// The images of the layers, once all bands were added and brought home. Leaves the film
     /// without.
     [[nodiscard]] std::vector<Image<Rgb>> take_images() { return std::move(images_); }

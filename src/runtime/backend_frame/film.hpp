@@ -61,4 +61,17 @@ std::vector<Image<Rgb>> BackendFrame<M, B>::develop() {
     return images;
 }
 
+template <Backend M, Bsdf B>
+void BackendFrame<M, B>::develop_rows(std::uint32_t first, std::uint32_t end,
+                                      std::vector<Image<Rgb>>& images) {
+    const std::vector<Image<Rgb>>& home = picture_->film.images();
+    if (images.empty()) images.resize(home.size(), Image<Rgb>(job_.settings.image));
+    for (std::size_t l = 0; l < images.size(); ++l) {
+        const std::span<const Rgb> from = home[l].pixels();
+        const std::size_t width = home[l].width();
+        std::copy(from.begin() + first * width, from.begin() + end * width,
+                  images[l].pixels().begin() + first * width);
+    }
+}
+
 }  // namespace mir
