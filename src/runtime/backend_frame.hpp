@@ -93,6 +93,8 @@ class BackendFrame final : public RenderFrame {
     }
     void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override;
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
+    void develop_rows(std::uint32_t first, std::uint32_t end,
+                      std::vector<Image<Rgb>>& images) override;
 
  private:
     using Params = typename B::Params;

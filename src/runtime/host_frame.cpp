@@ -117,6 +117,8 @@ class HostFrame final : public RenderFrame {
 
     void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override;
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
+    void develop_rows(std::uint32_t first, std::uint32_t end,
+                      std::vector<Image<Rgb>>& images) override;
 
  private:
     template <class Rays>
@@ -261,6 +263,14 @@ std::vector<Image<Rgb>> HostFrame<B>::develop() {
         layers.push_back(film_->develop(job_.executor, l));
     film_.reset();
     return layers;
+}
+
+template <Bsdf B>
+void HostFrame<B>::develop_rows(std::uint32_t first, std::uint32_t end,
+                                std::vector<Image<Rgb>>& images) {
+    if (images.empty()) images.resize(film_->layers(), Image<Rgb>(job_.settings.image));
+    for (std::size_t l = 0; l < images.size(); ++l)
+        film_->develop_rows(job_.executor, l, first, end, images[l]);
 }
 
 }  // namespace

@@ -17,6 +17,12 @@ Error error_in(BytesReader& in, const std::string& where) {
     return {code, where + in.text()};
 }
 
+Error out_of_step() {
+    return {ErrorCode::internal,
+            "processes of a team got out of step (they may run different programs); start the same "
+            "one everywhere"};
+}
+
 }  // namespace
 
 /// One loop.
@@ -24,9 +30,11 @@ class PictureShare::Run {
  public:
     Run(PictureShare& share, SharedLoop& loop, Monitor* monitor)
         : share_(share), loop_(loop), monitor_(monitor), number_(share.all_loops_++) {
-        ++share.loops_;
+        // Who has which band of a loop that is not kept says nothing of the next one.
+        if (!loop.is_kept()) share.owners_.clear();
+        if (loop.is_kept()) ++share.loops_;
         if (!share.is_lead()) return;
-        done_before_ = share.begin_loop(loop, sums_);
+        if (loop.is_kept()) done_before_ = share.begin_loop(loop, sums_);
         book_.emplace(loop.bands(), share.owners_, done_before_);
     }
 
@@ -48,7 +56,7 @@ class PictureShare::Run {
             }
         }
         // Who had the bands that were kept is not known.
-        if (done_before_ > 0) share_.owners_.clear();
+        if (done_before_ > 0 || !loop_.is_kept()) share_.owners_.clear();
     }
 
  private:
@@ -105,15 +113,13 @@ class PictureShare::Run {
                 keep(in.next_bytes());
                 return go_on();
             default:
-                throw Error(ErrorCode::internal,
-                            "processes of a team got out of step (they may run different "
-                            "programs); start the same one everywhere");
+                throw out_of_step();
         }
     }
 
     void keep(std::span<const std::byte> rows) {
         loop_.keep(rows);
-        share_.keep_band(sums_, rows);
+        if (loop_.is_kept()) share_.keep_band(sums_, rows);
     }
     void deal(std::uint32_t rank, BytesReader& in) {
         // One that was over when it began is answered already.
@@ -190,11 +196,13 @@ void PictureShare::go_on(PictureKeeper& keeper, std::uint64_t id) {
     keeper_ = &keeper;
     id_ = id;
     kept_ = KeptBands::of(id, keeper.read());
+    if (kept_.cut_for > 0) cut_for_ = kept_.cut_for;
+    kept_.cut_for = cut_for_;
 }
 
 Bytes KeptBands::packed(std::uint64_t id) const {
     PackedBytes all;
-    all.add(id).add(fingerprint).add_all(std::span(sums));
+    all.add(id).add(cut_for).add(fingerprint).add_all(std::span(sums));
     for (const auto* list : {&loops, &rows}) {
         all.add(std::uint64_t{list->size()});
         for (const Bytes& one : *list) all.add_all(std::span(one));
@@ -207,12 +215,26 @@ KeptBands KeptBands::of(std::uint64_t id, const Bytes& bytes) {
     if (bytes.empty()) return kept;
     BytesReader in(bytes);
     if (in.get<std::uint64_t>() != id) return kept;
+    kept.cut_for = in.get<std::uint32_t>();
     kept.fingerprint = in.get<std::uint64_t>();
     kept.sums = in.get_all<std::byte>();
     for (auto* list : {&kept.loops, &kept.rows})
         for (auto left = in.get<std::uint64_t>(); left > 0; --left)
             list->push_back(in.get_all<std::byte>());
     return kept;
+}
+
+Bytes PictureShare::spread(Bytes of_lead) {
+    if (is_lead()) {
+        const Bytes message =
+            PackedBytes().add(TeamWord::whole).add_all(std::span<const std::byte>(of_lead)).take();
+        for (std::uint32_t rank = 1; rank < peers_.count(); ++rank) peers_.send(rank, message);
+        return of_lead;
+    }
+    const Peers::Letter letter = wait();
+    BytesReader in(letter.bytes);
+    if (in.get<TeamWord>() != TeamWord::whole) throw out_of_step();
+    return in.get_all<std::byte>();
 }
 
 std::optional<Peers::Letter> PictureShare::receive() {

@@ -30,7 +30,8 @@ enum class TeamWord : std::uint8_t {
     done,      ///< a band, and the sums with it
     pixels,    ///< what a process developed of a picture
     failed,    ///< an error
-    left       ///< the last that a process says
+    left,      ///< the last that a process says
+    whole      ///< lead: what all need of a loop
 };
 
 /// What ends the work of a process in the middle of a picture, when the lead says so.
@@ -50,6 +51,8 @@ class SharedLoop {
     [[nodiscard]] virtual std::uint32_t bands() const = 0;
     /// Of all that must be the same everywhere.
     [[nodiscard]] virtual std::uint64_t fingerprint() const = 0;
+    /// Whether a team that is started again goes on behind bands of it.
+    [[nodiscard]] virtual bool is_kept() const { return true; }
     /// The threads that work on its bands.
     [[nodiscard]] virtual BandCrew& crew() = 0;
     /// Replaces the sums by those of the bands above.
@@ -69,6 +72,8 @@ struct KeptBands {
     Peers::Bytes sums;                ///< of its bands that are done
     std::vector<Peers::Bytes> rows;   ///< what each of those left
 
+    std::uint32_t cut_for = 0;  ///< processes; their number tells how high bands are
+
     /// As bytes, behind the number of a picture.
     [[nodiscard]] Peers::Bytes packed(std::uint64_t id) const;
     /// Those of picture `id`; none where the bytes are another's.
@@ -85,15 +90,21 @@ class PictureShare {
     [[nodiscard]] Peers& peers() const { return peers_; }
     /// True for the process that gets the picture.
     [[nodiscard]] bool is_lead() const { return peers_.rank() == 0; }
-    /// A picture begins. `keeps`: bands leave their pixels to the lead at once.
-    void begin_picture(bool keeps) {
+    /// A picture begins, in bands for so many processes. `keeps`: bands leave their pixels to the
+    /// lead at once.
+    void begin_picture(bool keeps, std::uint32_t cut_for) {
         owners_.clear();
         keeps_ = keeps;
+        cut_for_ = cut_for;
         loops_ = 0;
         kept_ = {};
     }
-    /// At the lead: it is kept in `keeper`, and goes on from what is there of picture `id`.
+    /// At the lead: it is kept in `keeper`, and goes on from what is there of picture `id`, in the
+    /// same bands.
     void go_on(PictureKeeper& keeper, std::uint64_t id);
+    /// Processes that the picture is cut into bands for; not those that there are if it goes on
+    /// from what others kept.
+    [[nodiscard]] std::uint32_t cut_for() const { return cut_for_; }
     /// Whether bands leave their pixels to the lead at once.
     [[nodiscard]] bool keeps() const { return keeps_; }
 
@@ -102,6 +113,10 @@ class PictureShare {
     /// @throws What the work throws; Error(cancelled); Error of another process, at the lead;
     ///         TeamStopped, at the others.
     void run(SharedLoop& loop, Monitor* monitor);
+
+    /// What the lead hands to all behind a loop; waits for it elsewhere.
+    /// @throws As run(), for messages of errors.
+    [[nodiscard]] Peers::Bytes spread(Peers::Bytes of_lead);
 
     /// The next message; waits for it.
     /// @throws As run(), for messages of errors.
@@ -121,6 +136,7 @@ class PictureShare {
     std::uint64_t id_ = 0;             ///< of the picture in it
     KeptBands kept_;                   ///< in it
     bool keeps_ = false;
+    std::uint32_t cut_for_ = 1;
     std::uint32_t loops_ = 0;            ///< of the picture that have begun
     std::uint32_t all_loops_ = 0;        ///< of all pictures
     std::vector<std::uint32_t> owners_;  ///< processes, by the bands of the last loop

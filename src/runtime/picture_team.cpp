@@ -45,9 +45,9 @@ struct Pass {
     float vsl_scale;
 };
 
-Peers::Bytes begin_message(const Scene& scene, const RenderSettings& settings, bool keeps) {
+/// What tells a picture from all others.
+Peers::Bytes identity_of(const Scene& scene, const RenderSettings& settings) {
     PackedBytes message;
-    message.add(TeamWord::begin).add(keeps);
     add_text(message, program_of());
     add_text(message, SceneHash(scene).hex());
     message.add(SettingsHash(settings).value());
@@ -55,8 +55,14 @@ Peers::Bytes begin_message(const Scene& scene, const RenderSettings& settings, b
     return message.take();
 }
 
+std::uint64_t hash_of(const Peers::Bytes& bytes) {
+    ByteHash hash;
+    hash.add(bytes.data(), bytes.size());
+    return hash.value();
+}
+
 /// The settings of the picture that a lead begins, from those of this process.
-RenderSettings settings_of(BytesReader& in, const std::string& scene, RenderSettings settings) {
+RenderSettings settings_of(BytesReader in, const std::string& scene, RenderSettings settings) {
     const auto differs = [](const char* what) {
         return Error(ErrorCode::invalid_input,
                      std::string("it has another ") + what +
@@ -99,6 +105,10 @@ class PictureTeam::Impl {
 
     [[nodiscard]] bool is_lead() const { return share_.is_lead(); }
     [[nodiscard]] bool is_alone() const { return peers_.count() == 1; }
+    /// One process with one device may have to go on from what several kept.
+    [[nodiscard]] bool goes_on_alone(const RenderSettings& settings) const {
+        return keeper_ != nullptr && !settings.devices.all && settings.devices.numbers.size() <= 1;
+    }
 
     RenderResult render(const Renderer& renderer, const Scene& scene,
                         const RenderSettings& settings, Monitor* monitor);
@@ -129,7 +139,7 @@ class PictureTeam::Impl {
 
 RenderResult PictureTeam::Impl::render(const Renderer& renderer, const Scene& scene,
                                        const RenderSettings& settings, Monitor* monitor) {
-    if (is_alone()) return renderer.render(scene, settings, monitor);
+    if (is_alone() && !goes_on_alone(settings)) return renderer.render(scene, settings, monitor);
     if (failure_) throw *failure_;
     try {
         return with_errors([&] {
@@ -137,14 +147,16 @@ RenderResult PictureTeam::Impl::render(const Renderer& renderer, const Scene& sc
                     "rows of a picture were asked of several processes (they share out all rows); "
                     "leave the rows out, or render shards one by one");
             settings.validate();
-            const Peers::Bytes begin = begin_message(scene, settings, keeper_ != nullptr);
-            share_.begin_picture(keeper_ != nullptr);
-            if (keeper_ != nullptr) {
-                ByteHash id;
-                id.add(begin.data(), begin.size());
-                share_.go_on(*keeper_, id.value());
-            }
-            tell_all(begin);
+            const bool keeps = keeper_ != nullptr;
+            const Peers::Bytes identity = identity_of(scene, settings);
+            share_.begin_picture(keeps, peers_.count());
+            if (keeps) share_.go_on(*keeper_, hash_of(identity));
+            tell_all(PackedBytes()
+                         .add(TeamWord::begin)
+                         .add(keeps)
+                         .add(share_.cut_for())
+                         .add_all(std::span(identity))
+                         .take());
             return renderer.render_share(scene, settings, monitor, share_);
         });
     } catch (const Error& e) {
@@ -164,8 +176,9 @@ void PictureTeam::Impl::work_on(const Renderer& renderer, const Scene& scene,
         if (word == TeamWord::leave) return;
         if (word != TeamWord::begin)
             throw Error(ErrorCode::internal, "the lead of a team began no picture");
-        share_.begin_picture(in.get<bool>());
-        const RenderSettings picture = settings_of(in, hash, settings);
+        const bool keeps = in.get<bool>();
+        share_.begin_picture(keeps, in.get<std::uint32_t>());
+        const RenderSettings picture = settings_of(BytesReader(in.next_bytes()), hash, settings);
         try {
             static_cast<void>(
                 renderer.render_share(scene, picture, monitor != nullptr ? monitor : &own, share_));

@@ -163,6 +163,10 @@ class RenderFrame {
     /// The images of the layers, once every band was put there; leaves the frame without. Pixels
     /// that films of other frames develop mean nothing.
     [[nodiscard]] virtual std::vector<Image<Rgb>> develop() = 0;
+    /// Makes rows of pixels of such images, from `first` up to `end`, as far as bands were put.
+    /// Makes the images where there are none. The frame goes on.
+    virtual void develop_rows(std::uint32_t first, std::uint32_t end,
+                              std::vector<Image<Rgb>>& images) = 0;
 
  private:
     RenderJob& job_;

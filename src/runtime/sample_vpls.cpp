@@ -110,14 +110,14 @@ SampledVpls sample_vpls(RenderFrame& frame, float bound) {
     });
 }
 
-VplRecords sample_chains_on_host(RenderFrame& frame, const MetropolisOptions& options,
-                                 float bound) {
+VplRecords sample_chains_on_host(RenderFrame& frame, const MetropolisOptions& options, float bound,
+                                 const SharedDraw& shared) {
     RenderJob& job = frame.job();
     const AnyEngine& rays = frame.rays();
     return job.with_surfaces([&](const auto& surfaces) {
         return MetropolisSampler(path_world(job, surfaces, rays, bound), options,
                                  job.settings.limits)
-            .sample(job.executor);
+            .sample(job.executor, shared);
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/metropolis/bootstrap.hpp"
 #include "runtime/render_frame.hpp"
 
 namespace mir {
@@ -10,9 +11,10 @@ namespace mir {
 /// @throws Error for options out of range, and what the sampler throws.
 [[nodiscard]] SampledVpls sample_vpls(RenderFrame& frame, float bound);
 
-/// RenderFrame::sample_chains() on the frame's executor, by rays of the host.
+/// RenderFrame::sample_chains() on the frame's executor, by rays of the host. Paths of the
+/// bootstrap come from `shared`, unless it is empty.
 [[nodiscard]] VplRecords sample_chains_on_host(RenderFrame& frame, const MetropolisOptions& options,
-                                               float bound);
+                                               float bound, const SharedDraw& shared = {});
 
 /// How chains are to run.
 [[nodiscard]] MetropolisOptions metropolis_options(const RenderSettings& settings);

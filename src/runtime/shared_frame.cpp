@@ -4,6 +4,8 @@
 #include "mir/core/byte_hash.hpp"
 #include "mir/normalise/response.hpp"
 #include "mir/runtime/mean_luminances.hpp"
+#include "runtime/draw_together.hpp"
+#include "runtime/sample_vpls.hpp"
 
 #include <algorithm>
 #include <array>
@@ -42,10 +44,12 @@ std::uint64_t fingerprint_of(const RenderFrame& frame, std::uint32_t bands) {
     hash.add(r.vpls.vpls().data(), r.vpls.vpls().size_bytes());
     for (const double number :
          {s.path_luminance, s.states, double{s.bound}, s.vsl_radius, double{s.emitted_power},
-          s.dropped_share, static_cast<double>(bands), s.direct_noise.value_or(0.0),
-          s.gather_difference ? s.gather_difference->mean : 0.0,
-          frame.traits().on_host ? 1.0 : 0.0})
+          s.dropped_share, s.direct_noise.value_or(0.0),
+          s.gather_difference ? s.gather_difference->mean : 0.0, frame.traits().on_host ? 1.0 : 0.0,
+          // Of bands: how many they are, and what their height depends on (ImageBands).
+          static_cast<double>(bands), static_cast<double>(frame.traits().parts)})
         hash.add(&number, sizeof number);
+    hash.add(&frame.job().settings.limits.visibility_bytes, sizeof(std::uint64_t));
     return hash.value();
 }
 
@@ -68,7 +72,7 @@ FrameTraits shared_traits(const RenderFrame& local, const PictureShare& share) {
     expects(traits.parts == 1,
             "a process of several was given several GPUs (bands go to one of each process); start "
             "one process for each GPU");
-    traits.parts = share.peers().count() * bands_each / 4;
+    traits.parts = share.cut_for() * bands_each / 4;
     return traits;
 }
 
@@ -237,6 +241,16 @@ void SharedFrame::add_responses(const FrameBand& band, VplSpan<Space::host> vpls
     sums_.assign(sum.sums().begin(), sum.sums().end());
 }
 
+VplRecords SharedFrame::sample_chains(const MetropolisOptions& options, float bound) {
+    if (!traits().on_host) return local_->sample_chains(options, bound);
+    return sample_chains_on_host(
+        *local_, options, bound,
+        [this](std::uint64_t first, std::span<double> weights, std::span<std::uint32_t> places,
+               const PathDraw& draw) {
+            draw_together(share_, job().monitor, {first, weights, places}, draw);
+        });
+}
+
 void SharedFrame::take_over(ResponseSum& sum) { sum.go_on(summed_rows_, sums_); }
 
 void SharedFrame::put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) {
@@ -255,7 +269,7 @@ std::vector<Image<Rgb>> SharedFrame::develop() {
         throw PixelsSent{};
     }
     if (share_.keeps()) return std::move(layers_);
-    if (!developed_.empty()) layers_ = local_->develop();
+    develop_own();
     for (std::uint32_t others = share_.peers().count() - 1; others > 0;) {
         const Peers::Letter letter = share_.wait();
         BytesReader in(letter.bytes);
@@ -267,10 +281,16 @@ std::vector<Image<Rgb>> SharedFrame::develop() {
     return std::move(layers_);
 }
 
+/// Puts what the film of this process has developed into its images.
+void SharedFrame::develop_own() {
+    for (const Rows rows : developed_) local_->develop_rows(rows[0], rows[1], layers_);
+}
+
 /// Adds the pixels that this process has made since it last did.
 void SharedFrame::add_pixels(PackedBytes& message) {
-    std::vector<Image<Rgb>> layers;
-    if (!developed_.empty()) layers = local_->develop();
+    develop_own();
+    std::vector<Image<Rgb>> none;
+    std::vector<Image<Rgb>>& layers = developed_.empty() ? none : layers_;
     message.add(static_cast<std::uint32_t>(layers.size()));
     for (const Plane& plane : planes_of(job().result.guides, layers, guided_, developed_)) {
         Peers::Bytes pixels;

@@ -16,7 +16,7 @@ namespace mir {
 /// What ends a render in a process that is not the lead, once its pixels are with that.
 struct PixelsSent {};
 
-/// A frame whose bands are shared out among the processes of a team. What is no band (VPLs, the
+/// A frame whose bands are shared out among the processes of a team. What is no band (chains, the
 /// area that the camera sees, probes) is made in each of them. Sums over bands, and film rows
 /// (FilmSeam), go from process to process in the order of the bands: pictures have the bytes of one
 /// frame. The lead's frame has all pixels in the end.
@@ -27,9 +27,8 @@ class SharedFrame final : public RenderFrame {
 
     [[nodiscard]] const AnyEngine& rays() override { return local_->rays(); }
     [[nodiscard]] double visible_area() override { return local_->visible_area(); }
-    [[nodiscard]] VplRecords sample_chains(const MetropolisOptions& options, float bound) override {
-        return local_->sample_chains(options, bound);
-    }
+    /// Paths of the bootstrap are shared out where processors draw them; chains are not.
+    [[nodiscard]] VplRecords sample_chains(const MetropolisOptions& options, float bound) override;
 
     /// Works on bands that the lead deals, and waits for all processes.
     /// @throws PictureShare::run().
@@ -88,6 +87,10 @@ class SharedFrame final : public RenderFrame {
     /// At the lead, the images of the whole picture.
     /// @throws PixelsSent in all other processes.
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
+    void develop_rows(std::uint32_t first, std::uint32_t end,
+                      std::vector<Image<Rgb>>& images) override {
+        local_->develop_rows(first, end, images);
+    }
 
  private:
     class Loop;
@@ -96,6 +99,7 @@ class SharedFrame final : public RenderFrame {
 
     void load(std::span<const std::byte> sums);
     void restate(const std::vector<RowLuminances>& luminances);
+    void develop_own();
     void add_pixels(PackedBytes& message);
     void take_pixels(BytesReader& in);
 
@@ -105,7 +109,7 @@ class SharedFrame final : public RenderFrame {
     std::vector<ImageResponse> sums_;  ///< of those bands
     std::uint32_t summed_rows_ = 0;    ///< of luxels
     bool in_loop_ = false;             ///< of for_each_band()
-    std::vector<Image<Rgb>> layers_;   ///< of all processes, at the lead
+    std::vector<Image<Rgb>> layers_;   ///< of this process; of all processes, at the lead
     std::vector<Rows> developed_;      ///< by the film of this process
     std::vector<Rows> guided_;         ///< whose guides it made
 };

@@ -108,4 +108,13 @@ std::vector<Image<Rgb>> SplitFrame::develop() {
     return std::move(whole);
 }
 
+void SplitFrame::develop_rows(std::uint32_t first, std::uint32_t end,
+                              std::vector<Image<Rgb>>& images) {
+    for (const Rows& rows : developed_) {
+        const std::uint32_t begin = std::max(first, rows.begin);
+        if (begin < std::min(end, rows.end))
+            parts_[rows.part]->develop_rows(begin, std::min(end, rows.end), images);
+    }
+}
+
 }  // namespace mir

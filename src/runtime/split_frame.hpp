@@ -83,6 +83,8 @@ class SplitFrame final : public RenderFrame {
         first().put(band, std::move(layers), turn);
     }
     [[nodiscard]] std::vector<Image<Rgb>> develop() override;
+    void develop_rows(std::uint32_t first, std::uint32_t end,
+                      std::vector<Image<Rgb>>& images) override;
 
  private:
     class Turn;

@@ -266,6 +266,21 @@ TEST_CASE("an unfinished film shows complete rows as though the image ended ther
     CHECK(part(3, 9) == Rgb{});
 }
 
+TEST_CASE("rows are developed one by one to what they are in the whole image") {
+    const LuxelGrid grid = mir::luxel_grid({70, 10}, 4);
+    mir::InlineExecutor executor;
+    Film film(grid, Filter{}, 7);
+    film.add_rows(0, rows_of(noise(grid.luxels()), 0, 12));
+    Image<Rgb> image(grid.pixels, Rgb{9.0f, 9.0f, 9.0f});
+    film.develop_rows(executor, 0, 2, 7, image);
+    CHECK(same_bits(rows_of(image, 2, 5), rows_of(film.develop(), 2, 5)));
+    CHECK(image(0, 1) == Rgb{9.0f, 9.0f, 9.0f});
+    CHECK(image(69, 7) == Rgb{9.0f, 9.0f, 9.0f});
+    Image<Rgb> small({70, 9});
+    CHECK_THROWS_AS(film.develop_rows(executor, 0, 2, 7, small), mir::Error);
+    CHECK_THROWS_AS(film.develop_rows(executor, 0, 2, 11, image), mir::Error);
+}
+
 TEST_CASE("a luxel that is not a number spoils only the pixels in its reach") {
     const LuxelGrid grid = mir::luxel_grid({9, 9}, 4);
     Image<Rgb> luxels(grid.luxels(), Rgb{1.0f, 1.0f, 1.0f});

@@ -84,6 +84,9 @@ class SamplingFrame final : public mir::RenderFrame {
     std::vector<mir::Image<mir::Rgb>> develop() override {
         return never(std::vector<mir::Image<mir::Rgb>>{});
     }
+    void develop_rows(std::uint32_t, std::uint32_t, std::vector<mir::Image<mir::Rgb>>&) override {
+        never(0);
+    }
 
     Asked asked;
     int rays_wanted = 0;

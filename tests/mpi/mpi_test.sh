@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# mpi_test.sh hashes|library|errors|killed MPIEXEC MIR MIR_MPI RANKS FOLDER
+# mpi_test.sh hashes|library|errors MPIEXEC MIR MIR_MPI RANKS FOLDER
 # Exit code 77: skipped, for the reason that is printed.
 set -eu
 
@@ -74,35 +74,6 @@ errors() {
     fails 2 'leave --shard out' render builtin:sphere --shard 1/2
     with_ranks 2 "$mir_mpi" --version >out
     [ "$(wc -l <out)" = 1 ]
-}
-
-# kill_one RANKS COMMAND...: starts ranks and kills one of them after 0.2 to 1.2 s. Fails when they
-# were done before.
-kill_one() {
-    "$mpiexec" -n "$@" >/dev/null 2>&1 &
-    sleep "$(awk -v n="$try" 'BEGIN { srand(n); print 0.2 + rand() }')"
-    # shellcheck disable=SC2046
-    set -- $(cat "/proc/$!/task/$!/children" 2>/dev/null) none
-    shift $((try % $#))
-    [ "$1" = none ] || kill -KILL "$1" 2>/dev/null || true
-    ! wait $!
-}
-
-killed() {
-    options="$options --passes 12 --save-every 0.05 --resume --vpls 256"
-    # shellcheck disable=SC2086
-    "$mir" render builtin:sphere $options -o whole.exr >/dev/null
-    kills=0
-    for try in $(seq 1 20); do
-        # shellcheck disable=SC2086
-        kill_one 3 "$mir_mpi" render builtin:sphere $options -o killed.exr || break
-        kills=$((kills + 1))
-    done
-    # shellcheck disable=SC2086
-    with_ranks 3 "$mir_mpi" render builtin:sphere $options -o killed.exr >/dev/null
-    echo "killed $kills times"
-    [ "$kills" -gt 0 ]
-    same killed
 }
 
 "$which"

@@ -5,13 +5,13 @@
 #include "mir/runtime/all_renderers.hpp"
 #include "mir/runtime/picture_team.hpp"
 #include "mir/scenes.hpp"
+#include "split/thread_peers.hpp"
 #include "support/catch.hpp"
 
 #include <chrono>
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <string>
 #include <thread>
 
@@ -22,37 +22,9 @@ using mir::ErrorCode;
 using mir::PictureTeam;
 using mir::RenderResult;
 using mir::RenderSettings;
+using mirtest::Box;
 using mirtest::check_same;
-
-/// What was sent to a process and is not received.
-struct Box {
-    std::mutex mutex;
-    std::deque<mir::Peers::Letter> letters;
-};
-
-class ThreadPeers final : public mir::Peers {
- public:
-    ThreadPeers(std::deque<Box>& boxes, std::uint32_t rank) : boxes_(boxes), rank_(rank) {}
-    [[nodiscard]] std::uint32_t rank() const override { return rank_; }
-    [[nodiscard]] std::uint32_t count() const override {
-        return static_cast<std::uint32_t>(boxes_.size());
-    }
-    void send(std::uint32_t to, const Bytes& message) override {
-        const std::lock_guard lock(boxes_[to].mutex);
-        boxes_[to].letters.push_back({rank_, message});
-    }
-    [[nodiscard]] std::optional<Letter> receive() override {
-        const std::lock_guard lock(boxes_[rank_].mutex);
-        if (boxes_[rank_].letters.empty()) return std::nullopt;
-        Letter letter = std::move(boxes_[rank_].letters.front());
-        boxes_[rank_].letters.pop_front();
-        return letter;
-    }
-
- private:
-    std::deque<Box>& boxes_;
-    std::uint32_t rank_;
-};
+using mirtest::ThreadPeers;
 
 /// Calls body(team, rank) for each process of a team. Nothing may be left unread in the end.
 void as_team(std::uint32_t count, const std::function<void(PictureTeam&, std::uint32_t)>& body) {
@@ -236,10 +208,13 @@ TEST_CASE("Loops go on without a process that comes late") {
 TEST_CASE("A team that is started again goes on from the bands that were kept") {
     RenderSettings s = small_picture();
     s.bounce_layers = true;
+    s.luxels_per_pixel = 1;
+    s.image = {8, 520};  // so high that more processes have lower bands
     const RenderResult one = alone(s);
-    const auto kept_in = [&](mir::PictureKeeper& keeper, mir::Monitor& monitor) {
+    const auto kept_in = [&](mir::PictureKeeper& keeper, std::uint32_t processes = 2) {
+        mir::Monitor monitor;
         std::optional<RenderResult> result;
-        as_team(2, [&](PictureTeam& team, std::uint32_t) {
+        as_team(processes, [&](PictureTeam& team, std::uint32_t) {
             if (!team.is_lead()) return team.work(*renderer(), room(), s, nullptr);
             team.keep_in(keeper);
             result = team.render(*renderer(), room(), s, &monitor);
@@ -247,26 +222,23 @@ TEST_CASE("A team that is started again goes on from the bands that were kept") 
         return std::move(*result);
     };
     Keeper all;
-    {
-        mir::Monitor monitor;
-        check_same(kept_in(all, monitor), one);
-    }
+    check_same(kept_in(all), one);
     REQUIRE(all.pictures.size() > 6);  // of two loops
     for (const std::size_t last : {std::size_t{0}, all.pictures.size() / 2 - 1,
                                    all.pictures.size() / 2, all.pictures.size() - 1}) {
-        CAPTURE(last);
-        Keeper again;
-        again.pictures = {all.pictures[last]};
-        mir::Monitor monitor;
-        check_same(kept_in(again, monitor), one);
-        CHECK(again.pictures.size() == all.pictures.size() - last);
+        for (const std::uint32_t processes : {1u, 2u, 5u}) {
+            CAPTURE(last, processes);
+            Keeper again;
+            again.pictures = {all.pictures[last]};
+            check_same(kept_in(again, processes), one);
+            CHECK(again.pictures.size() == all.pictures.size() - last);
+        }
     }
     // Another picture begins anew.
     Keeper other;
     other.pictures = {all.pictures.back()};
     s.seed = 1;
-    mir::Monitor monitor;
-    check_same(kept_in(other, monitor), alone(s));
+    check_same(kept_in(other), alone(s));
 }
 
 TEST_CASE("What fails in one process reaches all") {

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 namespace mir::mpi {
 namespace {
@@ -39,6 +42,14 @@ void check_mpi() {
             "MPI_THREAD_FUNNELED");
 }
 
+/// Gives MPI time for messages on their way; true when they are out.
+bool are_sent(std::vector<MPI_Request>& parts) {
+    int sent = 0;
+    check(MPI_Testall(static_cast<int>(parts.size()), parts.data(), &sent, MPI_STATUSES_IGNORE),
+          "a rank cannot be told");
+    return sent != 0;
+}
+
 }  // namespace
 
 RankPeers::RankPeers(MPI_Comm ranks) {
@@ -58,16 +69,31 @@ RankPeers::~RankPeers() { MPI_Comm_free(&ranks_); }
 void RankPeers::send(std::uint32_t to, const Bytes& message) {
     const auto rank = static_cast<int>(to);
     const std::uint64_t size = message.size();
-    check(MPI_Send(&size, sizeof size, MPI_BYTE, rank, tag_of_size, ranks_),
+    std::vector<MPI_Request> parts(1);
+    check(MPI_Isend(&size, sizeof size, MPI_BYTE, rank, tag_of_size, ranks_, parts.data()),
           "a rank cannot be told");
     for (std::size_t begin = 0; begin < size; begin += most_bytes)
-        check(MPI_Send(message.data() + begin,
-                       static_cast<int>(std::min<std::size_t>(most_bytes, size - begin)), MPI_BYTE,
-                       rank, tag_of_part, ranks_),
+        check(MPI_Isend(message.data() + begin,
+                        static_cast<int>(std::min<std::size_t>(most_bytes, size - begin)), MPI_BYTE,
+                        rank, tag_of_part, ranks_, &parts.emplace_back()),
               "a rank cannot be told");
+    // The other may be sending to this one. MPI need not keep what nobody takes in, however short.
+    while (!are_sent(parts))
+        if (std::optional<Letter> letter = next_letter())
+            came_meanwhile_.push_back(std::move(*letter));
+        else
+            std::this_thread::yield();
 }
 
 std::optional<Peers::Letter> RankPeers::receive() {
+    if (came_meanwhile_.empty()) return next_letter();
+    Letter first = std::move(came_meanwhile_.front());
+    came_meanwhile_.pop_front();
+    return first;
+}
+
+/// A message that MPI has, if any.
+std::optional<Peers::Letter> RankPeers::next_letter() {
     int has_come = 0;
     MPI_Status status;
     check(MPI_Iprobe(MPI_ANY_SOURCE, tag_of_size, ranks_, &has_come, &status),
@@ -78,6 +104,7 @@ std::optional<Peers::Letter> RankPeers::receive() {
     check(MPI_Recv(&size, sizeof size, MPI_BYTE, from, tag_of_size, ranks_, MPI_STATUS_IGNORE),
           "a rank cannot be heard");
     Letter letter{static_cast<std::uint32_t>(from), Bytes(size)};
+    // All parts are on their way: who sends begins with all of them, and only then waits.
     for (std::size_t begin = 0; begin < size; begin += most_bytes)
         check(MPI_Recv(letter.bytes.data() + begin,
                        static_cast<int>(std::min<std::size_t>(most_bytes, size - begin)), MPI_BYTE,

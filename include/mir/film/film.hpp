@@ -91,6 +91,13 @@ class Film {
     template <Executor E>
     [[nodiscard]] Image<Rgb> develop(E& executor, std::size_t layer) const;
 
+    /// Develops rows of pixels alone, from `first` up to `end`, into an image.
+    /// @throws Error(invalid_argument) as develop(), or when the image has another size or lacks
+    ///         the rows.
+    template <Executor E>
+    void develop_rows(E& executor, std::size_t layer, std::uint32_t first, std::uint32_t end,
+                      Image<Rgb>& image) const;
+
     /// The same on the calling thread.
     [[nodiscard]] Image<Rgb> develop(std::size_t layer = 0) const {
         InlineExecutor executor;
@@ -257,16 +264,28 @@ inline void Film::go_on(const FilmSeam& seam) {
 
 template <Executor E>
 Image<Rgb> Film::develop(E& executor, std::size_t layer) const {
+    Image<Rgb> image(grid_.pixels);
+    develop_rows(executor, layer, 0, grid_.pixels.height, image);
+    return image;
+}
+
+template <Executor E>
+void Film::develop_rows(E& executor, std::size_t layer, std::uint32_t first, std::uint32_t end,
+                        Image<Rgb>& image) const {
     check_whole();
     expects(layer < layers_,
             "a layer was asked for that the film does not hold (layers are numbered from 0); ask "
             "for one below layers()");
-    Image<Rgb> image(grid_.pixels);
+    expects(image.extent() == grid_.pixels && first <= end && end <= grid_.pixels.height,
+            "a film was to be developed into an image of another size, or into rows that it lacks; "
+            "give an image of the film's pixels and rows of it");
     const double least = 1e-3 * grid_.per_pixel();
     const std::uint32_t complete = rows_ / grid_.per_pixel_y;
-    executor.for_each(complete, [&](std::size_t row) {
-        const auto y = static_cast<std::uint32_t>(row);
+    executor.for_each(end - first, [&](std::size_t row) {
+        const std::uint32_t y = first + static_cast<std::uint32_t>(row);
         for (std::uint32_t x = 0; x < grid_.pixels.width; ++x) {
+            image(x, y) = {};
+            if (y >= complete) continue;
             const double* const sums = sums_.data() + sums_of(x / detail::film_columns, y);
             const double weight = sums[x % detail::film_columns];
             if (std::fabs(weight) < least) continue;
@@ -278,7 +297,6 @@ Image<Rgb> Film::develop(E& executor, std::size_t layer) const {
                            static_cast<float>(red[2 * plane] / weight)};
         }
     });
-    return image;
 }
 
 }  // namespace mir

@@ -7,7 +7,18 @@
 #include "mir/metropolis/bootstrap_paths.hpp"
 #include "mir/metropolis/systematic_resampling.hpp"
 
+#include <functional>
+
 namespace mir {
+
+/// Fills in weights and places of paths from `first` on: the `draw` of grow_bootstrap().
+using PathDraw = std::function<void(std::uint64_t first, std::span<double> weights,
+                                    std::span<std::uint32_t> places)>;
+
+/// Does the work of a PathDraw, perhaps with others. It calls `draw` for some of the paths, and has
+/// the rest from elsewhere.
+using SharedDraw = std::function<void(std::uint64_t first, std::span<double> weights,
+                                      std::span<std::uint32_t> places, const PathDraw& draw)>;
 
 /// Independent paths that estimate P_c and seed the chains. That both come from one set is what
 /// makes chains unbiased from their first state on, without burn-in (Veach 1997, section 11.3.1).

@@ -20,9 +20,11 @@ class ChainEnsemble {
 
     /// Runs bootstrap and chains. `intensity(path)` is what the record of a path gets. No record
     /// comes out when no path carries light: a result of zero that health.luminance explains.
+    /// Paths of the bootstrap come from `shared`, unless it is empty.
     template <class Intensity, Executor E>
-    [[nodiscard]] VplRecords run(const Intensity& intensity, E& executor) const {
-        Threads<Intensity, E> machine{*this, intensity, executor};
+    [[nodiscard]] VplRecords run(const Intensity& intensity, E& executor,
+                                 const SharedDraw& shared = {}) const {
+        Threads<Intensity, E> machine{*this, intensity, executor, shared};
         return run_chains(generator_.world().lights, options_, machine);
     }
 
@@ -40,11 +42,16 @@ class ChainEnsemble {
         const ChainEnsemble& ensemble;
         const Intensity& intensity;
         E& executor;
+        const SharedDraw& shared;
 
         void draw(std::uint64_t first, std::span<double> weights,
                   std::span<std::uint32_t> places) const {
-            draw_paths(ensemble.generator_, ensemble.options_.seed, first, weights, places,
-                       executor);
+            const auto here = [this](std::uint64_t begin, std::span<double> w,
+                                     std::span<std::uint32_t> p) {
+                draw_paths(ensemble.generator_, ensemble.options_.seed, begin, w, p, executor);
+            };
+            if (shared) return shared(first, weights, places, here);
+            here(first, weights, places);
         }
 
         [[nodiscard]] std::vector<ChainRun> walk(const std::vector<std::uint32_t>& starts) const {

@@ -30,7 +30,8 @@ class Peers {
     [[nodiscard]] virtual std::uint32_t rank() const = 0;
     /// Number of all processes.
     [[nodiscard]] virtual std::uint32_t count() const = 0;
-    /// Sends a message; may wait until it is received.
+    /// Sends a message; may wait until it is received. The other may be sending to this process at
+    /// the same time: one that waits must take in meanwhile what comes, for receive().
     /// @throws Error(device) when it cannot be sent.
     virtual void send(std::uint32_t to, const Bytes& message) = 0;
     /// A message that has come, if any has; does not wait.

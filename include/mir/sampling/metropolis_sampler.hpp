@@ -37,11 +37,12 @@ class MetropolisSampler {
     }
 
     /// Runs bootstrap and chains. No record comes out when no path carries light: a result of
-    /// zero that health.luminance explains.
+    /// zero that health.luminance explains. Paths of the bootstrap come from `shared`, unless it is
+    /// empty.
     template <Executor E>
-    [[nodiscard]] VplRecords sample(E& executor) const {
+    [[nodiscard]] VplRecords sample(E& executor, const SharedDraw& shared = {}) const {
         const ChainEnsemble<World, PathGenerator<World>> chains(generator_, suffix_, options_);
-        return chains.run(UnitRadiance{}, executor);
+        return chains.run(UnitRadiance{}, executor, shared);
     }
 
  private:

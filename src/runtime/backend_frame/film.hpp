@@ -65,4 +65,16 @@ std::vector<Image<Rgb>> BackendFrame<M, B>::develop() {
     return std::exchange(job_.layers, {});
 }
 
+template <Backend M, Bsdf B>
+void BackendFrame<M, B>::develop_rows(std::uint32_t first, std::uint32_t end,
+                                      std::vector<Image<Rgb>>& images) {
+    if (images.empty()) images.resize(job_.layers.size(), Image<Rgb>(job_.settings.image));
+    for (std::size_t l = 0; l < images.size(); ++l) {
+        const std::span<const Rgb> from = job_.layers[l].pixels();
+        const std::size_t width = job_.layers[l].width();
+        std::copy(from.begin() + first * width, from.begin() + end * width,
+                  images[l].pixels().begin() + first * width);
+    }
+}
+
 }  // namespace mir

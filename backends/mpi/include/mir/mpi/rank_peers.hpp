@@ -5,6 +5,8 @@
 
 #include <mpi.h>
 
+#include <deque>
+
 namespace mir::mpi {
 
 /// The ranks of a communicator as processes of a PictureTeam. Messages go from one rank to another,
@@ -24,13 +26,17 @@ class RankPeers final : public Peers {
 
     [[nodiscard]] std::uint32_t rank() const override { return rank_; }
     [[nodiscard]] std::uint32_t count() const override { return count_; }
+    /// Takes in what comes while it waits, so that ranks may send to each other at the same time.
     void send(std::uint32_t to, const Bytes& message) override;
     [[nodiscard]] std::optional<Letter> receive() override;
 
  private:
+    [[nodiscard]] std::optional<Letter> next_letter();
+
     MPI_Comm ranks_ = MPI_COMM_NULL;
     std::uint32_t rank_ = 0;
     std::uint32_t count_ = 1;
+    std::deque<Letter> came_meanwhile_;  ///< while this one sent
 };
 
 }  // namespace mir::mpi
