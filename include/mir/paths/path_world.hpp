@@ -8,6 +8,7 @@
 #include "mir/scene/light_table.hpp"
 #include "mir/shading/check_bound.hpp"
 #include "mir/shading/luxel_tracer.hpp"
+#include "mir/shading/next_surface.hpp"
 #include "mir/shading/surface_table.hpp"
 
 #include <cmath>
@@ -107,9 +108,7 @@ struct PathWorld {
             if (!(numbers.next() < passed))
                 return factors.transmission == 0.0f || factors.metallic == 1.0f;
             if (events == SpecularTracer<R, S, B>::longest) return false;
-            ray.origin =
-                lift(p.position, -p.geometric_normal, larger(p.offset, least_offset(p.position)));
-            if (!find_point(luxels.caster, ray, p)) return false;
+            if (!find_next(luxels.caster, -p.geometric_normal, ray, p)) return false;
         }
         return true;
     }
