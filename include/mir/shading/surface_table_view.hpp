@@ -152,8 +152,10 @@ struct SurfaceTableView {
     }
     [[nodiscard]] MIR_HD Rgb emission(const SurfaceEntry<B>& e, const SurfacePoint& p) const {
         const Texture& texture = e.textures.emission;
-        if (!texture.is_set()) return e.emission;
-        return e.emission * textures.color(texture, p.texture_coordinates, TexelEncoding::srgb);
+        Rgb light = e.emission;
+        if (e.is_blended) light = light * coverage(p.material, attributes_of(p));
+        if (!texture.is_set()) return light;
+        return light * textures.color(texture, p.texture_coordinates, TexelEncoding::srgb);
     }
     [[nodiscard]] MIR_HD MaterialFactors factors(const SurfaceEntry<B>& e,
                                                  const VertexAttributes& at) const;
