@@ -105,6 +105,10 @@ struct PathWorld {
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.
     [[nodiscard]] MIR_HD_CALL typename B::Params params(const PathVertex& v) const {
+        if (luxels.surfaces.is_specular(v.material))
+            return luxels.surfaces.params_of_side(
+                luxels.surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics)),
+                v.material, glm::dot(v.normal, geometry.front_normal(v.triangle)) > 0.0f);
         if (geometry.texture_coordinates == nullptr && geometry.colors == nullptr)
             return luxels.surfaces.params(v.material);
         return luxels.surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics));

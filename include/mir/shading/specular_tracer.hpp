@@ -92,8 +92,8 @@ struct SpecularTracer {
     template <class Numbers>
     [[nodiscard]] MIR_HD SpecularStep step_of(const SpecularEnd& end, const SpecularSurface& s,
                                               SpecularRules rules, Numbers& numbers) const {
-        typename B::Params p = surfaces.textured_params(s.factors);
-        if (surfaces.is_inside_body(end.point.material, end.point.front)) p = B::without_lobe(p);
+        const typename B::Params p = surfaces.params_of_side(surfaces.textured_params(s.factors),
+                                                             end.point.material, end.point.front);
         const bool shines = surfaces.shines(end.point);
         const float albedo = shines ? 1.0f : luminance(B::albedo(p, s.normal, s.wo));
         return specular_step(s, B::is_black(p) && !shines ? 0.0f : larger(albedo, 0.05f), rules,
