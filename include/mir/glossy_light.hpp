@@ -33,7 +33,8 @@ struct VplLobes {
             VplLobe<B>& lobe = lobes.emplace_back();
             if (from.records[i].lobe_share == 0.0f) continue;
             const VplArrival& a = from.arrivals[i];
-            const typename B::Params own = view.params(a.material, a.attributes);
+            const typename B::Params own =
+                view.params_of_side(view.params(a.material, a.attributes), a.material, a.is_front);
             lobe = {true, a.shading_normal, a.towards_light, a.power, widened(own, least_alpha)};
             if (is_widened(own, least_alpha)) narrow += j;
         }

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <span>
+#include <tuple>
 
 namespace mir {
 namespace {
@@ -16,14 +17,62 @@ CausticPaths paths_of(const RenderSettings& s) {
     return {paths, s.bounce_limit(), s.sequence, s.seed};
 }
 
+/// What several paths bring to the luxels of some rows, added up in the order of paths.
+class SplatSums {
+ public:
+    SplatSums(std::uint32_t first_row, std::uint32_t end_row, bool has_bounces)
+        : first_row_(first_row), end_row_(end_row), most_bounces_(has_bounces ? 255 : 2) {}
+
+    void add(const std::vector<CausticSplat>& splats) {
+        for (CausticSplat s : splats) {
+            if (s.y < first_row_ || s.y >= end_row_) continue;
+            s.bounce = std::min(s.bounce, most_bounces_);
+            all_.push_back(s);
+        }
+        if (all_.size() > 2 * merged_ + least) merge();
+    }
+    /// By rows, then columns, then bounces.
+    [[nodiscard]] std::vector<CausticSplat> take() {
+        merge();
+        return std::move(all_);
+    }
+
+ private:
+    static constexpr std::size_t least = 1u << 18;  ///< too few to look after
+
+    void merge() {
+        const auto place = [](const CausticSplat& s) { return std::tuple(s.y, s.x, s.bounce); };
+        std::stable_sort(all_.begin(), all_.end(),
+                         [&](const auto& a, const auto& b) { return place(a) < place(b); });
+        std::size_t kept = 0;
+        for (const CausticSplat& s : all_)
+            if (kept > 0 && place(all_[kept - 1]) == place(s))
+                all_[kept - 1].radiance += s.radiance;
+            else
+                all_[kept++] = s;
+        all_.resize(kept);
+        merged_ = kept;
+    }
+
+    std::uint32_t first_row_;
+    std::uint32_t end_row_;
+    std::uint8_t most_bounces_;  ///< further ones are shown together
+    std::vector<CausticSplat> all_;
+    std::size_t merged_ = 0;  ///< of them at the last merge()
+};
+
 template <Bsdf B>
-std::vector<CausticSplat> traced(RenderFrame& frame, const SurfaceTable<B>& surfaces) {
-    RenderJob& job = frame.job();
-    const AnyEngine& rays = frame.rays();
-    return CausticTracer(job.lights, LightWalk<B, AnyRayCaster>{surfaces.view(), rays.ray_caster()},
-                         rays.visibility(),
-                         {job.rays.camera.optics(), job.aspect(), job.rays.grid.luxels()})
-        .trace(paths_of(job.settings), job.executor);
+std::vector<CausticSplat> traced(RenderJob& job, const AnyEngine& rays,
+                                 const SurfaceTable<B>& surfaces, const ImageBands& bands) {
+    const CausticTracer tracer(
+        job.lights, LightWalk<B, AnyRayCaster>{surfaces.view(), rays.ray_caster()},
+        rays.visibility(), {job.rays.camera.optics(), job.aspect(), job.rays.grid.luxels()});
+    const CausticPaths paths = paths_of(job.settings);
+    SplatSums sums(bands.first_row(), bands.end_row(), job.settings.bounce_layers);
+    constexpr std::uint64_t at_once = 1u << 18;
+    for (std::uint64_t first = 0; first < paths.paths; first += at_once)
+        sums.add(tracer.trace(paths, first, std::min(first + at_once, paths.paths), job.executor));
+    return sums.take();
 }
 
 PathTracerOptions residual_of(const RenderSettings& s) {
@@ -34,75 +83,48 @@ PathTracerOptions residual_of(const RenderSettings& s) {
     return options;
 }
 
-/// Of the luxels that are seen in mirrors or through bodies of glass: no light path meets those.
+/// Of a band's luxels that are seen in mirrors or through bodies of glass: no light path meets
+/// those.
 template <Bsdf B>
-std::vector<CausticSplat> traced_back(RenderFrame& frame, const SurfaceTable<B>& surfaces) {
-    RenderJob& job = frame.job();
-    const AnyEngine& rays = frame.rays();
+std::vector<CausticSplat> traced_back(RenderJob& job, const AnyEngine& rays,
+                                      const SurfaceTable<B>& surfaces, const FrameBand& band) {
     const LuxelTracer luxels{rays.ray_caster(), surfaces.view()};
     const PathTracer<B, AnyRayCaster, AnyVisibility> paths(
         {job.geometry, job.lights, surfaces, rays.ray_caster(), rays.visibility()},
         residual_of(job.settings));
-    const Extent size = job.rays.grid.luxels();
-    std::vector<std::vector<CausticSplat>> rows(size.height);
-    job.executor.for_each(size.height, [&](std::size_t row) {
-        const auto y = static_cast<std::uint32_t>(row);
+    const std::uint32_t width = job.rays.grid.luxels().width;
+    std::vector<std::vector<CausticSplat>> rows(band.extent().height);
+    job.executor.for_each(rows.size(), [&](std::size_t row) {
+        const std::uint32_t y = band.first_row + static_cast<std::uint32_t>(row);
+        SplatSums sums(y, y + 1, job.settings.bounce_layers);
         std::array<RgbSum, 256> bounces;
-        for (std::uint32_t x = 0; x < size.width; ++x) {
+        std::vector<CausticSplat> splats;
+        for (std::uint32_t x = 0; x < width; ++x) {
             const SeenLuxel seen = luxels.luxel(job.rays, x, y);
             if (seen.is_background || seen.is_straight) continue;
             bounces.fill({});
-            Random random(job.settings.seed, Stream::caustic, ~(std::uint64_t{y} * size.width + x));
+            Random random(job.settings.seed, Stream::caustic, ~(std::uint64_t{y} * width + x));
             paths.trace({luxels.hit(seen), luxels.surface(seen)}, random, bounces);
             for (std::uint32_t b = 1; b < bounces.size(); ++b)
                 if (const Rgb light = bounces[b].rgb(); !is_black(light))
-                    rows[row].push_back({x, y, static_cast<std::uint8_t>(b), light});
+                    splats.push_back({x, y, static_cast<std::uint8_t>(b), light});
         }
+        sums.add(splats);
+        rows[row] = sums.take();
     });
     std::vector<CausticSplat> all;
     for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
     return all;
 }
 
-void keep_statistics(RenderJob& job, const std::vector<CausticSplat>& splats) {
-    RenderStatistics& s = job.result.statistics;
-    s.caustic_paths = paths_of(job.settings).paths;
-    double sum = 0.0;
-    for (const CausticSplat& splat : splats) sum += static_cast<double>(luminance(splat.radiance));
-    s.caustic_luminance = sum / static_cast<double>(job.rays.grid.luxels().area());
-}
-
-}  // namespace
-
-CausticLight::CausticLight(RenderFrame& frame) {
-    RenderJob& job = frame.job();
-    if (job.settings.caustics == 0) return;
-    const auto stage = job.clock.measure(&StageSeconds::caustics);
-    splats_ = job.with_surfaces([&](const auto& surfaces) {
-        std::vector<CausticSplat> all;
-        if (!surfaces.bends_rays() || job.lights.empty()) return all;
-        all = traced(frame, surfaces);
-        const std::vector<CausticSplat> back = traced_back(frame, surfaces);
-        all.insert(all.end(), back.begin(), back.end());
-        return all;
-    });
-    if (splats_.empty()) return;
-    keep_statistics(job, splats_);
-    std::stable_sort(splats_.begin(), splats_.end(),
-                     [](const CausticSplat& a, const CausticSplat& b) { return a.y < b.y; });
-}
-
-void CausticLight::add(RenderFrame& by, const FrameBand& band,
-                       std::vector<LayerPtr>& layers) const {
-    const std::uint32_t end = band.first_row + band.extent().height;
-    const auto row_before = [](const CausticSplat& s, std::uint32_t y) { return s.y < y; };
-    const auto first = std::lower_bound(splats_.begin(), splats_.end(), band.first_row, row_before);
-    const auto last = std::lower_bound(first, splats_.end(), end, row_before);
-    if (first == last) return;
+/// Adds splats of a band's rows to its layers.
+void add_to_layers(std::span<const CausticSplat> splats, RenderFrame& by, const FrameBand& band,
+                   std::vector<LayerPtr>& layers) {
+    if (splats.empty()) return;
     const auto add_where = [&](FrameLayer& layer, const auto& wanted) {
         Image<Rgb> light(band.extent());
-        for (auto s = first; s != last; ++s)
-            if (wanted(s->bounce)) light(s->x, s->y - band.first_row) += s->radiance;
+        for (const CausticSplat& s : splats)
+            if (wanted(s.bounce)) light(s.x, s.y - band.first_row) += s.radiance;
         by.add(layer, *by.layer_of(band, std::move(light)));
     };
     add_where(*layers[direct_layer], [](std::uint8_t bounce) { return bounce == 1; });
@@ -112,6 +134,39 @@ void CausticLight::add(RenderFrame& by, const FrameBand& band,
         add_where(*layers[first_bounce_layer + b], [&](std::uint8_t bounce) {
             return bounce == b + 1 || (b + 1 == bounces && bounce > bounces);
         });
+}
+
+}  // namespace
+
+CausticLight::CausticLight(RenderFrame& frame, const ImageBands& bands) {
+    RenderJob& job = frame.job();
+    if (job.settings.caustics == 0 || job.lights.empty()) return;
+    const auto stage = job.clock.measure(&StageSeconds::caustics);
+    job.with_surfaces([&](const auto& surfaces) {
+        if (!surfaces.bends_rays()) return;
+        rays_ = &frame.rays();
+        splats_ = traced(job, *rays_, surfaces, bands);
+        job.result.statistics.caustic_paths = paths_of(job.settings).paths;
+    });
+}
+
+std::vector<double> CausticLight::add(RenderFrame& by, const FrameBand& band,
+                                      std::vector<LayerPtr>& layers) const {
+    if (rays_ == nullptr) return {};
+    const std::uint32_t end = band.first_row + band.extent().height;
+    const auto row_before = [](const CausticSplat& s, std::uint32_t y) { return s.y < y; };
+    const auto first = std::lower_bound(splats_.begin(), splats_.end(), band.first_row, row_before);
+    const auto last = std::lower_bound(first, splats_.end(), end, row_before);
+    const std::vector<CausticSplat> back = by.job().with_surfaces(
+        [&](const auto& surfaces) { return traced_back(by.job(), *rays_, surfaces, band); });
+    std::vector<double> rows(band.extent().height);
+    for (const std::span<const CausticSplat> splats :
+         {std::span<const CausticSplat>(first, last), std::span<const CausticSplat>(back)}) {
+        add_to_layers(splats, by, band, layers);
+        for (const CausticSplat& s : splats)
+            rows[s.y - band.first_row] += static_cast<double>(luminance(s.radiance));
+    }
+    return rows;
 }
 
 }  // namespace mir

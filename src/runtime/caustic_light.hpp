@@ -2,25 +2,32 @@
 #pragma once
 
 #include "mir/sampling/caustic_tracer.hpp"
-#include "runtime/render_frame.hpp"
+#include "runtime/image_bands.hpp"
 
 #include <vector>
 
 namespace mir {
 
-/// Light that mirrors and glass throw on the surfaces of a render, by light paths of the host.
+/// Light that mirrors and glass throw on the surfaces of a render, by paths of the host. Those from
+/// the lights are traced at once, as they may end anywhere; what luxels see in mirrors and through
+/// bodies is traced back band by band.
 class CausticLight {
  public:
-    /// Traces the paths, where the settings want them and the scene bends rays.
+    /// Traces the light paths, where the settings want them and the scene bends rays. Of what they
+    /// bring only that to rows of `bands` is kept, a sum for each luxel.
     /// @throws Error(cancelled)
-    explicit CausticLight(RenderFrame& frame);
+    CausticLight(RenderFrame& frame, const ImageBands& bands);
 
-    /// Adds it to a band's layers (FilmLayer): what lamps send to direct light, the rest to
-    /// indirect light and to the bounces where there are any.
-    void add(RenderFrame& by, const FrameBand& band, std::vector<LayerPtr>& layers) const;
+    /// Adds all to a band's layers (FilmLayer): what lamps send to direct light, the rest to
+    /// indirect light and to the bounces where there are any. Returns the luminance of each row,
+    /// W m^-2 sr^-1; none where nothing is traced. Several threads may add, to a band each.
+    /// @throws Error(cancelled)
+    [[nodiscard]] std::vector<double> add(RenderFrame& by, const FrameBand& band,
+                                          std::vector<LayerPtr>& layers) const;
 
  private:
-    std::vector<CausticSplat> splats_;  ///< by rows of luxels; in a row in the order of paths
+    const AnyEngine* rays_ = nullptr;   ///< null: nothing is traced
+    std::vector<CausticSplat> splats_;  ///< of light paths, by rows of luxels
 };
 
 }  // namespace mir

@@ -26,6 +26,10 @@ class ImageBands {
     /// Luxels of the whole image.
     [[nodiscard]] Extent luxels() const { return frame_.job().rays.grid.luxels(); }
 
+    /// First row of luxels of the first band.
+    [[nodiscard]] std::uint32_t first_row() const { return first_; }
+    /// Row of luxels behind those of the last band.
+    [[nodiscard]] std::uint32_t end_row() const { return end_; }
     /// Luxels of all bands together, as a share of the image.
     [[nodiscard]] double share() const {
         return static_cast<double>(end_ - first_) / static_cast<double>(luxels().height);

@@ -124,6 +124,7 @@ struct BandLight {
     std::vector<double> indirect;
     std::vector<double> removed;   ///< none where nothing is
     std::vector<double> residual;  ///< the same
+    std::vector<double> caustic;   ///< the same
 };
 
 /// The light that the bound removed from a band, by the VPLs.
@@ -166,7 +167,7 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
     }
     {
         const auto stage = job.clock.measure(&StageSeconds::caustics);
-        caustics.add(by, band, made.layers);
+        made.caustic = caustics.add(by, band, made.layers);
     }
     if (job.settings.removed_layer) made.layers.push_back(std::move(removed));
     if (variance != nullptr) made.layers.push_back(std::move(variance));
@@ -217,7 +218,7 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
     const VplLight light(s, bound, vpls, job.executor);
     check_picture(s, std::size_t{first_bounce_layer} + light.bounces() + extra_layers(s));
     measure_what_is_missing(frame, bound);
-    const CausticLight caustics(frame);
+    const CausticLight caustics(frame, bands);
     job.begin_bands(bands.count());
     frame.for_each_band(bands.count(), [&](RenderFrame& by, std::uint32_t i, BandTurn& turn) {
         job.begin_band();
@@ -226,7 +227,7 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
         if (stores && !band->knows_visibility()) find_visible(by, *band, vpls.span());
         BandLight made = light_band(by, *band, bound, light, caustics);
         turn.wait();
-        add_luminances(job, *band, made.indirect, made.removed, made.residual);
+        add_luminances(job, *band, {made.indirect, made.removed, made.residual, made.caustic});
         by.put(*band, std::move(made.layers), turn);
     });
     develop(frame);

@@ -224,7 +224,7 @@ void SharedFrame::restate(const std::vector<RowLuminances>& luminances) {
     if (luminances.empty()) return;
     RenderResult& result = job().result;
     RenderStatistics& s = result.statistics;
-    s.indirect_luminance = s.removed_luminance = s.residual_luminance = 0.0;
+    clear_rows(s);
     for (const RowLuminances& row : luminances) add_row(s, row);
     result.luminances = luminances;
 }

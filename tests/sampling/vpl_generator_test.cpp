@@ -7,6 +7,7 @@
 #include "mir/shading/lambert.hpp"
 #include "support/catch.hpp"
 #include "support/path_lab.hpp"
+#include "support/see_through_wedge.hpp"
 #include "support/wedge.hpp"
 
 #include <array>
@@ -67,11 +68,12 @@ struct TwiceTheProbe {
 
 /// Weights by length, those of other lengths counted as 0.
 template <class Density, mir::Bsdf B>
-std::array<Moments, 6> weights(const PathLab<B>& lab, std::uint32_t shortest, std::uint64_t seed) {
+std::array<Moments, 6> weights(const PathLab<B>& lab, std::uint32_t shortest, std::uint64_t seed,
+                               std::uint32_t luxels) {
     constexpr std::uint64_t paths = 60'000;
     const auto w = lab.world();
     using Generator = mir::VplGenerator<std::remove_const_t<decltype(w)>, Density>;
-    const typename Generator::Probe probe({lab.scene.cameras[0], 1.0f, 64, 3}, w.luxels.caster,
+    const typename Generator::Probe probe({lab.scene.cameras[0], 1.0f, luxels, 3}, w.luxels.caster,
                                           lab.surfaces, w.visibility);
     const Generator generator(w, probe, shortest, 5, 0.01);
     std::array<Moments, 6> moments;
@@ -87,10 +89,10 @@ std::array<Moments, 6> weights(const PathLab<B>& lab, std::uint32_t shortest, st
 /// p-value, after Sidak, of "drawn with Density, the target has the integral that light paths
 /// alone find".
 template <class Density, mir::Bsdf B>
-double agreement(const PathLab<B>& lab, std::uint64_t seed) {
+double agreement(const PathLab<B>& lab, std::uint64_t seed, std::uint32_t luxels = 64) {
     const std::uint32_t shortest = lab.lights.has_emitters() ? 2 : 3;
-    const auto judge = weights<LightPathsAlone>(lab, shortest, seed);
-    const auto tested = weights<Density>(lab, shortest, seed + 1);
+    const auto judge = weights<LightPathsAlone>(lab, shortest, seed, luxels);
+    const auto tested = weights<Density>(lab, shortest, seed + 1, luxels);
     double smallest = 1.0;
     for (std::uint32_t k = shortest; k <= 5; ++k) {
         REQUIRE(judge[k].mean() > 0.0);
@@ -127,6 +129,23 @@ TEST_CASE("VPL space has the light of light paths in the Cornell boxes", "[stati
     const PathLab<Lambert> lab(mir::builtin::make(name));
     CAPTURE(name);
     CHECK(agreement<VplDensity>(lab, 3200) > 0.01);
+}
+
+// Few luxels: each bit of a pane matters.
+TEST_CASE("VPL space has the light of light paths behind panes", "[statistical]") {
+    mir::Scene scene = Wedge(WedgeLights::two_sided).scene();
+    mirtest::add_panes(scene);
+    const PathLab<CookTorrance> lab(std::move(scene));
+    CHECK(agreement<VplDensity>(lab, 3300, 4) > 0.01);
+}
+
+TEST_CASE("VPL space has the light of light paths where lamps are seen through", "[statistical]") {
+    const bool is_glass = GENERATE(false, true);
+    CAPTURE(is_glass);
+    mir::Scene scene = Wedge(WedgeLights::two_sided).scene();
+    mirtest::see_through_lamps(scene, is_glass);
+    const PathLab<CookTorrance> lab(std::move(scene));
+    CHECK(agreement<VplDensity>(lab, 3310 + (is_glass ? 2 : 0)) > 0.01);
 }
 
 TEMPLATE_TEST_CASE("VPL space with a wrong density is rejected", "[statistical]",

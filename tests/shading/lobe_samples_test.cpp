@@ -17,7 +17,7 @@ using mirtest::FreeSight;
 using mirtest::Moments;
 
 // Every test of a mean in this file belongs to one family of level 1 %.
-const double level = mirtest::sidak(0.01, 6);
+const double level = mirtest::sidak(0.01, 12);
 
 const Vec3 up(0, 1, 0);
 
@@ -62,6 +62,18 @@ Scene lamps_of_sizes() {
     return s;
 }
 
+/// The same behind a veil that shines, and one behind that.
+Scene lamps_behind_veils() {
+    Scene s = lamps_of_sizes();
+    mir::Material veil = mir::emitter("veil", {}, {1, 2, 3});
+    veil.is_blended = true;
+    veil.alpha = 0.5f;
+    s.place(mir::builtin::quad("veil", s.add(veil), {-0.8f, 0.6f, -1}, {1.6f, 0, 0}, {0, 0, 2}));
+    veil.emission = {2, 1, 2};
+    s.place(mir::builtin::quad("veil", s.add(veil), {-0.5f, 0.4f, -1}, {2, 0, 0}, {0, 0, 1.5f}));
+    return s;
+}
+
 }  // namespace
 
 // H0: with LobeSamples the mean is that of samples of lamps alone. Welch's t over 20 000 estimates
@@ -77,5 +89,19 @@ TEST_CASE("directions into a lobe keep the mean of lamps and take its noise", "[
             CAPTURE(alpha, both.mean(), alone.mean(), both.variance(), alone.variance());
             CHECK(mirtest::welch_p_value(both, alone) > level);
             CHECK(both.variance() < (alpha < 0.1f ? 0.1 : 0.5) * alone.variance());
+        }
+}
+
+// H0: the same where lamps are seen through. Nothing hides them from each other here.
+TEST_CASE("directions into a lobe find lamps behind lamps that are seen through", "[statistical]") {
+    const Lit lit(lamps_behind_veils());
+    std::uint64_t seed = 160;
+    for (const float alpha : {0.01f, 0.05f, 0.15f})
+        for (const mir::SharedSamples shared : {mir::SharedSamples{}, mir::SharedSamples{4, 2}}) {
+            const Moments both =
+                mirrored<mir::PickByTree>(lit, {0.4f, 0, 0}, alpha, seed++, shared);
+            const Moments alone = mirrored<PickAlone>(lit, {0.4f, 0, 0}, alpha, seed++, shared);
+            CAPTURE(alpha, both.mean(), alone.mean());
+            CHECK(mirtest::welch_p_value(both, alone) > level);
         }
 }

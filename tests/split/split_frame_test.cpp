@@ -27,8 +27,10 @@ using Frames = std::vector<std::unique_ptr<RenderFrame>>;
 
 /// A scene, and frames of a job over it. Their loops run on the threads that split frames make.
 struct Picture {
-    explicit Picture(RenderSettings wanted, mir::Monitor* monitor = nullptr)
+    explicit Picture(RenderSettings wanted, mir::Monitor* monitor = nullptr,
+                     mir::Scene drawn = mir::builtin::cornell_box(mir::builtin::Lamp::down))
         : settings(std::move(wanted)),
+          scene(std::move(drawn)),
           job({scene, geometry, mir::AnyExecutor(executor), monitor, clock}, settings) {}
 
     [[nodiscard]] std::unique_ptr<RenderFrame> frame() {
@@ -41,7 +43,7 @@ struct Picture {
     }
 
     RenderSettings settings;
-    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    mir::Scene scene;
     mir::WorldGeometry geometry{scene};
     InlineExecutor executor;
     mir::AnyExecutor loops{executor};
@@ -51,14 +53,16 @@ struct Picture {
 };
 
 RenderResult drawn(const RenderSettings& settings, std::size_t parts,
-                   mir::Monitor* monitor = nullptr) {
-    Picture picture(settings, monitor);
+                   mir::Monitor* monitor = nullptr,
+                   mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down)) {
+    Picture picture(settings, monitor, std::move(scene));
     mir::SplitFrame frame = picture.split(parts);
     return mir::render_vpls(frame);
 }
 
-RenderResult drawn_by_one(const RenderSettings& settings) {
-    Picture picture(settings);
+RenderResult drawn_by_one(const RenderSettings& settings,
+                          mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down)) {
+    Picture picture(settings, nullptr, std::move(scene));
     return mir::render_vpls(*picture.frame());
 }
 
@@ -74,6 +78,25 @@ RenderSettings small_picture() {
     s.removed_layer = true;
     s.metropolis.bootstrap.min_paths = s.metropolis.bootstrap.max_paths = 1024;
     return s;
+}
+
+/// The box with a mirror for a block, and a clear one.
+mir::Scene glass() {
+    mir::Scene scene = mir::builtin::cornell_box(mir::builtin::Lamp::down);
+    mir::Material mirror;
+    mirror.metallic = 1.0f;
+    mirror.roughness = 0.0f;
+    mir::Material clear;
+    clear.roughness = 0.0f;
+    clear.transmission = 1.0f;
+    clear.is_thin = false;
+    const std::uint32_t first = scene.add(mirror);
+    const std::uint32_t second = scene.add(clear);
+    for (mir::Mesh& mesh : scene.meshes) {
+        if (mesh.name == "tall block") mesh.material = first;
+        if (mesh.name == "short block") mesh.material = second;
+    }
+    return scene;
 }
 
 /// The same picture with all rows.
@@ -257,4 +280,45 @@ TEST_CASE("A render by several frames can be cancelled, and its progress ends wh
 TEST_CASE("A picture is split among one frame at least") {
     Picture picture(small_picture());
     CHECK_THROWS_AS(mir::SplitFrame(picture.job, Frames{}), mir::Error);
+}
+
+TEST_CASE("Frames share caustics, rows have theirs, and their sums are those of the picture") {
+    RenderSettings s = small_picture();
+    s.bounce_layers = GENERATE(false, true);
+    s.caustics = 8;
+    const RenderResult one = drawn_by_one(s, glass());
+    CHECK(one.statistics.caustic_luminance > 0.0);
+    for (const std::size_t parts : {1u, 3u}) {
+        CAPTURE(parts);
+        const RenderResult shared = drawn(s, parts, nullptr, glass());
+        check_same(shared, one);
+        CHECK(shared.statistics.caustic_luminance == one.statistics.caustic_luminance);
+    }
+    RenderSettings without = s;
+    without.caustics = 0;
+    const RenderResult dark = drawn_by_one(without, glass());
+    const auto mean = [](const RenderResult& r) {
+        double sum = 0.0;
+        for (const mir::Rgb& c : r.beauty.pixels()) sum += static_cast<double>(luminance(c));
+        return sum / static_cast<double>(r.beauty.extent().area());
+    };
+    // A box filter leaves the mean of the luxels.
+    s.filter = without.filter = mir::default_filter(mir::FilterKind::box);
+    CHECK(mean(drawn_by_one(s, glass())) - mean(drawn_by_one(without, glass())) ==
+          Approx(one.statistics.caustic_luminance).epsilon(1e-3));
+    CHECK(dark.statistics.caustic_luminance == 0.0);
+
+    s.rows = {9, 17};
+    RenderResult cut = drawn_by_one(small_whole(s), glass());
+    mir::blacken_other_rows(s.rows, cut);
+    mir::clear_rows(cut.statistics);
+    for (std::uint32_t y = s.rows.first * 2; y < (s.rows.first + s.rows.count) * 2; ++y)
+        mir::add_row(cut.statistics, one.luminances[y]);
+    for (const std::size_t parts : {0u, 3u}) {
+        CAPTURE(parts);
+        const RenderResult rows =
+            parts == 0 ? drawn_by_one(s, glass()) : drawn(s, parts, nullptr, glass());
+        check_same(rows, cut);
+        CHECK(rows.statistics.caustic_luminance == cut.statistics.caustic_luminance);
+    }
 }

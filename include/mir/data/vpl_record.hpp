@@ -37,6 +37,7 @@ struct VplArrival {
     Rgb power;                   ///< P, W: radiant intensity towards w is P f(towards_light, w) cos
     std::uint32_t material = 0;  ///< of the surface
     VertexAttributes attributes;  ///< of the point
+    bool is_front = true;         ///< the side where it arrives
 };
 
 /// True when two records lie at one geometric VPL.

@@ -150,7 +150,9 @@ class PathMeasurer {
         const float pdf =
             i == 3 ? cosine_hemisphere_pdf(glm::dot(e.w, from.shading_normal))
                    : B::pdf(world_.params(from), from.shading_normal, e.w, to_eye(i - 1));
-        return per_area(pdf, cosine, e) * unit_of(i);
+        const double density = per_area(pdf, cosine, e) * unit_of(i);
+        // Light samples put an end on a lamp that a ray may pass.
+        return i == k_ ? density * static_cast<double>(world_.stop_chance(end(), e.w)) : density;
     }
     [[nodiscard]] MIR_HD double density_from_light(std::uint32_t i) const {
         const PathEdge& e = edges_[i];

@@ -8,6 +8,7 @@
 #include "mir/scene/light_table.hpp"
 #include "mir/shading/check_bound.hpp"
 #include "mir/shading/luxel_tracer.hpp"
+#include "mir/shading/next_surface.hpp"
 #include "mir/shading/surface_table.hpp"
 
 #include <cmath>
@@ -69,12 +70,28 @@ struct PathWorld {
     /// Writes the first surface along a ray as a path vertex. False when there is none. Blended
     /// surfaces and sheets of glass are passed as often as they let light through; bodies of glass
     /// and what sheets reflect are not part of paths behind x1.
-    [[nodiscard]] MIR_HD_CALL bool hit(const Ray& ray, PathVertex& vertex) const {
+    [[nodiscard]] MIR_HD bool hit(const Ray& ray, PathVertex& vertex) const {
+        float passed = 1.0f;
+        return hit(ray, vertex, passed);
+    }
+    /// The same, and with which chance the ray passed what it passed.
+    [[nodiscard]] MIR_HD_CALL bool hit(const Ray& ray, PathVertex& vertex, float& passed) const {
         SurfacePoint p;
+        passed = 1.0f;
         if (!find_point(luxels.caster, ray, p)) return false;
-        if (luxels.surfaces.is_specular(p.material) && !pass_straight(ray, p)) return false;
+        if (luxels.surfaces.is_specular(p.material) && !pass_straight(ray, p, passed)) return false;
         vertex = vertex_at(p, luxels.surfaces.shading_normal(p));
         return true;
+    }
+    /// Chance with which a ray along the unit vector `w` that meets a vertex by hit() ends there:
+    /// others pass it.
+    [[nodiscard]] MIR_HD float stop_chance(const PathVertex& v, Vec3 w) const {
+        const std::uint32_t material = geometry.materials[v.triangle];
+        if (!luxels.surfaces.is_specular(material)) return 1.0f;
+        const VertexAttributes at = geometry.attributes(v.triangle, v.barycentrics);
+        const MaterialFactors factors = luxels.surfaces.factors(material, at);
+        if (is_glass(factors)) return 0.0f;
+        return 1.0f - passing(factors, material, at, fabsf(glm::dot(w, v.normal)));
     }
     /// The same of a camera ray: the vertex x1 of a path, which is a luxel, and the path's `eye`
     /// and `chain`.
@@ -88,28 +105,38 @@ struct PathWorld {
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.
     [[nodiscard]] MIR_HD_CALL typename B::Params params(const PathVertex& v) const {
+        if (luxels.surfaces.is_specular(v.material))
+            return luxels.surfaces.params_of_side(
+                luxels.surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics)),
+                v.material, glm::dot(v.normal, geometry.front_normal(v.triangle)) > 0.0f);
         if (geometry.texture_coordinates == nullptr && geometry.colors == nullptr)
             return luxels.surfaces.params(v.material);
         return luxels.surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics));
     }
 
  private:
+    /// What ends paths behind x1 where it does not let them pass.
+    [[nodiscard]] MIR_HD static bool is_glass(const MaterialFactors& m) {
+        return m.transmission > 0.0f && m.metallic < 1.0f;
+    }
+    /// Chance with which a ray passes a point of a specular material.
+    [[nodiscard]] MIR_HD float passing(const MaterialFactors& m, std::uint32_t material,
+                                       const VertexAttributes& at, float cosine) const {
+        return luminance(straight_transmittance(m, luxels.surfaces.coverage(material, at), cosine));
+    }
     /// Goes straight on through what is seen through. False when the ray leaves the scene, or ends
     /// on glass.
-    [[nodiscard]] MIR_HD bool pass_straight(Ray ray, SurfacePoint& p) const {
+    [[nodiscard]] MIR_HD bool pass_straight(Ray ray, SurfacePoint& p, float& passed) const {
         RayNumbers numbers(ray);
         for (std::uint32_t events = 0; luxels.surfaces.is_specular(p.material); ++events) {
             const VertexAttributes at = attributes_of(p);
             const MaterialFactors factors = luxels.surfaces.factors(p.material, at);
-            const float cosine = -glm::dot(ray.direction, p.geometric_normal);
-            const float passed = luminance(
-                straight_transmittance(factors, luxels.surfaces.coverage(p.material, at), cosine));
-            if (!(numbers.next() < passed))
-                return factors.transmission == 0.0f || factors.metallic == 1.0f;
+            const float chance =
+                passing(factors, p.material, at, -glm::dot(ray.direction, p.geometric_normal));
+            if (!(numbers.next() < chance)) return !is_glass(factors);
+            passed *= chance;
             if (events == SpecularTracer<R, S, B>::longest) return false;
-            ray.origin =
-                lift(p.position, -p.geometric_normal, larger(p.offset, least_offset(p.position)));
-            if (!find_point(luxels.caster, ray, p)) return false;
+            if (!find_next(luxels.caster, -p.geometric_normal, ray, p)) return false;
         }
         return true;
     }

@@ -5,6 +5,11 @@
 
 namespace mir {
 
+/// Forgets the mean luminances that add_row() adds to.
+inline void clear_rows(RenderStatistics& s) {
+    s.indirect_luminance = s.removed_luminance = s.residual_luminance = s.caustic_luminance = 0.0;
+}
+
 /// Adds a row of luxels to the mean luminances of an image, whose luxels are counted. Rows go from
 /// top to bottom: the order of the sum decides its last bits.
 inline void add_row(RenderStatistics& s, const RowLuminances& row) {
@@ -12,6 +17,7 @@ inline void add_row(RenderStatistics& s, const RowLuminances& row) {
     s.indirect_luminance += row.indirect * share;
     s.removed_luminance += row.removed * share;
     s.residual_luminance += row.residual * share;
+    s.caustic_luminance += row.caustic * share;
 }
 
 }  // namespace mir

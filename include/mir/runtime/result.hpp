@@ -79,6 +79,7 @@ struct RowLuminances {
     double indirect = 0.0;  ///< of the VPLs' or discs' light
     double removed = 0.0;   ///< of what the bound removed, by the VPLs
     double residual = 0.0;  ///< of what paths traced back of that
+    double caustic = 0.0;   ///< of what mirrors and bodies of glass threw there
 };
 
 /// A finished picture. Radiance in W m^-2 sr^-1; beauty = emission + direct + indirect.

@@ -44,7 +44,7 @@ inline ShardPass shard_pass(const RenderResult& pass) {
 /// those of all shards together.
 inline RenderStatistics merged(const std::vector<const ShardPass*>& shards) {
     RenderStatistics all = shards.front()->statistics;
-    all.indirect_luminance = all.removed_luminance = all.residual_luminance = 0.0;
+    clear_rows(all);
     all.seconds = {};
     for (const ShardPass* const shard : shards) {
         for (const RowLuminances& row : shard->rows) add_row(all, row);

@@ -51,7 +51,13 @@ class CausticTracer {
 
     /// Splats of all paths, in their order. A function of the options alone.
     template <Executor E>
-    [[nodiscard]] std::vector<CausticSplat> trace(const CausticPaths& options, E& executor) const;
+    [[nodiscard]] std::vector<CausticSplat> trace(const CausticPaths& options, E& executor) const {
+        return trace(options, 0, options.paths, executor);
+    }
+    /// The same of the paths from `first` to before `last` alone.
+    template <Executor E>
+    [[nodiscard]] std::vector<CausticSplat> trace(const CausticPaths& options, std::uint64_t first,
+                                                  std::uint64_t last, E& executor) const;
 
  private:
     static constexpr std::uint64_t batch = 1024;
@@ -70,12 +76,13 @@ class CausticTracer {
 template <Bsdf B, RayCaster R, Visibility V>
 template <Executor E>
 std::vector<CausticSplat> CausticTracer<B, R, V>::trace(const CausticPaths& options,
+                                                        std::uint64_t first, std::uint64_t last,
                                                         E& executor) const {
     if (lights_.empty()) return {};
-    std::vector<std::vector<CausticSplat>> parts((options.paths + batch - 1) / batch);
+    std::vector<std::vector<CausticSplat>> parts((last - first + batch - 1) / batch);
     executor.for_each(parts.size(), [&](std::size_t b) {
-        const std::uint64_t end = std::min<std::uint64_t>((b + 1) * batch, options.paths);
-        for (std::uint64_t i = b * batch; i < end; ++i) trace(i, options, parts[b]);
+        const std::uint64_t end = std::min<std::uint64_t>(first + (b + 1) * batch, last);
+        for (std::uint64_t i = first + b * batch; i < end; ++i) trace(i, options, parts[b]);
     });
     std::vector<CausticSplat> all;
     for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());

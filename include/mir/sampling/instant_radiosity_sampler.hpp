@@ -157,7 +157,7 @@ void InstantRadiositySampler<B, R>::record(const Arrival<B>& at, const typename 
     if (options_.arrivals)
         path.arrivals.push_back({at.towards_light, point.shading_normal,
                                  at.power * at.shading_normal_factor(), point.material,
-                                 attributes_of(point)});
+                                 attributes_of(point), point.front});
 }
 
 template <Bsdf B, RayCaster R>

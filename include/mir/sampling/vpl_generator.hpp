@@ -68,31 +68,33 @@ class VplGenerator {
         out.weight = out.density = 0.0;
         const Technique t =
             techniques_.sample(static_cast<double>(u.at(path_dimension::technique)));
-        if (!build(u, t, out.path)) return;
+        ProbeRay start;
+        if (!build(u, t, out.path, start)) return;
         out.path.spread = spread_at(u);
         if (measure_suffix(world_, out.path, out.measure) && is_connected(out.path, t))
-            weigh(t, out);
+            weigh(t, start, out);
     }
 
  private:
     template <class Numbers>
-    bool build(Numbers& u, Technique t, Path& path) const {
+    bool build(Numbers& u, Technique t, Path& path, ProbeRay& start) const {
         path.vertices.resize(1);
         if (t.from_light + 1 < t.edges)
-            return start_at_probe(u, path) &&
+            return start_at_probe(u, path, start) &&
                    extend_from_eye(world_, u, t.edges - t.from_light, path) &&
                    close_path(world_, u, t.from_light, path);
         return attach_light_path(world_, u, t.from_light, path);
     }
 
     template <class Numbers>
-    bool start_at_probe(Numbers& u, Path& path) const {
+    bool start_at_probe(Numbers& u, Path& path, ProbeRay& start) const {
         const std::uint32_t d = path_dimension::eye_vertex(1);
         const auto ray =
             ray_from_probe(probe_, u.at(path_dimension::film), pair_at(u, d), u.at(d + 2));
         if (!ray) return false;
+        start = *ray;
         PathVertex second;
-        if (!world_.hit(*ray, second)) return false;
+        if (!world_.hit(start.ray, second, start.passed)) return false;
         path.vertices.push_back(second);
         return true;
     }
@@ -102,16 +104,33 @@ class VplGenerator {
         return whole || edge_is_free(world_, path, t.edges - t.from_light);
     }
 
-    void weigh(Technique t, WeightedPath& out) const {
+    /// Through panes a luxel sees x2 or not by a bit, and sight_of() counts those that do. A ray
+    /// from a luxel passed by numbers of its own: it counts where the bit says the same, over its
+    /// chance. So the weights of all techniques add up to one, whatever the bits are (Veach's
+    /// multi-sample model, each luxel a technique).
+    void weigh(Technique t, const ProbeRay& start, WeightedPath& out) const {
         const PathVertex& x = out.path.x(2);
-        const ProbeSight sight = sight_of(probe_, Vpl{x.position, x.normal, {}});
+        const bool has_passed = start.passed < 1.0f;
+        const ProbeSight sight = sight_of(probe_, Vpl{x.position, x.normal, {}},
+                                          has_passed ? start.luxel : ProbeRay::none);
+        if (has_passed && !sight.is_seen) return;
         out.measure.response = sight.response;
         out.measure.contribution = out.measure.response * out.measure.leaving;
-        const double density = Density::mixture(out.measure, t, techniques_, sight.density);
+        const double density =
+            Density::mixture(out.measure, t, techniques_, sight.density * stop_chance(out.path)) *
+            static_cast<double>(start.passed);
         const double weight = target(out.measure) / density;
         if (!(density > 0.0) || !std::isfinite(weight)) return;
         out.density = density;
         out.weight = weight;
+    }
+
+    /// Chance with which a ray that meets x2 ends there, if that is a lamp. Other vertices lie
+    /// where light paths end, with the same chance. The direction matters for glass alone, which no
+    /// ray ends on.
+    [[nodiscard]] double stop_chance(const Path& path) const {
+        if (path.edges() > 2) return 1.0;
+        return static_cast<double>(world_.stop_chance(path.x(2), path.x(2).normal));
     }
 
     World world_;

@@ -13,13 +13,14 @@ namespace mir {
 /// glTF's metallic-roughness ones. Both faces reflect. `specular` = 0 and `metallic` = 0 make it
 /// purely Lambertian.
 struct Material {
-    std::string name;                    ///< for messages and files
-    Rgb base_color{0.8f, 0.8f, 0.8f};    ///< linear reflectance, 0..1
-    float metallic = 0.0f;               ///< 0..1
-    float roughness = 1.0f;              ///< 0..1, GGX alpha is its square
-    float specular = 1.0f;               ///< weight of the dielectric interface, 0..1
-    float ior = 1.5f;                    ///< index of refraction of the dielectric interface, >= 1
-    Rgb emission;                        ///< radiance of the front, W m^-2 sr^-1
+    std::string name;                  ///< for messages and files
+    Rgb base_color{0.8f, 0.8f, 0.8f};  ///< linear reflectance, 0..1
+    float metallic = 0.0f;             ///< 0..1
+    float roughness = 1.0f;            ///< 0..1, GGX alpha is its square
+    float specular = 1.0f;             ///< weight of the dielectric interface, 0..1
+    float ior = 1.5f;                  ///< index of refraction of the dielectric interface, >= 1
+    /// Radiance of the front, W m^-2 sr^-1. Of a blended surface that of its covered share.
+    Rgb emission;
     bool emits_from_both_sides = false;  ///< the back with the front's radiance
     std::uint16_t light_group = 0;       ///< group that its light is counted in
     MaterialTextures textures;           ///< multiply what stands above, point by point

@@ -55,5 +55,13 @@ inline Rgb mean_of(const TextureImage& image, TexelEncoding encoding) {
     return {static_cast<float>(sum[0] / n), static_cast<float>(sum[1] / n),
             static_cast<float>(sum[2] / n)};
 }
+/// Mean alpha of an image, 0..1.
+inline float mean_alpha_of(const TextureImage& image) {
+    double sum = 0.0;
+    for (const std::uint32_t texel : image.texels) sum += static_cast<double>(texel >> 24) / 255.0;
+    return image.texels.empty()
+               ? 0.0f
+               : static_cast<float>(sum / static_cast<double>(image.texels.size()));
+}
 
 }  // namespace mir

@@ -84,8 +84,8 @@ MIR_HD void LuxelTracer<R, S, B>::weaken(const SeenLuxel& seen, Surface& surface
         const bool ends_specular = !seen.is_background && surfaces.is_specular(p.material);
         if (seen.events == 0 && !ends_specular) return;
         surface.emission = surface.emission * seen.light;
-        if (ends_specular && surfaces.is_inside_body(p.material, p.front))
-            surface.bsdf = B::without_lobe(surface.bsdf);
+        if (ends_specular)
+            surface.bsdf = surfaces.params_of_side(surface.bsdf, p.material, p.front);
         surface.bsdf = B::scaled(surface.bsdf, seen.reflection);
     }
 }

@@ -116,11 +116,13 @@ class EmitterLight {
         return lamp_point(pick.light, probability, uv);
     }
 
-    /// The point of a lamp in a direction.
+    /// The point of a lamp in a direction, for all that lie there.
     [[nodiscard]] MIR_HD LampPoint met(const LightReceiver& at, Vec3 direction) const {
         const LampAlongRay lamp = lamp_along(lights_, geometry_, at, direction);
         if (!lamp.is_found()) return nothing(at);
-        return lamp_point(lamp.lamp, lamp.probability, lamp.barycentrics);
+        LampPoint point = lamp_point(lamp.lamp, lamp.probability, lamp.barycentrics);
+        point.radiance = point.radiance * (1.0f / lamp.chance);
+        return point;
     }
 
     [[nodiscard]] MIR_HD LampPoint lamp_point(std::uint32_t lamp, float probability,

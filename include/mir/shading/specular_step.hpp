@@ -98,10 +98,11 @@ MIR_HD void roughen(const SpecularSurface& s, Numbers& numbers, SpecularStep& st
         step.weight = {};
         return;
     }
-    const float at_facet = s.dielectric(glm::dot(s.wo, h));
-    const float share = s.clear() * (is_mirror ? at_facet : 1.0f - at_facet);
-    const Rgb tint = is_mirror ? Rgb{1.0f, 1.0f, 1.0f} : s.factors.base_color;
-    step.weight = tint * (s.cover * share * ggx_g1(cosine, alpha) / step.probability);
+    const float facet = glm::dot(s.wo, h);
+    const float at_glass = s.dielectric(facet);
+    const Rgb share = is_mirror ? s.mirror(at_glass, facet)
+                                : s.factors.base_color * (s.clear() * (1.0f - at_glass));
+    step.weight = share * (s.cover * ggx_g1(cosine, alpha) / step.probability);
 }
 
 }  // namespace detail

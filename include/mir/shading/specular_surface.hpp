@@ -41,6 +41,15 @@ struct SpecularSurface {
         const float f = dielectric_reflectance(eta(), smaller(cosine, 1.0f));
         return f < 1.0f ? factors.specular * f : 1.0f;
     }
+    /// What a mirror reflects at a cosine: the clear share by the interface's reflectance
+    /// `at_glass`, the rest by the Fresnel term of CookTorrance. Its base is below that term alone:
+    /// where glass reflects all, the clear share must not add to what the base sends back.
+    [[nodiscard]] MIR_HD Rgb mirror(float at_glass, float cosine) const {
+        const CookTorrance::Params p = material_params(factors, CookTorrance{});
+        const float glass = clear() * at_glass;
+        return Rgb{glass, glass, glass} +
+               CookTorrance::schlick(p, larger(cosine, 0.0f)) * (1.0f - clear());
+    }
 };
 
 /// The shares of light that leave a surface other than by its Bsdf. Of all that is reflected and
@@ -74,12 +83,7 @@ struct SpecularShares {
         shares.transmitted = f.base_color * (s.cover * clear * (1.0f - reflected));
     const bool is_mirror = smooth && (clear > 0.0f || s.has_interface);
     if (!is_mirror && !(s.bounds_body() && !s.front)) return shares;
-    const CookTorrance::Params p = material_params(f, CookTorrance{});
-    const Rgb opaque = CookTorrance::schlick(p, larger(cosine, 0.0f));
-    const Rgb white{1.0f, 1.0f, 1.0f};
-    shares.mirrored =
-        clear > 0.0f ? s.cover * (white * (reflected * (1.0f - f.metallic)) + opaque * f.metallic)
-                     : s.cover * opaque;
+    shares.mirrored = s.cover * s.mirror(reflected, cosine);
     return shares;
 }
 

@@ -3,6 +3,7 @@
 
 #include "mir/concepts/ray_caster.hpp"
 #include "mir/core/decay.hpp"
+#include "mir/shading/next_surface.hpp"
 #include "mir/shading/specular_step.hpp"
 
 namespace mir {
@@ -91,8 +92,8 @@ struct SpecularTracer {
     template <class Numbers>
     [[nodiscard]] MIR_HD SpecularStep step_of(const SpecularEnd& end, const SpecularSurface& s,
                                               SpecularRules rules, Numbers& numbers) const {
-        typename B::Params p = surfaces.textured_params(s.factors);
-        if (surfaces.is_inside_body(end.point.material, end.point.front)) p = B::without_lobe(p);
+        const typename B::Params p = surfaces.params_of_side(surfaces.textured_params(s.factors),
+                                                             end.point.material, end.point.front);
         const bool shines = surfaces.shines(end.point);
         const float albedo = shines ? 1.0f : luminance(B::albedo(p, s.normal, s.wo));
         return specular_step(s, B::is_black(p) && !shines ? 0.0f : larger(albedo, 0.05f), rules,
@@ -122,12 +123,11 @@ struct SpecularTracer {
         const float side = step.event == SpecularEvent::mirror ? 1.0f : -1.0f;
         const Vec3 normal = side * p.geometric_normal;
         if (!(glm::dot(step.direction, normal) > 0.0f)) return false;
-        const Vec3 from = lift(p.position, normal, larger(p.offset, least_offset(p.position)));
         end.before += glm::length(p.position - end.ray.origin);
-        end.ray = {from, step.direction};
+        end.ray.direction = step.direction;
         end.is_straight = end.is_straight && step.event == SpecularEvent::pass;
         ++end.events;
-        end.is_background = !find_point(caster, end.ray, end.point);
+        end.is_background = !find_next(caster, normal, end.ray, end.point);
         return true;
     }
 

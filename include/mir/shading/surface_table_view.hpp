@@ -119,6 +119,14 @@ struct SurfaceTableView {
         const MaterialFactors& f = entries[material].factors;
         return !front && !f.is_thin && f.transmission > 0.0f && f.metallic < 1.0f;
     }
+    /// What of the parameters `p` of a material chains leave to one of its sides.
+    [[nodiscard]] MIR_HD typename B::Params params_of_side(const typename B::Params& p,
+                                                           std::uint32_t material,
+                                                           bool front) const {
+        if constexpr (SpecularBsdf<B>)
+            if (is_inside_body(material, front)) return B::without_lobe(p);
+        return p;
+    }
     /// True where the side of a point that is met emits light.
     [[nodiscard]] MIR_HD bool shines(const SurfacePoint& p) const {
         const SurfaceEntry<B>& e = entries[p.material];
@@ -152,8 +160,10 @@ struct SurfaceTableView {
     }
     [[nodiscard]] MIR_HD Rgb emission(const SurfaceEntry<B>& e, const SurfacePoint& p) const {
         const Texture& texture = e.textures.emission;
-        if (!texture.is_set()) return e.emission;
-        return e.emission * textures.color(texture, p.texture_coordinates, TexelEncoding::srgb);
+        Rgb light = e.emission;
+        if (e.is_blended) light = light * coverage(p.material, attributes_of(p));
+        if (!texture.is_set()) return light;
+        return light * textures.color(texture, p.texture_coordinates, TexelEncoding::srgb);
     }
     [[nodiscard]] MIR_HD MaterialFactors factors(const SurfaceEntry<B>& e,
                                                  const VertexAttributes& at) const;

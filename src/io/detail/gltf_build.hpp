@@ -104,13 +104,11 @@ class GltfBuilder {
         to.emissiveFactor = {0.0, 0.0, 0.0};
         if (from.emits()) {
             // glTF bounds the factor by 1, so the largest channel goes into the strength.
-            const double covered = from.is_blended && from.alpha > 0.0f ? from.alpha : 1.0;
-            const double strength = max_channel(from.emission) / covered;
             const double largest = max_channel(from.emission);
             to.emissiveFactor = {from.emission.r / largest, from.emission.g / largest,
                                  from.emission.b / largest};
             extend(to.extensions, "KHR_materials_emissive_strength",
-                   {{"emissiveStrength", number(strength)}});
+                   {{"emissiveStrength", number(largest)}});
         }
         if (from.specular != 1.0f)
             extend(to.extensions, "KHR_materials_specular",

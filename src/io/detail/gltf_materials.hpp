@@ -75,8 +75,6 @@ class GltfMaterials {
                                   "emissiveFactor x emissiveStrength", place_);
         };
         to.emission = {channel(0), channel(1), channel(2)};
-        // The holes of a blended surface do not shine. Its texture's are not counted.
-        if (to.is_blended) to.emission = to.emission * to.alpha;
     }
 
     void extension(const std::string& name, const tinygltf::Value& value, Material& to) {
@@ -182,12 +180,12 @@ class GltfMaterials {
         return {};
     }
 
-    /// What is seen in its own colour whatever the light is shines with that colour. A mask needs
-    /// the texture, which then colours black.
+    /// What is seen in its own colour whatever the light is shines with that colour. Masks and
+    /// blended surfaces need the texture, which then colours black.
     static void shine(Material& to) {
         to.emission = to.base_color;
         to.textures.emission = to.textures.base_color;
-        if (!to.is_masked()) to.textures.base_color = {};
+        if (!to.is_masked() && !to.is_blended) to.textures.base_color = {};
         to.textures.metallic_roughness = {};
         to.base_color = {0.0f, 0.0f, 0.0f};
         to.metallic = 0.0f;

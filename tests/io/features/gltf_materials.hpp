@@ -74,7 +74,7 @@ inline Features gltf_alpha() {
                     CHECK_FALSE(m.is_masked());
                     CHECK(m.is_blended);
                 })),
-                "alpha is the covered share of the surface"),
+                "alpha is the covered share of the surface, which alone shines and reflects"),
         feature("any other mode", "`alphaMode`", {with_material({{"alphaMode", "HASH"}})},
                 counted({"alphaMode HASH"},
                         material([](const mir::Material& m) { CHECK_FALSE(m.is_blended); })),

@@ -7,6 +7,7 @@
 #include "mir/core/warp.hpp"
 #include "mir/scene/alpha_mask.hpp"
 #include "mir/scene/geometry_view.hpp"
+#include "mir/scene/textured_factors.hpp"
 
 namespace mir {
 
@@ -47,6 +48,8 @@ struct LampEntry {
     std::uint16_t light_group = 0;  ///< group that its light is counted in
     Texture texture{};              ///< multiplies the radiance
     AlphaMask mask{};               ///< where it cuts away, nothing shines
+    bool is_blended = false;        ///< the alpha of `mask` is the share that shines
+    bool is_see_through = false;    ///< light behind it may be seen
 };
 
 /// What samples of an emissive triangle share.
@@ -113,11 +116,20 @@ struct LampView {
     [[nodiscard]] MIR_HD Rgb radiance_at(const GeometryView<S>& geometry, std::uint32_t triangle,
                                          Vec2 barycentrics) const {
         const LampEntry& lamp = entries[geometry.materials[triangle]];
-        if (!lamp.texture.is_set() && !lamp.mask.is_set()) return lamp.radiance;
-        const Vec2 uv = geometry.attributes(triangle, barycentrics).texture_coordinates;
+        if (!lamp.texture.is_set() && !lamp.mask.is_set() && !lamp.is_blended) return lamp.radiance;
+        const VertexAttributes at = geometry.attributes(triangle, barycentrics);
+        const Vec2 uv = at.texture_coordinates;
         if (lamp.mask.is_set() && !lamp.mask.is_solid(textures, uv)) return {};
-        if (!lamp.texture.is_set()) return lamp.radiance;
-        return lamp.radiance * textures.color(lamp.texture, uv, TexelEncoding::srgb);
+        Rgb light = lamp.radiance;
+        if (lamp.is_blended)
+            light = light * covered_share(lamp.mask.alpha, lamp.mask.texture, textures, at);
+        if (!lamp.texture.is_set()) return light;
+        return light * textures.color(lamp.texture, uv, TexelEncoding::srgb);
+    }
+    /// True where light from behind the triangle at `index` of `triangles` may come through.
+    [[nodiscard]] MIR_HD bool is_see_through(const GeometryView<S>& geometry,
+                                             std::uint32_t index) const {
+        return entries[geometry.materials[triangles[index]]].is_see_through;
     }
 };
 

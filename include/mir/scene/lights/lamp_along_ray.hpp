@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mir/core/ray.hpp"
+#include "mir/scene/crossing_number.hpp"
 #include "mir/scene/light_table_view.hpp"
 
 #include <cmath>
@@ -9,12 +10,13 @@
 
 namespace mir {
 
-/// The emissive triangle that a ray meets first. What else is in its way is not asked.
+/// An emissive triangle that a ray meets. What else is in its way is not asked.
 struct LampAlongRay {
     std::uint32_t lamp = LightPick::none;  ///< index into LampView::triangles
     float probability = 0.0f;              ///< with which LightTreeView::pick() chooses it
     Vec2 barycentrics{0};                  ///< of the place, see EmitterSample
     float distance = INFINITY;             ///< of the ray's origin, metres
+    float chance = 1.0f;                   ///< of the choice among the lamps along the ray
 
     /// True when the ray meets a lamp.
     [[nodiscard]] MIR_HD bool is_found() const { return lamp != LightPick::none; }
@@ -22,13 +24,18 @@ struct LampAlongRay {
 
 namespace detail {
 
-/// A walk through a LightTree along a ray from a receiver.
+/// A walk through a LightTree along a ray from a receiver, for what lies behind a lamp.
 template <Space S>
 class LampSearch {
  public:
     MIR_HD LampSearch(const LightTableView<S>& lights, const GeometryView<S>& geometry,
-                      const LightReceiver& at, Vec3 direction)
-        : lights_(lights), geometry_(geometry), at_(at), direction_(direction) {}
+                      const LightReceiver& at, Vec3 direction, const LampAlongRay& before)
+        : lights_(lights),
+          geometry_(geometry),
+          at_(at),
+          direction_(direction),
+          before_(before.lamp),
+          nearest_(before.is_found() ? before.distance : 0.0f) {}
 
     [[nodiscard]] MIR_HD LampAlongRay operator()() {
         Branch next{0, 1.0f};
@@ -78,7 +85,7 @@ class LampSearch {
     /// Keeps a lamp if it is the nearest that shines along the ray. Source: Moeller and Trumbore,
     /// "Fast, minimum storage ray-triangle intersection", 1997.
     MIR_HD void meet(std::uint32_t lamp, float probability) {
-        if (lamp >= lights_.lamps.count) return;
+        if (lamp >= lights_.lamps.count || lamp == before_) return;
         const std::uint32_t triangle = lights_.lamps.triangles[lamp];
         const Vec3 corner = geometry_.corner(triangle, 0);
         const Vec3 a = geometry_.corner(triangle, 1) - corner;
@@ -93,7 +100,8 @@ class LampSearch {
         const Vec3 other = glm::cross(from, a);
         const float v = glm::dot(direction_, other) / volume;
         const float t = glm::dot(b, other) / volume;
-        if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && t > 0.0f && t < found_.distance)) return;
+        if (!(u >= 0.0f && v >= 0.0f && u + v <= 1.0f && t > nearest_ && t < found_.distance))
+            return;
         if (is_black(lights_.lamps.radiance_at(geometry_, triangle, {u, v}))) return;
         found_ = {lamp, probability, {u, v}, t};
     }
@@ -105,6 +113,8 @@ class LampSearch {
     const GeometryView<S>& geometry_;
     const LightReceiver& at_;
     Vec3 direction_;
+    std::uint32_t before_;  ///< a lamp that is not looked for
+    float nearest_;         ///< what is not farther is not looked for, metres
     LampAlongRay found_;
     Branch branches_[2];
     Branch waiting_[deepest];
@@ -112,13 +122,27 @@ class LampSearch {
 
 }  // namespace detail
 
-/// The lamp that a ray from a receiver into the unit direction `w` meets first. The LightTree must
-/// not be empty; lights without a surface are not met. Host and device.
+/// A lamp that a ray from a receiver into the unit direction `w` meets. The first, or one behind a
+/// lamp that is seen through: each of these is taken with half of the chance that is left, where
+/// there is another. The LightTree must not be empty; lights without a surface are not met. Host
+/// and device.
 template <Space S>
 [[nodiscard]] MIR_HD LampAlongRay lamp_along(const LightTableView<S>& lights,
                                              const GeometryView<S>& geometry,
                                              const LightReceiver& at, Vec3 w) {
-    return detail::LampSearch<S>(lights, geometry, at, w)();
+    LampAlongRay found;
+    for (;;) {
+        LampAlongRay next = detail::LampSearch<S>(lights, geometry, at, w, found)();
+        if (!next.is_found()) return found;
+        if (found.is_found()) {
+            found.chance *= 0.5f;
+            // No segment of the picture: its own bit is another number.
+            if (crossing_number(at.position, at.position + w, found.lamp) < 0.5f) return found;
+        }
+        next.chance = found.chance;
+        found = next;
+        if (!lights.lamps.is_see_through(geometry, found.lamp)) return found;
+    }
 }
 
 }  // namespace mir

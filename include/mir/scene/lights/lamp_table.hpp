@@ -32,17 +32,26 @@ inline float checked_power(double power, const std::string& who) {
                     "emission, or the size of what shines or is lit");
 }
 
-/// Radiance of a material without its place: a texture counts by its mean.
+/// Covered share of a material without its place: a texture counts by its mean.
+inline float mean_cover(const Scene& scene, const Material& m) {
+    if (!m.is_blended) return 1.0f;
+    const Texture& texture = m.textures.base_color;
+    return texture.is_set() ? m.alpha * mean_alpha_of(scene.images[texture.image]) : m.alpha;
+}
+
+/// Radiance of a material without its place: textures count by their means.
 inline Rgb mean_emission(const Scene& scene, const Material& m) {
+    if (!m.emits()) return m.emission;
     const Texture& texture = m.textures.emission;
-    if (!m.emits() || !texture.is_set()) return m.emission;
-    return m.emission * mean_of(scene.images[texture.image], TexelEncoding::srgb);
+    const Rgb light = m.emission * mean_cover(scene, m);
+    if (!texture.is_set()) return light;
+    return light * mean_of(scene.images[texture.image], TexelEncoding::srgb);
 }
 
 /// The images of a scene where lamps use any. A device holds them once more for the lights.
 inline TextureTable lamp_textures(const Scene& scene) {
     for (const Material& m : scene.materials)
-        if (m.emits() && (m.textures.emission.is_set() || m.is_masked()))
+        if (m.emits() && (m.textures.emission.is_set() || m.is_masked() || m.is_blended))
             return TextureTable(scene);
     return {};
 }
@@ -59,7 +68,8 @@ class LampTable {
         : textures_(detail::lamp_textures(scene)) {
         for (const Material& m : scene.materials) {
             detail::check_emission(m.emission, "material", m.name);
-            entries_.push_back({m.emission, m.light_group, m.textures.emission, alpha_mask_of(m)});
+            entries_.push_back({m.emission, m.light_group, m.textures.emission, alpha_mask_of(m),
+                                m.is_blended, m.is_see_through()});
         }
         find_triangles(scene, geometry);
         by_power_ = DiscreteDistribution(powers_);

@@ -22,7 +22,7 @@ inline bool same_record(const VplRecord& a, const VplRecord& b) {
 /// Whether light arrives at two VPLs in the same way, bit for bit.
 inline bool same_arrival(const VplArrival& a, const VplArrival& b) {
     return a.towards_light == b.towards_light && a.shading_normal == b.shading_normal &&
-           a.power == b.power && a.material == b.material &&
+           a.power == b.power && a.material == b.material && a.is_front == b.is_front &&
            a.attributes.texture_coordinates == b.attributes.texture_coordinates &&
            a.attributes.color == b.attributes.color;
 }
