@@ -4,6 +4,7 @@
 #include "mir/core/error.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <thread>
 #include <utility>
@@ -42,6 +43,19 @@ void check_mpi() {
             "MPI_THREAD_FUNNELED");
 }
 
+/// A copy for messages of our own. A rank that comes early sleeps: MPI's own waiting would keep its
+/// core busy.
+MPI_Comm copy_of(MPI_Comm ranks) {
+    constexpr const char* what = "the ranks have no communicator that can be copied";
+    MPI_Comm copy = MPI_COMM_NULL;
+    MPI_Request all_are_there = MPI_REQUEST_NULL;
+    check(MPI_Comm_idup(ranks, &copy, &all_are_there), what);
+    int done = 0;
+    while (check(MPI_Test(&all_are_there, &done, MPI_STATUS_IGNORE), what), done == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return copy;
+}
+
 /// Gives MPI time for messages on their way; true when they are out.
 bool are_sent(std::vector<MPI_Request>& parts) {
     int sent = 0;
@@ -54,7 +68,7 @@ bool are_sent(std::vector<MPI_Request>& parts) {
 
 RankPeers::RankPeers(MPI_Comm ranks) {
     check_mpi();
-    check(MPI_Comm_dup(ranks, &ranks_), "the ranks have no communicator that can be copied");
+    ranks_ = copy_of(ranks);
     int rank = 0;
     int count = 1;
     MPI_Comm_set_errhandler(ranks_, MPI_ERRORS_RETURN);
