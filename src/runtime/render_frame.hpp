@@ -157,8 +157,8 @@ class RenderFrame {
 
     /// Puts a band's layers on the film and its guides into the result. Layers come in the order of
     /// FilmLayer. Bands come from top to bottom, none higher than the first, in their `turn`. Its
-    /// seam, if it has one, is where the film of the rows above ended, which may be another frame's,
-    /// and becomes where this one ends. The turn is passed on then.
+    /// seam, if it has one, is where the film of the rows above ended, which may be another
+    /// frame's, and becomes where this one ends. The turn is passed on then.
     virtual void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) = 0;
     /// The images of the layers, once every band was put there; leaves the frame without. Pixels
     /// that films of other frames develop mean nothing.

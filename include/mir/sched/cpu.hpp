@@ -8,12 +8,13 @@
 #include "mir/reconstruct.hpp"
 #include "mir/shading/contribution.hpp"
 
+#include <algorithm>
+
 namespace mir::sched {
 
-/// The oracle: algorithm 3 of the paper, a plain loop over luxels and
-/// VPLs. It shares only contribution() with faster schedulers, so that it
-/// does not repeat their mistakes. Given a KnownVisibility it traces no
-/// ray.
+/// The oracle: algorithm 3 of the paper, a plain loop over luxels and VPLs. It shares only the
+/// parts of contribution() with faster schedulers, so that it does not repeat their mistakes. Given
+/// a KnownVisibility it traces no ray.
 template <Executor E>
 struct Cpu {
     E& executor;                 ///< runs blocks of luxels
@@ -64,10 +65,28 @@ struct Cpu {
                             sum += in_.shading(hit, surface, in_.vpls[j]);
                 });
             else
-                for (VplIndex j = 0; j < in_.vpls.size(); ++j)
-                    sum += contribution(hit, surface, in_.vpls[j], in_.visibility, in_.shading);
+                for (VplIndex j = 0; j < in_.vpls.size(); j += portion)
+                    sum = gather(hit, surface, j, std::min(in_.vpls.size() - j, portion), sum);
             return sum;
         }
+
+        /// `sum` and the contributions of some VPLs. Shading has the processor's instructions: with
+        /// those that every x86-64 has it takes thirty times as long.
+        [[nodiscard]] Rgb gather(const Hit& hit, const auto& surface, VplIndex first,
+                                 VplIndex count, Rgb sum) const {
+            Rgb shaded[portion];
+            run_with(best_instruction_set(), [&] {
+                for (VplIndex k = 0; k < count; ++k)
+                    shaded[k] = unshadowed(hit, surface, in_.vpls[first + k], in_.shading);
+            });
+            for (VplIndex k = 0; k < count; ++k)
+                if (!is_black(shaded[k]) &&
+                    in_.visibility.visible(in_.vpls[first + k].position, hit.position))
+                    sum += shaded[k];
+            return sum;
+        }
+
+        static constexpr VplIndex portion = 64;
 
         const In& in_;
         Image<Rgb>& image_;
