@@ -9,6 +9,9 @@ from pictures import render
 from scenes import camera, diffuse, empty, lamp, square
 
 _MOST_DIFFERENCE = 0.01
+# Cycles of 3.4 draws spots by 0.7 % darker than that of 5.0 does: mir's paths, which agree with the
+# latter within 0.3 %, are brighter by 0.7 to 0.9 % there.
+_MOST_DIFFERENCE_OF_OLD_SPOTS = 0.012
 _ABOVE = (0.3, 0.2, 2.0)
 
 
@@ -94,7 +97,9 @@ def check(folder, samples: int = 600) -> list[str]:
             f"{name:22}{cycles:10.5f}{path:10.5f}{path / cycles:9.4f}"
             f"{vpls:10.5f}{vpls / cycles:9.4f}"
         )
+        is_old_spot = name.startswith("spot") and bpy.app.version < (4, 0, 0)
+        most = _MOST_DIFFERENCE_OF_OLD_SPOTS if is_old_spot else _MOST_DIFFERENCE
         for integrator, mean in (("path", path), ("vpl", vpls)):
-            if not abs(mean / cycles - 1.0) < _MOST_DIFFERENCE:
+            if not abs(mean / cycles - 1.0) < most:
                 failures.append(f"{name}, {integrator}: {mean:.5f}, Cycles {cycles:.5f}")
     return failures
