@@ -7,44 +7,60 @@
 #include "mir/shading/sky_tries.hpp"
 
 #include <cmath>
-#include <optional>
+#include <cstddef>
+#include <vector>
 
 namespace mir {
 namespace {
 
 constexpr std::uint32_t places = 2048;
 
-/// The guide of a block whose luxels all lie at one place, from one set of tries.
-SkyGuide sky_guide_at(const SkyTries<AnyVisibility>& tries, const Hit& hit, const Random& random) {
-    SkyTried tried;
-    for (std::uint32_t k = 0; k < SkyTried::side; ++k) tried.seen[k] = tries(hit, k, 0, random);
-    return {&tried, 1, 1};
+/// Guides to the sky as of blocks whose luxels all lie at one place, row by row; from one set of
+/// tries. None where there is no use for them.
+template <class Luxels>
+std::vector<SkyGuide> sky_guides_at(RenderJob& job, const AnyVisibility& visibility,
+                                    const Luxels& luxels, DirectSamples samples) {
+    if (!samples.want_sky_guide() || job.lights.environment().empty()) return {};
+    const Extent extent = luxels.extent();
+    const LuxelBand numbers{0, luxel_grid(extent, 1), job.settings.seed};
+    const SkyTries<AnyVisibility> tries(job.lights.view(), visibility);
+    std::vector<SkyGuide> guides(static_cast<std::size_t>(extent.area()));
+    for_each_luxel(luxels, job.executor,
+                   [&](std::uint32_t x, std::uint32_t y, const auto& place, LuxelIndex i) {
+                       const Hit hit = place.hit(i);
+                       if (is_empty(hit)) return;
+                       const Random random = numbers.luxel_numbers(x, y, Stream::sky);
+                       SkyTried tried;
+                       for (std::uint32_t k = 0; k < SkyTried::side; ++k)
+                           tried.seen[k] = tries(hit, k, 0, random);
+                       guides[std::size_t{y} * extent.width + x] = SkyGuide(&tried, 1, 1);
+                   });
+    return guides;
 }
 
 /// Mean luminance of all luxels of a pixel, as if all lay at one place. Of each place.
 template <Bsdf B>
 std::vector<double> estimate(RenderJob& job, AnyVisibility visibility,
                              const BlockedGBuffer<typename B::Params>& luxels,
-                             DirectSamples samples, std::uint64_t which) {
+                             DirectSamples samples, const std::vector<SkyGuide>& skies,
+                             std::uint64_t which) {
     const LuxelGrid grid = luxel_grid(luxels.extent(), job.settings.luxels_per_pixel);
-    const LuxelBand numbers{0, grid, pass_seed(job.settings.seed, which)};
-    const LuxelLight<B, AnyVisibility> light(job.lights, visibility, samples, numbers);
-    const bool guides = samples.want_sky_guide() && !job.lights.environment().empty();
-    const SkyTries<AnyVisibility> tries(job.lights.view(), visibility);
+    const LuxelLight<B, AnyVisibility> light(job.lights, visibility, samples,
+                                             {0, grid, pass_seed(job.settings.seed, which)});
     std::vector<double> means(static_cast<std::size_t>(luxels.extent().area()));
     for_each_luxel(
         luxels, job.executor,
         [&](std::uint32_t x, std::uint32_t y, const auto& place, LuxelIndex i) {
             const Hit hit = place.hit(i);
             if (is_empty(hit)) return;
-            std::optional<SkyGuide> sky;
-            if (guides) sky = sky_guide_at(tries, hit, numbers.luxel_numbers(x, y, Stream::sky));
+            const std::size_t at = std::size_t{y} * luxels.extent().width + x;
+            const SkyGuide* const sky = skies.empty() ? nullptr : &skies[at];
             double sum = 0.0;
             for (std::uint32_t cell = 0; cell < grid.per_pixel(); ++cell)
                 sum += static_cast<double>(luminance(
                     light(hit, place.surface(i), x * grid.per_pixel_x + cell % grid.per_pixel_x,
-                          y * grid.per_pixel_y + cell / grid.per_pixel_x, sky ? &*sky : nullptr)));
-            means[y * luxels.extent().width + x] = sum / grid.per_pixel();
+                          y * grid.per_pixel_y + cell / grid.per_pixel_x, sky)));
+            means[at] = sum / grid.per_pixel();
         });
     return means;
 }
@@ -77,8 +93,10 @@ double direct_noise(RenderFrame& frame, DirectSamples samples) {
     return job.with_surfaces([&]<Bsdf B>(const SurfaceTable<B>& surfaces) {
         BlockedGBuffer<typename B::Params> luxels(probes.cells(), probes.cells());
         fill_gbuffer<B>(luxels, 0, probes, rays.ray_caster(), surfaces, job.executor);
-        return relative_noise(estimate<B>(job, rays.visibility(), luxels, samples, 1),
-                              estimate<B>(job, rays.visibility(), luxels, samples, 2));
+        const AnyVisibility visibility = rays.visibility();
+        const std::vector<SkyGuide> skies = sky_guides_at(job, visibility, luxels, samples);
+        return relative_noise(estimate<B>(job, visibility, luxels, samples, skies, 1),
+                              estimate<B>(job, visibility, luxels, samples, skies, 2));
     });
 }
 
