@@ -54,7 +54,7 @@ class DrawLoop final : public SharedLoop {
             .take();
     }
     /// Puts packed() paths where they belong.
-    void take(std::span<const std::byte> bytes) {
+    void take(std::span<const std::byte> bytes) const {
         BytesReader in(bytes);
         const auto begin = static_cast<std::size_t>(in.get<std::uint64_t>() - paths_.first);
         const auto weights = in.get_all<double>();

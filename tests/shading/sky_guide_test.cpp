@@ -30,7 +30,7 @@ SkyTried through_a_window() {
 }
 
 Vec2 middle(std::uint32_t x, std::uint32_t y) {
-    return Vec2((static_cast<float>(x) + 0.5f) / side, (static_cast<float>(y) + 0.5f) / side);
+    return {(static_cast<float>(x) + 0.5f) / side, (static_cast<float>(y) + 0.5f) / side};
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ void check_mpi() {
 /// A copy for messages of our own. A rank that comes early sleeps: MPI's own waiting would keep its
 /// core busy.
 MPI_Comm copy_of(MPI_Comm ranks) {
+    check_mpi();
     constexpr const char* what = "the ranks have no communicator that can be copied";
     MPI_Comm copy = MPI_COMM_NULL;
     MPI_Request all_are_there = MPI_REQUEST_NULL;
@@ -66,9 +67,7 @@ bool are_sent(std::vector<MPI_Request>& parts) {
 
 }  // namespace
 
-RankPeers::RankPeers(MPI_Comm ranks) {
-    check_mpi();
-    ranks_ = copy_of(ranks);
+RankPeers::RankPeers(MPI_Comm ranks) : ranks_(copy_of(ranks)) {
     int rank = 0;
     int count = 1;
     MPI_Comm_set_errhandler(ranks_, MPI_ERRORS_RETURN);

@@ -79,10 +79,11 @@ struct Cpu {
                 for (VplIndex k = 0; k < count; ++k)
                     shaded[k] = unshadowed(hit, surface, in_.vpls[first + k], in_.shading);
             });
-            for (VplIndex k = 0; k < count; ++k)
-                if (!is_black(shaded[k]) &&
-                    in_.visibility.visible(in_.vpls[first + k].position, hit.position))
-                    sum += shaded[k];
+            for (VplIndex k = 0; k < count; ++k) {
+                if (is_black(shaded[k])) continue;
+                const Vpl vpl = in_.vpls[first + k];
+                if (in_.visibility.visible(vpl.position, hit.position)) sum += shaded[k];
+            }
             return sum;
         }
 
