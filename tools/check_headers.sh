@@ -25,10 +25,9 @@ esac
     tail -n 20 build/cpu.log >&2
     exit 1
 }
-turn=$(git log -1 --format=%ct 2>/dev/null) || turn=0
 objects=$(ninja -C build/cpu -t targets all |
     sed -n 's/^\(.*_verify_interface_header_sets\/mir\/.*\.o\): .*/\1/p' |
-    awk -v share="$share" -v turn="$turn" 'NR % share == turn % share')
+    awk -v share="$share" -v turn="$(mir_turn "$share")" 'NR % share == turn')
 [ -n "$objects" ] || {
     echo "build/cpu checks no headers; remove it and try again" >&2
     exit 1

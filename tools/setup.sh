@@ -98,6 +98,12 @@ mir_jobs() {
     echo "$jobs"
 }
 
+# mir_turn N: 0 to N - 1, another from commit to commit, for checks that commits take turns with.
+mir_turn() {
+    turn=$(git log -1 --format=%ct 2>/dev/null) || turn=0
+    echo $((turn % $1))
+}
+
 # Tests want packages that rendering does without: they are left out of a build folder that
 # render.sh makes, and taken in by the others.
 mir_configure() {
