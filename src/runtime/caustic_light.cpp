@@ -150,8 +150,8 @@ CausticLight::CausticLight(RenderFrame& frame, const ImageBands& bands) {
     });
 }
 
-std::vector<double> CausticLight::add(RenderFrame& by, const FrameBand& band,
-                                      std::vector<LayerPtr>& layers) const {
+CausticRows CausticLight::add(RenderFrame& by, const FrameBand& band,
+                              std::vector<LayerPtr>& layers) const {
     if (rays_ == nullptr) return {};
     const std::uint32_t end = band.first_row + band.extent().height;
     const auto row_before = [](const CausticSplat& s, std::uint32_t y) { return s.y < y; };
@@ -159,12 +159,16 @@ std::vector<double> CausticLight::add(RenderFrame& by, const FrameBand& band,
     const auto last = std::lower_bound(first, splats_.end(), end, row_before);
     const std::vector<CausticSplat> back = by.job().with_surfaces(
         [&](const auto& surfaces) { return traced_back(by.job(), *rays_, surfaces, band); });
-    std::vector<double> rows(band.extent().height);
+    CausticRows rows{std::vector<double>(band.extent().height),
+                     std::vector<double>(band.extent().height)};
     for (const std::span<const CausticSplat> splats :
          {std::span<const CausticSplat>(first, last), std::span<const CausticSplat>(back)}) {
         add_to_layers(splats, by, band, layers);
-        for (const CausticSplat& s : splats)
-            rows[s.y - band.first_row] += static_cast<double>(luminance(s.radiance));
+        for (const CausticSplat& s : splats) {
+            const auto light = static_cast<double>(luminance(s.radiance));
+            rows.all[s.y - band.first_row] += light;
+            if (s.bounce == 1) rows.direct[s.y - band.first_row] += light;
+        }
     }
     return rows;
 }

@@ -8,6 +8,12 @@
 
 namespace mir {
 
+/// Luminances of a band's rows, W m^-2 sr^-1; empty where no caustics are traced.
+struct CausticRows {
+    std::vector<double> all;     ///< of all caustics
+    std::vector<double> direct;  ///< of those that belong to direct light
+};
+
 /// Light that mirrors and glass throw on the surfaces of a render, by paths of the host. Those from
 /// the lights are traced at once, as they may end anywhere; what luxels see in mirrors and through
 /// bodies is traced back band by band.
@@ -19,11 +25,11 @@ class CausticLight {
     CausticLight(RenderFrame& frame, const ImageBands& bands);
 
     /// Adds all to a band's layers (FilmLayer): what lamps send to direct light, the rest to
-    /// indirect light and to the bounces where there are any. Returns the luminance of each row,
-    /// W m^-2 sr^-1; none where nothing is traced. Several threads may add, to a band each.
+    /// indirect light and to the bounces where there are any. Several threads may add, to a band
+    /// each.
     /// @throws Error(cancelled)
-    [[nodiscard]] std::vector<double> add(RenderFrame& by, const FrameBand& band,
-                                          std::vector<LayerPtr>& layers) const;
+    [[nodiscard]] CausticRows add(RenderFrame& by, const FrameBand& band,
+                                  std::vector<LayerPtr>& layers) const;
 
  private:
     const AnyEngine* rays_ = nullptr;   ///< null: nothing is traced

@@ -222,7 +222,7 @@ void DiscRender<B>::render_band(RenderFrame& by, const FrameBand& band, const So
     append_indirect(by, band, sources, layers);
     const std::vector<double> luminances = by.row_luminances(*layers[indirect_layer]);
     turn.wait();
-    add_luminances(job_, band, {luminances, {}, {}, {}});
+    add_luminances(job_, band, {luminances, {}, {}, {}, {}});
     by.put(band, std::move(layers), turn);
 }
 

@@ -124,7 +124,7 @@ struct BandLight {
     std::vector<double> indirect;
     std::vector<double> removed;   ///< none where nothing is
     std::vector<double> residual;  ///< the same
-    std::vector<double> caustic;   ///< the same
+    CausticRows caustic;           ///< the same
 };
 
 /// The light that the bound removed from a band, by the VPLs.
@@ -227,7 +227,9 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
         if (stores && !band->knows_visibility()) find_visible(by, *band, vpls.span());
         BandLight made = light_band(by, *band, bound, light, caustics);
         turn.wait();
-        add_luminances(job, *band, {made.indirect, made.removed, made.residual, made.caustic});
+        add_luminances(
+            job, *band,
+            {made.indirect, made.removed, made.residual, made.caustic.all, made.caustic.direct});
         by.put(*band, std::move(made.layers), turn);
     });
     develop(frame);

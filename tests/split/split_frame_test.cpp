@@ -297,16 +297,23 @@ TEST_CASE("Frames share caustics, rows have theirs, and their sums are those of 
     RenderSettings without = s;
     without.caustics = 0;
     const RenderResult dark = drawn_by_one(without, glass());
-    const auto mean = [](const RenderResult& r) {
+    const auto mean = [](const mir::Image<mir::Rgb>& image) {
         double sum = 0.0;
-        for (const mir::Rgb& c : r.beauty.pixels()) sum += static_cast<double>(luminance(c));
-        return sum / static_cast<double>(r.beauty.extent().area());
+        for (const mir::Rgb& c : image.pixels()) sum += static_cast<double>(luminance(c));
+        return sum / static_cast<double>(image.extent().area());
     };
     // A box filter leaves the mean of the luxels.
     s.filter = without.filter = mir::default_filter(mir::FilterKind::box);
-    CHECK(mean(drawn_by_one(s, glass())) - mean(drawn_by_one(without, glass())) ==
+    const RenderResult boxes = drawn_by_one(s, glass());
+    const RenderResult dark_boxes = drawn_by_one(without, glass());
+    CHECK(mean(boxes.beauty) - mean(dark_boxes.beauty) ==
           Approx(one.statistics.caustic_luminance).epsilon(1e-3));
+    CHECK(mean(boxes.direct) - mean(dark_boxes.direct) ==
+          Approx(one.statistics.caustic_direct_luminance).epsilon(1e-3));
+    CHECK(one.statistics.caustic_direct_luminance > 0.0);
+    CHECK(one.statistics.caustic_direct_luminance < one.statistics.caustic_luminance);
     CHECK(dark.statistics.caustic_luminance == 0.0);
+    CHECK(dark.statistics.caustic_direct_luminance == 0.0);
 
     s.rows = {9, 17};
     RenderResult cut = drawn_by_one(small_whole(s), glass());

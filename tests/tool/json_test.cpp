@@ -46,6 +46,9 @@ TEST_CASE("a render's statistics come as JSON, and nothing else on standard outp
     CHECK(all.at("indirect_luminance").get<double>() > 0.0);
     for (const char* key : {"path_luminance", "states", "dropped_share"})
         CHECK(all.at(key).get<double>() == 0.0);
+    double light = 0.0;
+    for (const json& each : all.at("light_budget")) light += each.at("share").get<double>();
+    CHECK(light == Approx(1.0));
     const json& seconds = all.at("seconds");
     for (const char* key :
          {"upload", "bootstrap", "paths", "residual", "visibility", "response", "download"})

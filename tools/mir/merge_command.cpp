@@ -27,7 +27,7 @@ int run(const MergeOptions& options) {
                      "the picture would replace a shard of it; give another name with -o");
     note_idle_options(o.settings, merged.result);
     write_outputs(paths, merged.result, o);
-    if (!options.quiet) print_summary(merged.result);
+    if (!options.quiet) print_summary(merged.result, o.settings);
     if (options.json) {
         const mir::Image<mir::Rgb> no_reference;
         print_json(paths, merged.result, o, Convergence(no_reference), Denoising{});

@@ -163,7 +163,7 @@ int render_with(const RenderOptions& options, mir::PictureTeam* team) {
     write_outputs(paths, result, o);
     if (bands && result.statistics.complete) bands->remove();
     write_render_report({o, loaded, result, reference, convergence});
-    if (!o.quiet) print_summary(result);
+    if (!o.quiet) print_summary(result, o.settings);
     if (!o.quiet) print(denoising);
     if (o.json) {
         print_json(paths, result, o, convergence, denoising);

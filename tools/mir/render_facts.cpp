@@ -2,6 +2,7 @@
 #include "render_facts.hpp"
 
 #include "mir/compare/tile_luminances.hpp"
+#include "mir/runtime/light_budget.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -70,6 +71,24 @@ void add_missing(Json& out, const mir::RenderStatistics& s) {
                                 {"standard_error", d.standard_error},
                                 {"spread", d.spread},
                                 {"corrected", s.gather_corrected}};
+}
+
+/// The classes of the picture's light.
+Json budget_of(const mir::RenderResult& r, const mir::RenderSettings& settings) {
+    Json out = Json::array();
+    for (const mir::LightClass& c : mir::light_budget(r, settings)) {
+        Json missing = Json::array();
+        for (const mir::MissingLight& m : c.missing)
+            missing.push_back({{"by", m.why},
+                               {"share", m.share.share},
+                               {"standard_error", m.share.standard_error}});
+        out.push_back({{"light", c.light},
+                       {"brought_by", c.brought_by},
+                       {"share", c.share},
+                       {"standard_error", c.standard_error ? Json(*c.standard_error) : Json()},
+                       {"missing", missing}});
+    }
+    return out;
 }
 
 /// Where the bound removed light: 256 tiles at most.
@@ -143,6 +162,7 @@ void add_facts(Json& out, const mir::RenderResult& r, const mir::RenderSettings&
     out["residual_luminance"] = s.residual_luminance;
     out["caustic_paths"] = s.caustic_paths;
     out["caustic_luminance"] = s.caustic_luminance;
+    out["light_budget"] = budget_of(r, settings);
     out["mean_radiance"] = {{"beauty", mean_of(r.beauty)},
                             {"emission", mean_of(r.emission)},
                             {"direct", mean_of(r.direct)},

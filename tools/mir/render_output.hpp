@@ -34,8 +34,8 @@ void write_outputs(const OutputPaths& paths, const mir::RenderResult& result,
 /// Largest resident set of the process so far.
 std::uint64_t peak_memory_bytes();
 
-/// Statistics for people, on stderr, and warnings.
-void print_summary(const mir::RenderResult& result);
+/// Statistics for people, on stderr, what the light is made of, and warnings.
+void print_summary(const mir::RenderResult& result, const mir::RenderSettings& settings);
 
 /// Statistics for programs, on stdout.
 void print_json(const OutputPaths& paths, const mir::RenderResult& result,

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "mir/runtime/light_budget.hpp"
 #include "render_facts.hpp"
 #include "render_output.hpp"
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace mirtool {
 namespace {
@@ -38,23 +42,38 @@ void print_health(const mir::ChainHealth& h) {
     std::fprintf(stderr, "\n");
 }
 
-/// "1.2 +- 0.3 % by the bound", three digits of what is small.
-std::string missing_text(const mir::ShareEstimate& e, const char* by) {
-    char text[96];
-    std::snprintf(text, sizeof text, "%.3g +- %.1g %% %s", 100.0 * e.share,
-                  100.0 * e.standard_error, by);
+/// "1.2 +- 0.3 %", three digits of what is small.
+std::string share_text(double share, std::optional<double> error) {
+    char text[64];
+    if (error)
+        std::snprintf(text, sizeof text, "%.3g +- %.1g %%", 100.0 * share, 100.0 * *error);
+    else
+        std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
     return text;
 }
 
-void print_missing(const mir::RenderStatistics& s) {
-    if (const auto& d = s.gather_difference)
+std::string missing_text(const std::vector<mir::MissingLight>& missing) {
+    std::string text;
+    for (const mir::MissingLight& m : missing)
+        text += (text.empty() ? "" : ", ") + share_text(m.share.share, m.share.standard_error) +
+                " by " + m.why;
+    return text;
+}
+
+void print_light(const mir::RenderResult& r, const mir::RenderSettings& settings) {
+    const auto print = [](const std::string& light, const std::string& share,
+                          const std::string& bringer, const std::string& missing) {
+        std::fprintf(stderr, "mir: %-34s  %-15s  %s%s%s\n", light.c_str(), share.c_str(),
+                     bringer.c_str(), missing.empty() ? "" : "; missing of it: ", missing.c_str());
+    };
+    print("light", "of the picture", "brought by", "");
+    for (const mir::LightClass& c : mir::light_budget(r, settings))
+        print(c.light, share_text(c.share, c.standard_error), c.brought_by,
+              missing_text(c.missing));
+    if (const auto& d = r.statistics.gather_difference)
         std::fprintf(stderr,
                      "mir: light of discs against paths: %+.3g +- %.1g %%, spread %.3g %%\n",
                      100.0 * d->mean, 100.0 * d->standard_error, 100.0 * d->spread);
-    if (!s.removed || !s.cut) return;
-    std::fprintf(stderr, "mir: missing of the VPLs' light: %s, %s\n",
-                 missing_text(*s.removed, "by the bound").c_str(),
-                 missing_text(*s.cut, "by the largest number of reflections").c_str());
 }
 
 /// "sampling 0.28, gbuffer 0.37": the stages that can be seen in hundredths of a second.
@@ -71,7 +90,7 @@ std::string stages_of(const mir::StageSeconds& seconds) {
 
 }  // namespace
 
-void print_summary(const mir::RenderResult& r) {
+void print_summary(const mir::RenderResult& r, const mir::RenderSettings& settings) {
     const mir::RenderStatistics& s = r.statistics;
     if (s.relative_error)
         std::fprintf(stderr, "mir: %u passes, relative error %.2g %%\n", s.passes,
@@ -87,7 +106,7 @@ void print_summary(const mir::RenderResult& r) {
         std::fprintf(stderr, ", %.1f M contributions/s", 1e-6 * contributions_per_second(s));
     std::fputc('\n', stderr);
     if (s.health) print_health(*s.health);
-    print_missing(s);
+    print_light(r, settings);
     for (const std::string& warning : r.warnings)
         std::fprintf(stderr, "mir: warning: %s\n", warning.c_str());
 }

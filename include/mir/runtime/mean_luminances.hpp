@@ -8,6 +8,7 @@ namespace mir {
 /// Forgets the mean luminances that add_row() adds to.
 inline void clear_rows(RenderStatistics& s) {
     s.indirect_luminance = s.removed_luminance = s.residual_luminance = s.caustic_luminance = 0.0;
+    s.caustic_direct_luminance = 0.0;
 }
 
 /// Adds a row of luxels to the mean luminances of an image, whose luxels are counted. Rows go from
@@ -18,6 +19,7 @@ inline void add_row(RenderStatistics& s, const RowLuminances& row) {
     s.removed_luminance += row.removed * share;
     s.residual_luminance += row.residual * share;
     s.caustic_luminance += row.caustic * share;
+    s.caustic_direct_luminance += row.caustic_direct * share;
 }
 
 }  // namespace mir

@@ -74,7 +74,7 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
          {&RenderStatistics::path_luminance, &RenderStatistics::dropped_share,
           &RenderStatistics::indirect_luminance, &RenderStatistics::removed_luminance,
           &RenderStatistics::residual_luminance, &RenderStatistics::caustic_luminance,
-          &RenderStatistics::vsl_radius})
+          &RenderStatistics::caustic_direct_luminance, &RenderStatistics::vsl_radius})
         all.*mean = detail::mean_with(all.*mean, pass.*mean, earlier);
     for (float RenderStatistics::*share :
          {&RenderStatistics::non_lambertian_share, &RenderStatistics::widened_share})

@@ -47,9 +47,10 @@ struct RenderStatistics {
     double residual_luminance = 0.0;   ///< mean over luxels of what they found
     std::uint64_t caustic_paths = 0;   ///< light paths that brought caustics
     double caustic_luminance = 0.0;    ///< mean over luxels of what they brought, W m^-2 sr^-1
-    std::optional<ShareEstimate> removed;  ///< by the bound, by paths, where measured
-    std::optional<ShareEstimate> cut;      ///< by the largest bounce, where measured
-    std::optional<double> direct_noise;    ///< of a pixel, relative, where measured
+    double caustic_direct_luminance = 0.0;  ///< of it what is part of direct light
+    std::optional<ShareEstimate> removed;   ///< by the bound, by paths, where measured
+    std::optional<ShareEstimate> cut;       ///< by the largest bounce, where measured
+    std::optional<double> direct_noise;     ///< of a pixel, relative, where measured
     /// Light of discs against that of paths, before any correction, where it was measured.
     std::optional<LightDifference> gather_difference;
     bool gather_corrected = false;  ///< by what of it is no noise (LightCorrection)
@@ -76,10 +77,11 @@ struct RenderStatistics {
 
 /// Luminances of a row of luxels, each added up from left to right, W m^-2 sr^-1.
 struct RowLuminances {
-    double indirect = 0.0;  ///< of the VPLs' or discs' light
-    double removed = 0.0;   ///< of what the bound removed, by the VPLs
-    double residual = 0.0;  ///< of what paths traced back of that
-    double caustic = 0.0;   ///< of what mirrors and bodies of glass threw there
+    double indirect = 0.0;        ///< of the VPLs' or discs' light
+    double removed = 0.0;         ///< of what the bound removed, by the VPLs
+    double residual = 0.0;        ///< of what paths traced back of that
+    double caustic = 0.0;         ///< of what mirrors and bodies of glass threw there
+    double caustic_direct = 0.0;  ///< of it what is part of direct light
 };
 
 /// A finished picture. Radiance in W m^-2 sr^-1; beauty = emission + direct + indirect.

@@ -32,8 +32,8 @@ std::string page_of(const ReportInput& in) {
         mir::detail::html_start(in.options.scene + " rendered by mir " + mir::version,
                                 {report_style, report_script, base64_of_hex(report_script_sha256)});
     page += picture_section(in, preview_look(in.options, in.result.beauty)) +
-            warnings_section(in.result) + reference_section(in) + convergence_section(in) +
-            vpls_section(in) + chains_section(s) + timing_section(s);
+            warnings_section(in.result) + light_section(in) + reference_section(in) +
+            convergence_section(in) + vpls_section(in) + chains_section(s) + timing_section(s);
     page += "<div class=\"rows\">\n<div>" + settings_section(in) + "</div>\n<div>" +
             scene_section(in) + "</div>\n</div>\n";
     page += "<script>" + std::string(report_script) + "</script>\n";

@@ -22,6 +22,9 @@ std::string reference_section(const ReportInput& input);
 /// What the result gives reason to say, in words.
 std::string warnings_section(const mir::RenderResult& result);
 
+/// What the light is made of, who brought it, and what is missing.
+std::string light_section(const ReportInput& input);
+
 /// VPLs by bounce.
 std::string vpls_section(const ReportInput& input);
 
