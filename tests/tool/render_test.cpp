@@ -112,6 +112,20 @@ TEST_CASE("a quality chooses what was left open") {
     CHECK(found({"--aov", "removed"}) == Found{4, 0, thousand});
 }
 
+TEST_CASE("a quality chooses the light paths of caustics, where none are asked for") {
+    const TemporaryFolder folder("render_quality_caustics");
+    const auto found = [&](const Words& more) {
+        const Words words{
+            "render", "builtin:caustics",         "--width", "8", "--height", "8", "-q", "--json",
+            "-o",     (folder / "a.exr").string()};
+        return nlohmann::json::parse(run_mir(words + more).out).at("caustic_paths");
+    };
+    CHECK(found({"--quality", "draft"}) == 64);
+    CHECK(found({}) == 4 * 64);
+    CHECK(found({"--quality", "final"}) == 8 * 64);
+    CHECK(found({"--quality", "draft", "--caustics", "3"}) == 3 * 64);
+}
+
 TEST_CASE("a render names the stages that took time, and VPLs where there are some") {
     const TemporaryFolder folder("render_stages");
     const auto said = [&](const Words& more) {

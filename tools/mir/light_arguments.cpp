@@ -193,8 +193,8 @@ void add_sampling(CLI::App& app, mir::RenderSettings& s) {
     add_count(app, "--compensate", s.compensate, 0, 65536,
               "Paths per pixel that bring back the light that the bound removed (default 0: none)");
     add_count(app, "--caustics", s.caustics, 0, 65536,
-              "Light paths per pixel that bring what mirrors and glass throw on surfaces (default "
-              "4; 0: none)");
+              "Light paths per pixel that bring what mirrors and glass throw on surfaces (default: "
+              "by --quality; 0: none)");
     app.add_option("--seed", s.seed, "Seed of all random numbers (default 0)")
         ->check(seed_number());
 }

@@ -33,6 +33,7 @@ void fill_in(mir::Quality quality, const CLI::App& app, RenderOptions& o) {
     const bool cuts = s.sum == mir::LightSum::cuts;
     if (!is_given(app, "--luxels")) s.luxels_per_pixel = usual.luxels_per_pixel;
     if (!is_given(app, "--direct-samples")) s.direct_samples = usual.direct_samples;
+    if (!is_given(app, "--caustics")) s.caustics = usual.caustics;
     if (!is_given(app, "--picks")) s.picks = usual.picks;
     if (!cuts && chooses_vpls(app, o)) return;
     if (!is_given(app, "--vpls")) s.vpls = usual.vpls;
@@ -50,7 +51,7 @@ void add_quality(CLI::App& app, RenderOptions& options) {
                               {"final", mir::Quality::final}},
                              "How good the picture is to be: a look (draft), what one shows (good, "
                              "default), or eight times the time of that (final). It chooses "
-                             "--luxels, --vpls, --picks and --direct-samples");
+                             "--luxels, --vpls, --picks, --direct-samples and --caustics");
     app.parse_complete_callback([&app, &options, quality] { fill_in(*quality, app, options); });
 }
 

@@ -24,6 +24,7 @@ enum class Quality : std::uint8_t {
             s.vpls = 1u << 16;
             s.picks = 64;
             s.direct_samples = 8;
+            s.caustics = 1;
             break;
         case Quality::good:
             s.vpls = 1u << 18;
@@ -34,6 +35,7 @@ enum class Quality : std::uint8_t {
             s.vpls = 1u << 20;
             s.picks = 512;
             s.direct_samples = 128;
+            s.caustics = 8;
             break;
     }
     return s;
