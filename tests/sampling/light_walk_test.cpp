@@ -8,6 +8,7 @@
 #include "mir/scene/shapes.hpp"
 #include "mir/shading/cook_torrance.hpp"
 #include "support/catch.hpp"
+#include "support/kd_lab.hpp"
 
 using mir::CookTorrance;
 using mir::Vec3;
@@ -15,19 +16,8 @@ using mir::Vec3;
 namespace {
 
 /// A lamp inside a ball of rough glass that is half cloudy.
-struct Ball {
-    mir::Scene scene;
-    mir::WorldGeometry geometry;
-    mir::LightTable lights;
-    mir::SurfaceTable<CookTorrance> surfaces;
-    mir::KdTreeScene tree;
-
-    Ball()
-        : scene(ball()),
-          geometry(scene),
-          lights(scene, geometry),
-          surfaces(scene),
-          tree(geometry) {}
+struct Ball : mirtest::KdLab {
+    Ball() : KdLab(ball()) {}
 
     static mir::Scene ball() {
         mir::Scene s;

@@ -8,6 +8,7 @@
 #include "mir/shading/cook_torrance.hpp"
 #include "mir/shading/surface_table.hpp"
 #include "support/catch.hpp"
+#include "support/kd_lab.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -30,19 +31,8 @@ struct Remembering {
 };
 
 /// A ball of a veil that covers next to nothing.
-struct Veil {
-    mir::Scene scene;
-    mir::WorldGeometry geometry;
-    mir::LightTable lights;
-    mir::SurfaceTable<CookTorrance> surfaces;
-    mir::KdTreeScene tree;
-
-    Veil()
-        : scene(ball()),
-          geometry(scene),
-          lights(scene, geometry),
-          surfaces(scene),
-          tree(geometry) {}
+struct Veil : mirtest::KdLab {
+    Veil() : KdLab(ball()) {}
 
     static mir::Scene ball() {
         mir::Scene s;
