@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Every sampler and integrator against the path tracer on every opaque built-in scene with all
-// materials Lambertian: the mean of each layer, with what renders say that their VPLs lack.
+// materials Lambertian, and VPLs with caustics on the others as they are: the mean of each layer,
+// with what renders say that their VPLs lack.
 // agreement_test.cpp compares bounce by bounce and tile by tile, under one bound.
 #include "layer_means.hpp"
 #include "support/catch.hpp"
@@ -119,6 +120,14 @@ std::vector<std::string_view> scenes(bool large) {
     return names;
 }
 
+/// Scenes of glass, mirrors and leaves.
+std::vector<std::string_view> see_through_scenes() {
+    std::vector<std::string_view> names;
+    for (const mir::builtin::Entry& e : mir::builtin::scenes)
+        if (!is_opaque(e.make())) names.push_back(e.name);
+    return names;
+}
+
 std::vector<mir::RenderResult> rendered(const mir::Scene& scene, RenderSettings s,
                                         std::uint32_t runs, std::uint64_t first_seed = 0) {
     std::vector<mir::RenderResult> renders;
@@ -160,6 +169,56 @@ TEST_CASE("every other sampler and integrator brings layers of the path tracer t
 TEST_CASE("IR and MIR bring each layer of the path tracer to every large scene",
           "[statistical][extended]") {
     check(scenes(true), main_ways(), 6);
+}
+
+namespace {
+
+/// Renders with caustics twice, made of such with and without them from the same seeds.
+std::vector<mir::RenderResult> with_caustics_twice(std::vector<mir::RenderResult> with,
+                                                   const std::vector<mir::RenderResult>& without) {
+    for (std::size_t i = 0; i < with.size(); ++i)
+        for (const auto layer : {&mir::RenderResult::direct, &mir::RenderResult::indirect}) {
+            auto&& pixels = (with[i].*layer).pixels();
+            for (std::size_t k = 0; k < pixels.size(); ++k)
+                pixels[k] += pixels[k] - (without[i].*layer).pixels()[k];
+        }
+    return with;
+}
+
+}  // namespace
+
+// H0: equal means of emission, direct light, indirect light and beauty, with the scenes' own
+// materials: VPLs, and light paths for what mirrors and glass throw on surfaces, against the path
+// tracer. Test and seeds as above, level 1 % over 4 scenes. Rejected where caustics are left out or
+// counted twice, in the scenes that they light.
+TEST_CASE("VPLs and caustics together bring the light of the path tracer through glass",
+          "[statistical][extended]") {
+    const auto names = see_through_scenes();
+    REQUIRE(names.size() == 4);
+    const double level = sidak(1e-2, names.size());
+    RenderSettings s = light_paths();
+    s.caustics = 64;
+    RenderSettings without = s;
+    without.caustics = 0;
+    RenderSettings reference = paths();
+    reference.path.samples = 192;
+    for (const std::string_view name : names) {
+        const mir::Scene scene = mir::builtin::make(name);
+        const LayerMeans truth(rendered(scene, reference, 12, path_seed));
+        const auto renders = rendered(scene, s, 12);
+        const LayerMeans means(renders);
+        INFO(name << '\n' << beside(means, truth, all_layers));
+        CHECK(agreement(means, truth, all_layers) > level);
+        if (name != "caustics" && name != "sphere-behind-glass") continue;
+        const auto dark = rendered(scene, without, 12);
+        const LayerMeans less(dark);
+        const LayerMeans more(with_caustics_twice(renders, dark));
+        INFO("without caustics:\n"
+             << beside(less, truth, all_layers) << "with them twice:\n"
+             << beside(more, truth, all_layers));
+        CHECK(agreement(less, truth, all_layers) < level);
+        CHECK(agreement(more, truth, all_layers) < level);
+    }
 }
 
 namespace {
