@@ -89,15 +89,24 @@ float SplitFrame::keep_lobes(const VplRecords& records) {
 
 std::vector<Image<Rgb>> SplitFrame::develop() {
     if (developed_.empty()) return first().develop();
-    std::vector<std::vector<Image<Rgb>>> images(parts_.size());
-    for (const Rows& rows : developed_)
-        if (images[rows.part].empty()) images[rows.part] = parts_[rows.part]->develop();
-    std::vector<Image<Rgb>>& whole = images[developed_.front().part];
+    // Parts may share the images of the job. The first of them gives those away, the others none.
+    std::vector<std::vector<Image<Rgb>>> given(parts_.size());
+    std::size_t of_job = 0;
     for (const Rows& rows : developed_) {
-        // Parts that share the images of the job have given all of them to the first.
-        if (rows.part == developed_.front().part || images[rows.part].empty()) continue;
+        if (!given[rows.part].empty()) continue;
+        const bool job_has_some = !job().layers.empty();
+        given[rows.part] = parts_[rows.part]->develop();
+        if (job_has_some && job().layers.empty()) of_job = rows.part;
+    }
+    const auto images_of = [&](std::size_t part) -> std::vector<Image<Rgb>>& {
+        return given[given[part].empty() ? of_job : part];
+    };
+    std::vector<Image<Rgb>>& whole = images_of(developed_.front().part);
+    for (const Rows& rows : developed_) {
+        const std::vector<Image<Rgb>>& images = images_of(rows.part);
+        if (&images == &whole) continue;
         job().executor.for_each(whole.size(), [&](std::size_t layer) {
-            const std::span<const Rgb> from = images[rows.part][layer].pixels();
+            const std::span<const Rgb> from = images[layer].pixels();
             const std::size_t width = whole[layer].width();
             std::copy(from.begin() + rows.begin * width, from.begin() + rows.end * width,
                       whole[layer].pixels().begin() + rows.begin * width);

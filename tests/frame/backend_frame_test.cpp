@@ -24,6 +24,7 @@
 #include "support/test_sky.hpp"
 
 #include <algorithm>
+#include <barrier>
 
 namespace {
 
@@ -252,6 +253,53 @@ TEST_CASE("Cuts of many VPLs have the bits of the host's in a backend's memory")
     const BackendFrameOptions shafts{BackendScheduler::rcvp, false, true};
     check_same(host, draw_split(scene, settings, {tree}, false));
     check_same(host, draw_split(scene, settings, {shafts, tree}, true));
+}
+
+TEST_CASE("Backends behind the host leave their rows in one picture, whoever has which band") {
+    const Scene scene = lit_room();
+    const RenderSettings settings = small_picture();
+    const mir::WorldGeometry geometry(scene);
+    InlineExecutor executor;
+    mir::StageClock clock;
+    const mir::TracedScene traced(std::make_unique<const mir::KdTreeScene>(geometry));
+    const auto make_tree = [&] {
+        return std::make_shared<const mir::KdTree>(geometry, mir::KdTreeOptions{}, executor);
+    };
+    // Rows of blocks: as many bands as there are frames, so that each has one.
+    constexpr std::uint32_t bands = 3;
+    const auto put = [&](mir::RenderFrame& by, std::uint32_t i, mir::BandTurn& turn) {
+        const std::uint32_t rows = std::min(16u, settings.image.height - 16 * i);
+        const mir::BandPtr band = by.trace({settings.image.width, rows}, {48, 16}, 16 * i);
+        std::vector<mir::LayerPtr> layers;
+        layers.push_back(by.direct(*band, mir::DirectSamples(4)));
+        turn.wait();
+        by.put(*band, std::move(layers), turn);
+    };
+    mir::RenderJob alone({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
+    const auto host = mir::host_frame(alone, traced, mir::HostScheduler::cpu);
+    host->for_each_band(bands, put);
+    const mir::Image<mir::Rgb> whole = host->develop().front();
+    // Who comes first is chance: often enough for the host to have the first band.
+    for (std::size_t picture = 0; picture < 24; ++picture) {
+        const std::size_t host_place = picture % bands;
+        CAPTURE(host_place);
+        mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
+        std::vector<std::unique_ptr<mir::RenderFrame>> parts;
+        for (std::size_t k = 0; k < bands; ++k) {
+            if (k == host_place)
+                parts.push_back(mir::host_frame(job, traced, mir::HostScheduler::cpu));
+            else
+                parts.push_back(
+                    std::make_unique<Frame>(job, Host(executor), make_tree, BackendFrameOptions{}));
+        }
+        mir::SplitFrame frame(job, std::move(parts));
+        std::barrier all_have_one(bands);
+        frame.for_each_band(bands, [&](mir::RenderFrame& by, std::uint32_t i, mir::BandTurn& turn) {
+            all_have_one.arrive_and_wait();
+            put(by, i, turn);
+        });
+        CHECK(mirtest::same_bits(frame.develop().front(), whole));
+    }
 }
 
 TEST_CASE("What the bound removed is not traced back in a backend's memory, and says so") {

@@ -71,10 +71,10 @@ TEST_CASE("a report can be read by ear and used by keyboard") {
     CHECK(has(r.page, "prefers-color-scheme: dark"));
     CHECK(all_matches(markup, "<h([1-6])")[0] == "1");
     CHECK(count_of(markup, "<h1") == 1);
-    CHECK(count_of(markup, "<h2") == 8);
+    CHECK(count_of(markup, "<h2") == 9);
     CHECK(all_matches(markup, "<(h[3-6])").empty());
-    CHECK(count_of(markup, "<table") == 6);
-    CHECK(count_of(markup, "<table>\n<caption>") == 6);
+    CHECK(count_of(markup, "<table") == 7);
+    CHECK(count_of(markup, "<table>\n<caption>") == 7);
     CHECK(count_of(markup, "<th") == count_of(markup, "<th scope=") + count_of(markup, "<thead"));
     const Words ids = all_matches(markup, R"re(\sid="([^"]+)")re");
     CHECK(std::set<std::string>(ids.begin(), ids.end()).size() == ids.size());
