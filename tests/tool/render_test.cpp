@@ -5,8 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <cstdint>
 #include <set>
 
 using namespace mirtest;
@@ -81,49 +79,6 @@ TEST_CASE("cuts fill in what was left open: many VPLs of light paths") {
     CHECK(said.at("vpls") <= 100);
     CHECK(said.at("normalisation") == "proposal");
     CHECK(found({"--sum", "all"}).at("picks") == 0);
-}
-
-TEST_CASE("a quality chooses what was left open") {
-    const TemporaryFolder folder("render_quality");
-    const auto found = [&](const Words& more) {
-        const Words words{
-            "render", "builtin:cornell-box",      "--width", "8", "--height", "8", "-q", "--json",
-            "-o",     (folder / "a.exr").string()};
-        const auto r = nlohmann::json::parse(run_mir(words + more).out);
-        return std::array<std::uint64_t, 3>{r.at("luxels").get<std::uint64_t>() / 64,
-                                            r.at("picks").get<std::uint64_t>(),
-                                            r.at("vpls").get<std::uint64_t>() >> 14};
-    };
-    using Found = std::array<std::uint64_t, 3>;
-    const std::uint64_t thousand = 0;  // VPLs of a classic render, in steps of 16384
-    CHECK(found({}) == Found{4, 256, 16});
-    CHECK(found({"--quality", "good"}) == found({}));
-    CHECK(found({"--quality", "draft"}) == Found{1, 64, 4});
-    CHECK(found({"--quality", "final"}) == Found{16, 512, 64});
-    CHECK(found({"--quality", "draft", "--luxels", "2", "--picks", "9"}) == Found{2, 9, 4});
-    CHECK(found({"--vpls", "32768"}) == Found{4, 256, 2});
-    // VPLs so few, or of such a kind, that each luxel gathers all.
-    CHECK(found({"--vpls", "1000"}) == Found{4, 0, thousand});
-    CHECK(found({"--sampler", "mir"}) == Found{4, 0, thousand});
-    CHECK(found({"--chains", "64"}) == Found{4, 0, thousand});
-    CHECK(found({"--sum", "all"}) == Found{4, 0, thousand});
-    CHECK(found({"--direct", "vpl"}) == Found{4, 0, thousand});
-    CHECK(found({"--vsl"}) == Found{4, 0, thousand});
-    CHECK(found({"--aov", "removed"}) == Found{4, 0, thousand});
-}
-
-TEST_CASE("a quality chooses the light paths of caustics, where none are asked for") {
-    const TemporaryFolder folder("render_quality_caustics");
-    const auto found = [&](const Words& more) {
-        const Words words{
-            "render", "builtin:caustics",         "--width", "8", "--height", "8", "-q", "--json",
-            "-o",     (folder / "a.exr").string()};
-        return nlohmann::json::parse(run_mir(words + more).out).at("caustic_paths");
-    };
-    CHECK(found({"--quality", "draft"}) == 64);
-    CHECK(found({}) == 4 * 64);
-    CHECK(found({"--quality", "final"}) == 8 * 64);
-    CHECK(found({"--quality", "draft", "--caustics", "3"}) == 3 * 64);
 }
 
 TEST_CASE("a render names the stages that took time, and VPLs where there are some") {
