@@ -85,6 +85,8 @@ class BackendFrame final : public RenderFrame {
                                  Monitor* monitor) override;
     [[nodiscard]] LayerPtr light_by_cuts(const FrameBand& band, const CutVpls& vpls, float bound,
                                          Monitor* monitor) override;
+    [[nodiscard]] LayerPtr residual(const FrameBand& band, float bound,
+                                    std::span<const LayerPtr> bounces) override;
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 

@@ -13,7 +13,6 @@ namespace mir {
 /// What some frames (RenderFrame) can do and others cannot.
 enum class FrameFeature {
     embree,     ///< Acceleration::embree
-    residual,   ///< RenderSettings::compensate
     spheres,    ///< VslSettings
     lobes,      ///< GlossySettings
     pick_error  ///< RenderSettings::pick_error_layer
@@ -41,9 +40,6 @@ class FrameFeatures {
         case FrameFeature::embree:
             return "Embree traces on the processor only (this backend traces on a GPU); use "
                    "--accel bvh, or --backend cpu";
-        case FrameFeature::residual:
-            return "what the bound removed is traced back on the processor only (this backend "
-                   "keeps its luxels to itself); use --backend cpu or leave --compensate out";
         case FrameFeature::spheres:
             return "spheres light luxels on the processor only (this backend keeps its luxels to "
                    "itself); use --backend cpu or leave --vsl out";
@@ -68,7 +64,6 @@ class FrameFeatures {
     const bool by_vpls = s.integrator == Integrator::vpl;
     const std::pair<FrameFeature, bool> wanted[] = {
         {FrameFeature::embree, s.acceleration == Acceleration::embree},
-        {FrameFeature::residual, by_vpls && s.compensate > 0},
         {FrameFeature::spheres, by_vpls && s.vsl.enabled},
         {FrameFeature::lobes, by_vpls && s.glossy.enabled},
         {FrameFeature::pick_error, by_vpls && s.pick_error_layer}};

@@ -17,7 +17,7 @@
 #include "runtime/host_band.hpp"
 #include "runtime/luxel_coverage.hpp"
 #include "runtime/pick_variance.hpp"
-#include "runtime/residual_light.hpp"
+#include "runtime/residual_on_host.hpp"
 #include "runtime/sample_vpls.hpp"
 #include "runtime/seam_above.hpp"
 
@@ -95,6 +95,13 @@ class HostFrame final : public RenderFrame {
         add_errors(HostLayer::of(variance), more, job_.executor);
         return light;
     }
+    [[nodiscard]] LayerPtr residual(const FrameBand& band, float bound,
+                                    std::span<const LayerPtr> bounces) override {
+        std::vector<Image<Rgb>*> images;
+        for (const LayerPtr& layer : bounces) images.push_back(&HostLayer::of(*layer));
+        return host_layer(residual_on_host(*this, LuxelsOf<B>{HostBand<B>::of(band).gbuffer},
+                                           band.first_row, bound, images));
+    }
     [[nodiscard]] LayerPtr layer_of(const FrameBand& /*band*/, Image<Rgb> light) override {
         return host_layer(std::move(light));
     }
@@ -106,13 +113,6 @@ class HostFrame final : public RenderFrame {
         VplLobes<B> kept(records, surfaces_, job_.settings.glossy.least_alpha());
         lobes_ = std::move(kept.lobes);
         return kept.widened_share;
-    }
-    [[nodiscard]] LayerPtr add_residual(const FrameBand& band, float bound,
-                                        std::vector<LayerPtr>& layers) override {
-        std::vector<Image<Rgb>*> images;
-        for (const LayerPtr& layer : layers) images.push_back(&HostLayer::of(*layer));
-        return host_layer(add_residual_light(*this, LuxelsOf<B>{HostBand<B>::of(band).gbuffer},
-                                             band.first_row, bound, images));
     }
 
     void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override;

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace mir {
@@ -132,6 +133,10 @@ class RenderFrame {
                                                            Monitor* /*monitor*/) {
         throw without(FrameFeature::pick_error);
     }
+    /// Light that `bound` kept from a band's luxels, traced back: ResidualLight. That of bounce b
+    /// is added to element b - 1 of `bounces` too, where there is one.
+    [[nodiscard]] virtual LayerPtr residual(const FrameBand& band, float bound,
+                                            std::span<const LayerPtr> bounces) = 0;
     /// A layer of these radiances of a band's luxels, W m^-2 sr^-1.
     [[nodiscard]] virtual LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) = 0;
     /// sum += layer.
@@ -148,13 +153,6 @@ class RenderFrame {
     /// VplLobes::widened_share.
     /// @throws Error(unsupported) of frames without FrameFeature::lobes.
     virtual float keep_lobes(const VplRecords& /*records*/) { throw without(FrameFeature::lobes); }
-    /// Adds what `bound` removed, traced back, to a band's layers (FilmLayer). Returns it.
-    /// @throws Error(unsupported) of frames without FrameFeature::residual.
-    [[nodiscard]] virtual LayerPtr add_residual(const FrameBand& /*band*/, float /*bound*/,
-                                                std::vector<LayerPtr>& /*layers*/) {
-        throw without(FrameFeature::residual);
-    }
-
     /// Puts a band's layers on the film and its guides into the result. Layers come in the order of
     /// FilmLayer. Bands come from top to bottom, none higher than the first, in their `turn`. Its
     /// seam, if it has one, is where the film of the rows above ended, which may be another

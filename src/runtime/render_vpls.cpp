@@ -141,6 +141,15 @@ LayerPtr removed_light(RenderFrame& by, const FrameBand& band, const VplLight& l
     return removed;
 }
 
+/// Adds the light that the bound removed to a band's layers, traced back. Returns its luminances.
+std::vector<double> add_residual(RenderFrame& by, const FrameBand& band, float bound,
+                                 std::vector<LayerPtr>& layers) {
+    const LayerPtr light =
+        by.residual(band, bound, std::span<const LayerPtr>(layers).subspan(first_bounce_layer));
+    by.add(*layers[indirect_layer], *light);
+    return by.row_luminances(*light);
+}
+
 BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const VplLight& light,
                      const CausticLight& caustics) {
     const RenderJob& job = by.job();
@@ -163,7 +172,7 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
     LayerPtr removed = removed_light(by, band, light, made.removed);
     if (job.settings.compensate > 0) {
         const auto stage = job.clock.measure(&StageSeconds::residual);
-        made.residual = by.row_luminances(*by.add_residual(band, bound, made.layers));
+        made.residual = add_residual(by, band, bound, made.layers);
     }
     {
         const auto stage = job.clock.measure(&StageSeconds::caustics);
@@ -243,9 +252,15 @@ float choose_bound(RenderFrame& frame) {
     const BoundPolicy& policy = job.settings.bound;
     if (policy.kind == BoundPolicy::Kind::none) return no_bound;
     const auto stage = job.clock.measure(&StageSeconds::bound);
-    const float bound = policy.kind == BoundPolicy::Kind::fixed
-                            ? policy.value
-                            : default_bound(frame.visible_area(), job.settings.vpls);
+    float bound = policy.value;
+    if (policy.kind == BoundPolicy::Kind::automatic) {
+        // Picks vary less under a lower bound, and what it takes is not lost.
+        constexpr std::uint32_t lower = 4;  // docs/decisions/066
+        const bool is_traced_back =
+            job.settings.compensate > 0 && job.settings.sum == LightSum::cuts;
+        bound =
+            default_bound(frame.visible_area(), job.settings.vpls / (is_traced_back ? lower : 1));
+    }
     job.result.statistics.bound = bound;
     return bound;
 }

@@ -68,6 +68,10 @@ class SharedFrame final : public RenderFrame {
                                                    Monitor* monitor) override {
         return local_->light_and_error_by_cuts(band, vpls, bound, variance, monitor);
     }
+    [[nodiscard]] LayerPtr residual(const FrameBand& band, float bound,
+                                    std::span<const LayerPtr> bounces) override {
+        return local_->residual(band, bound, bounces);
+    }
     [[nodiscard]] LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) override {
         return local_->layer_of(band, std::move(light));
     }
@@ -78,10 +82,6 @@ class SharedFrame final : public RenderFrame {
 
     void keep_radii(std::vector<float>&& radii) override { local_->keep_radii(std::move(radii)); }
     float keep_lobes(const VplRecords& records) override { return local_->keep_lobes(records); }
-    [[nodiscard]] LayerPtr add_residual(const FrameBand& band, float bound,
-                                        std::vector<LayerPtr>& layers) override {
-        return local_->add_residual(band, bound, layers);
-    }
 
     void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override;
     /// At the lead, the images of the whole picture.

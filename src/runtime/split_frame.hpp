@@ -63,6 +63,10 @@ class SplitFrame final : public RenderFrame {
                                                    Monitor* monitor) override {
         return first().light_and_error_by_cuts(band, vpls, bound, variance, monitor);
     }
+    [[nodiscard]] LayerPtr residual(const FrameBand& band, float bound,
+                                    std::span<const LayerPtr> bounces) override {
+        return first().residual(band, bound, bounces);
+    }
     [[nodiscard]] LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) override {
         return first().layer_of(band, std::move(light));
     }
@@ -73,10 +77,6 @@ class SplitFrame final : public RenderFrame {
 
     void keep_radii(std::vector<float>&& radii) override;
     float keep_lobes(const VplRecords& records) override;
-    [[nodiscard]] LayerPtr add_residual(const FrameBand& band, float bound,
-                                        std::vector<LayerPtr>& layers) override {
-        return first().add_residual(band, bound, layers);
-    }
 
     /// Of a band of the first part, when that puts all of them.
     void put(const FrameBand& band, std::vector<LayerPtr> layers, BandTurn& turn) override {

@@ -6,6 +6,7 @@
 #include "mir/concepts/ray_caster.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
 #include <thread>
 #include <vector>
 
@@ -120,6 +121,33 @@ void ray_caster_may_be_asked_concurrently() {
     for (const auto& answers : together) CHECK(answers == alone);
 }
 
+/// closest_hit() in every bit up to where a ray may stop; and it does stop.
+template <class Engine>
+void short_rays_find_what_lies_near() {
+    const World world = triangle_soup(150, 21);
+    const Engine engine(world.geometry);
+    const auto caster = engine.ray_caster();
+    mir::Random random = test_random(28);
+    std::size_t stopped = 0;
+    for (const mir::Ray& ray : random_rays(4000, 22)) {
+        const auto far = caster.closest_hit(ray);
+        const float d = far ? glm::length(far->position - ray.origin) : 1.0f;
+        const float reach = d * std::exp2(8.0f * random.next() - 4.0f);
+        const auto near = caster.closest_hit(ray, reach);
+        if (far && d < 0.999f * reach) {
+            REQUIRE(near);
+            REQUIRE(near->triangle == far->triangle);
+            REQUIRE(near->position == far->position);
+        } else if (near) {
+            REQUIRE(far);
+            REQUIRE(near->triangle == far->triangle);
+        } else {
+            stopped += far && reach < 0.9f * d ? 1 : 0;
+        }
+    }
+    CHECK(stopped > 300);
+}
+
 template <class Engine>
 void ray_caster_suite() {
     static_assert(mir::RayCaster<decltype(std::declval<const Engine&>().ray_caster())>);
@@ -129,6 +157,8 @@ void ray_caster_suite() {
         rays_that_leave_the_scene_hit_nothing<Engine>();
     }
     SECTION("may be asked concurrently") { ray_caster_may_be_asked_concurrently<Engine>(); }
+    if constexpr (mir::ShortRayCaster<decltype(std::declval<const Engine&>().ray_caster())>)
+        SECTION("stops early") { short_rays_find_what_lies_near<Engine>(); }
 }
 
 }  // namespace mirtest

@@ -15,6 +15,7 @@
 #include "runtime/backend_frame/gather.hpp"
 #include "runtime/backend_frame/light.hpp"
 #include "runtime/backend_frame/luxels.hpp"
+#include "runtime/backend_frame/residual.hpp"
 #include "runtime/backend_frame/response.hpp"
 #include "runtime/backend_frame/scene.hpp"
 #include "runtime/backend_frame/visibility.hpp"
@@ -211,13 +212,13 @@ TEST_CASE("Paths of a renderer over a backend are traced on the host") {
 
 TEST_CASE("A renderer over a backend refuses what its frames lack") {
     RenderSettings s = small_picture();
-    s.bound.kind = mir::BoundPolicy::Kind::automatic;
-    s.compensate = 2;
+    s.sum = mir::LightSum::cuts;
+    s.pick_error_layer = true;
     try {
         static_cast<void>(Machine(0).render(s));
         FAIL("nothing was thrown");
     } catch (const mir::Error& e) {
         CHECK(e.code() == mir::ErrorCode::unsupported);
-        CHECK(std::string(e.what()) == mir::reason_without(mir::FrameFeature::residual));
+        CHECK(std::string(e.what()) == mir::reason_without(mir::FrameFeature::pick_error));
     }
 }

@@ -68,7 +68,7 @@ TEST_CASE("settings for the processor alone are rendered there, and it is said w
     Machine machine;
     machine.gpu.refuses = reason_against_gpu;
     std::vector<RenderSettings> all(4);
-    all[0].compensate = 4;
+    all[0].pick_error_layer = true;
     all[1].vsl.enabled = true;
     all[2].glossy.enabled = true;
     all[3].acceleration = mir::Acceleration::embree;

@@ -30,6 +30,7 @@ inline void check_same(const mir::RenderResult& a, const mir::RenderResult& b) {
     CHECK(a.statistics.bound == b.statistics.bound);
     CHECK(a.statistics.indirect_luminance == b.statistics.indirect_luminance);
     CHECK(a.statistics.removed_luminance == b.statistics.removed_luminance);
+    CHECK(a.statistics.residual_luminance == b.statistics.residual_luminance);
 }
 
 }  // namespace mirtest

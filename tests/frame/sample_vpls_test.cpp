@@ -71,6 +71,9 @@ class SamplingFrame final : public mir::RenderFrame {
                                 mir::Monitor*) override {
         return never(nullptr);
     }
+    mir::LayerPtr residual(const mir::FrameBand&, float, std::span<const mir::LayerPtr>) override {
+        return never(nullptr);
+    }
     mir::LayerPtr layer_of(const mir::FrameBand&, mir::Image<mir::Rgb>) override {
         return never(nullptr);
     }

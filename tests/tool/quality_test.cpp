@@ -44,6 +44,31 @@ TEST_CASE("a quality chooses what was left open") {
     CHECK(found({"--aov", "removed"}) == Found{4, 0, thousand});
 }
 
+TEST_CASE("a quality has the light traced back that its bound takes, where there is one") {
+    const auto found = [](const Words& more) {
+        const auto r = facts_of("builtin:cornell-box", Words{"--quality", "draft"} + more);
+        return r.at("residual_paths").get<std::uint64_t>() / 64;
+    };
+    CHECK(found({}) == 1);
+    CHECK(found({"--luxels", "2"}) == 2);
+    CHECK(found({"--compensate", "3"}) == 3);
+    CHECK(found({"--compensate", "0"}) == 0);
+    CHECK(found({"--bound", "none"}) == 0);
+    CHECK(found({"--vsl"}) == 0);
+    CHECK(found({"--vpls", "100"}) == 0);
+}
+
+// The bound of picks alone, and the fourth of it where paths bring what it takes.
+TEST_CASE("cuts have a lower bound where what it takes is traced back") {
+    const auto bound = [](const Words& more) {
+        const auto r = facts_of("builtin:cornell-box", Words{"--quality", "draft"} + more);
+        return r.at("bound").get<double>();
+    };
+    CHECK(bound({"--compensate", "0"}) == Approx(4.0 * bound({})));
+    CHECK(bound({"--vpls", "512", "--compensate", "0"}) == bound({"--vpls", "512"}));
+    CHECK(bound({"--bound", "7"}) == 7.0);
+}
+
 TEST_CASE("a quality chooses the light paths of caustics, where none are asked for") {
     const auto found = [](const Words& more) {
         return facts_of("builtin:caustics", more).at("caustic_paths");

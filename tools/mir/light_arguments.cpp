@@ -191,7 +191,8 @@ void add_sampling(CLI::App& app, mir::RenderSettings& s) {
            "near edges: auto (default: found for the scene), none, or a number")
         ->type_name("auto|none|B");
     add_count(app, "--compensate", s.compensate, 0, 65536,
-              "Paths per pixel that bring back the light that the bound removed (default 0: none)");
+              "Paths per pixel that bring back the light that the bound removed (default: by "
+              "--quality, 1; 0: none)");
     add_count(app, "--caustics", s.caustics, 0, 65536,
               "Light paths per pixel that bring what mirrors and glass throw on surfaces (default: "
               "by --quality; 0: none)");

@@ -26,6 +26,12 @@ bool chooses_vpls(const CLI::App& app, const RenderOptions& o) {
     });
 }
 
+/// Whether a bound may take light that paths can bring.
+bool can_trace_back(const mir::RenderSettings& s) {
+    return s.integrator == mir::Integrator::vpl && s.bound.kind != mir::BoundPolicy::Kind::none &&
+           !s.vsl.enabled;
+}
+
 /// Fills in what the quality says of options that were not given.
 void fill_in(mir::Quality quality, const CLI::App& app, RenderOptions& o) {
     const mir::RenderSettings usual = mir::settings_for(quality);
@@ -38,6 +44,7 @@ void fill_in(mir::Quality quality, const CLI::App& app, RenderOptions& o) {
     if (!cuts && chooses_vpls(app, o)) return;
     if (!is_given(app, "--vpls")) s.vpls = usual.vpls;
     if (!is_given(app, "--sampler")) s.sampler = usual.sampler;
+    if (!is_given(app, "--compensate") && can_trace_back(s)) s.compensate = usual.compensate;
 }
 
 }  // namespace
@@ -45,13 +52,14 @@ void fill_in(mir::Quality quality, const CLI::App& app, RenderOptions& o) {
 void add_quality(CLI::App& app, RenderOptions& options) {
     begin_group(app, "Image");
     const auto quality = std::make_shared<mir::Quality>(mir::Quality::good);
-    add_choice<mir::Quality>(app, "--quality", *quality,
-                             {{"draft", mir::Quality::draft},
-                              {"good", mir::Quality::good},
-                              {"final", mir::Quality::final}},
-                             "How good the picture is to be: a look (draft), what one shows (good, "
-                             "default), or eight times the time of that (final). It chooses "
-                             "--luxels, --vpls, --picks, --direct-samples and --caustics");
+    add_choice<mir::Quality>(
+        app, "--quality", *quality,
+        {{"draft", mir::Quality::draft},
+         {"good", mir::Quality::good},
+         {"final", mir::Quality::final}},
+        "How good the picture is to be: a look (draft), what one shows (good, "
+        "default), or eight times the time of that (final). It chooses "
+        "--luxels, --vpls, --picks, --direct-samples, --caustics and --compensate");
     app.parse_complete_callback([&app, &options, quality] { fill_in(*quality, app, options); });
 }
 

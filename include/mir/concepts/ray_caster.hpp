@@ -35,6 +35,13 @@ concept PointFinder = DeviceCopyable<R> && requires(const R r, const Ray& ray, S
     { r.find_point(ray, p) } -> std::same_as<bool>;
 };
 
+/// A PointFinder that can stop early, as ShortRayCaster.
+template <class R>
+concept ShortPointFinder = PointFinder<R> &&
+    requires(const R r, const Ray& ray, float reach, SurfacePoint& p) {
+    { r.find_point(ray, p, reach) } -> std::same_as<bool>;
+};
+
 /// Finds surface points in code that reads memory of space `S`. Either a PointFinder that reads it
 /// too or, on the host, any RayCaster.
 template <class R, Space S>
@@ -57,6 +64,24 @@ template <RayCaster R>
     const auto found = caster.closest_hit(ray);
     if (found) point = *found;
     return found.has_value();
+}
+
+/// find_point() of what lies within `reach` metres. Beyond, it may write something or nothing.
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
+template <class R>
+[[nodiscard]] MIR_HD bool find_point_within(const R& caster, const Ray& ray, float reach,
+                                            SurfacePoint& point) {
+    if constexpr (ShortPointFinder<R>) {
+        return caster.find_point(ray, point, reach);
+    } else if constexpr (ShortRayCaster<R>) {
+        const auto found = caster.closest_hit(ray, reach);
+        if (found) point = *found;
+        return found.has_value();
+    } else {
+        return find_point(caster, ray, point);
+    }
 }
 
 }  // namespace mir

@@ -21,4 +21,11 @@ concept RayFinder = DeviceCopyable<F> && requires(const F f, const Ray& ray, Vec
     { f.hides(p, p) } -> std::same_as<bool>;
 };
 
+/// A RayFinder that can stop early. closest(ray, within) is closest(ray) where that lies within so
+/// many metres; beyond, it may find nothing. Detected and used where present.
+template <class F>
+concept ShortRayFinder = RayFinder<F> && requires(const F f, const Ray& ray, float within) {
+    { f.closest(ray, within) } -> std::same_as<TriangleHit>;
+};
+
 }  // namespace mir

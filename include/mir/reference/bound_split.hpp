@@ -26,7 +26,7 @@ struct BoundSplit {
     /// lifted point with unit shading normal `normal`, `from` a reflecting point, also lifted.
     /// Nearer to an edge than points are lifted they may not face each other: no VPL there lights
     /// `at`.
-    [[nodiscard]] float reflected(const Hit& at, Vec3 normal, const Hit& from) const {
+    [[nodiscard]] MIR_HD float reflected(const Hit& at, Vec3 normal, const Hit& from) const {
         const Vec3 d = from.position - at.position;
         const float d2 = length_squared(d);
         const float inverse = 1.0f / std::sqrt(d2);
@@ -37,18 +37,17 @@ struct BoundSplit {
     }
 
     /// The same of the emission of `from`.
-    [[nodiscard]] float emitted(const Hit& at, Vec3 normal, const Hit& from) const {
+    [[nodiscard]] MIR_HD float emitted(const Hit& at, Vec3 normal, const Hit& from) const {
         return lamps ? reflected(at, normal, from) : unbounded();
     }
 
     /// Share of light that no bound holds for: emission seen directly, lights without extent.
-    [[nodiscard]] float unbounded() const { return part == BoundPart::kept ? 1.0f : 0.0f; }
+    [[nodiscard]] MIR_HD float unbounded() const { return part == BoundPart::kept ? 1.0f : 0.0f; }
 
     /// Largest distance from a point at which anything counts, m. It is seen at `cosine` to the
     /// shading normal: G <= cos / d^2.
-    [[nodiscard]] float reach(float cosine) const {
-        return part == BoundPart::kept ? std::numeric_limits<float>::infinity()
-                                       : std::sqrt(cosine / bound);
+    [[nodiscard]] MIR_HD float reach(float cosine) const {
+        return part == BoundPart::kept ? INFINITY : std::sqrt(cosine / bound);
     }
 };
 

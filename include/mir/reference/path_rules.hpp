@@ -25,11 +25,11 @@ struct BalanceRules {
     /// Weight of a point found with density `own` > 0, `other` being another technique's. Densities
     /// are of one measure and count samples (n p). Source: Veach and Guibas, "Optimally combining
     /// sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
-    static float mis(float own, float other) { return 1.0f / (1.0f + other / own); }
+    MIR_HD static float mis(float own, float other) { return 1.0f / (1.0f + other / own); }
 
     /// Density per steradian of a surface point with density `per_area` (m^-2). It is seen from
     /// squared distance `d2` (m^2); its normal makes `cosine` with the line of sight.
-    static float per_steradian(float per_area, float d2, float cosine) {
+    MIR_HD static float per_steradian(float per_area, float d2, float cosine) {
         return per_area * d2 / cosine;
     }
 
@@ -41,7 +41,7 @@ struct BalanceRules {
     /// Throughput of a path after Russian roulette with the number `u`, black when it ends. The
     /// odds of survival are the largest channel of `throughput`, at most `most_odds`. Source: Arvo
     /// and Kirk, "Particle transport and image synthesis", SIGGRAPH 1990.
-    static Rgb roulette(Rgb throughput, float u) {
+    MIR_HD static Rgb roulette(Rgb throughput, float u) {
         const float odds = smaller(max_channel(throughput), most_odds);
         return u < odds ? throughput * (1.0f / odds) : Rgb{};
     }
@@ -50,7 +50,7 @@ struct BalanceRules {
 /// BalanceRules with the power heuristic of exponent 2. Model of PathRules.
 struct PowerRules : BalanceRules {
     /// Weight own^2 / (own^2 + other^2), for own > 0.
-    static float mis(float own, float other) {
+    MIR_HD static float mis(float own, float other) {
         const float ratio = other / own;
         return 1.0f / (1.0f + ratio * ratio);
     }

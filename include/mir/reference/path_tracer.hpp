@@ -25,17 +25,38 @@ namespace mir {
 /// Conventions are those of docs/method.md, 4: shading normal at the receiver, geometric normal at
 /// the emitter, black where shading and geometric side disagree, points lifted by
 /// WorldGeometry::ray_offset(). Sources: Kajiya, "The rendering equation", SIGGRAPH 1986; Veach
-/// 1997, chapter 9. The referenced scene data must outlive it; const use from any thread.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules = BalanceRules>
+/// 1997, chapter 9. A value of views for host and device; what they read must outlive it. Const use
+/// from any thread.
+template <Bsdf B, class R, Visibility V, PathRules Rules = BalanceRules>
 class PathTracer {
  public:
+    static constexpr Space space = space_of_lights<V>;  ///< memory that the views read
+    static_assert(CastsRaysFrom<R, space>,
+                  "mir: paths in a kernel need a ray caster with find_point() that reads the same "
+                  "memory, such as KdRayCaster<Space::device>");
+
     /// What paths run through.
     struct World {
-        const WorldGeometry& geometry;    ///< outlives the tracer
-        const LightTable& lights;         ///< outlives the tracer
-        const SurfaceTable<B>& surfaces;  ///< outlives the tracer
-        R caster;                         ///< finds what paths meet, from many threads at once
-        V visibility;                     ///< asked about lights, from many threads at once
+        GeometryView<space> geometry;         ///< triangles
+        LightTableView<space> lights;         ///< what shines
+        SurfaceTableView<space, B> surfaces;  ///< how they reflect
+        R caster;                             ///< finds what paths meet, from many threads at once
+        V visibility;                         ///< asked about lights, from many threads at once
+
+        /// Views that lie in the tracer's memory.
+        World(const GeometryView<space>& geometry_view, const LightTableView<space>& light_table,
+              const SurfaceTableView<space, B>& surface_table, R ray_caster, V sight)
+            : geometry(geometry_view),
+              lights(light_table),
+              surfaces(surface_table),
+              caster(ray_caster),
+              visibility(sight) {}
+        /// Views of what the host has, which must outlive the tracer.
+        World(const WorldGeometry& world_geometry, const LightTable& light_table,
+              const SurfaceTable<B>& surface_table, R ray_caster,
+              V sight) requires(space == Space::host)
+            : World(world_geometry.view(), light_table.view(), surface_table.view(), ray_caster,
+                    sight) {}
     };
 
     /// A lifted point of a surface, seen from where the path came from.
@@ -58,16 +79,34 @@ class PathTracer {
     }
     /// Whether a camera ray meets a surface first from which it may go on.
     [[nodiscard]] bool is_drawn(const Ray& ray) const {
-        const auto point = world_.caster.closest_hit(ray);
-        return point && luxels_.surfaces.is_specular(point->material);
+        SurfacePoint point;
+        return find_point(world_.caster, ray, point) &&
+               luxels_.surfaces.is_specular(point.material);
     }
 
     /// Adds one estimate of the radiance from `first` towards the viewer, W m^-2 sr^-1. D_b is
     /// added to element b of `bounces`, which has two elements or more. The last one takes all
     /// later bounces too. An empty luxel has D_0 alone: its emission.
-    void trace(const Vertex& first, Random& random, std::span<RgbSum> bounces) const;
+    void trace(const Vertex& first, Random& random, std::span<RgbSum> bounces) const {
+        BounceSums sums{bounces};
+        trace_to(sums, first, random);
+    }
+    /// The same, given to `sums` part by part: sums.add(b, light) for light of bounce b.
+    template <class Sums>
+    MIR_HD void trace_to(Sums& sums, const Vertex& first, Random& random) const;
 
  private:
+    static constexpr std::uint32_t endless = 0xFFFFFFFFu;  ///< last_bounce_ where there is none
+
+    /// One sum for each bounce. The last one takes all later ones.
+    struct BounceSums {
+        std::span<RgbSum> bounces;
+
+        void add(std::uint32_t bounce, Rgb light) {
+            bounces[std::min<std::size_t>(bounce, bounces.size() - 1)] += light;
+        }
+    };
+
     /// A path under way. The light samples of `at`, its vertex number `bounce`, are done.
     struct Walk {
         Vertex at;
@@ -76,45 +115,50 @@ class PathTracer {
         Rgb throughput{1.0f, 1.0f, 1.0f};
     };
 
-    [[nodiscard]] std::uint32_t light_samples_at(std::uint32_t bounce) const;
-    [[nodiscard]] std::uint32_t directions_at(std::uint32_t bounce) const;
-    [[nodiscard]] Rgb sampled_light(const Vertex& at, std::uint32_t bounce, Random& random) const;
-    [[nodiscard]] Rgb light_sample(const Vertex& at, std::uint32_t bounce, Random& random) const;
-    [[nodiscard]] SpecularEnd met_along(const Walk& walk, Vec3 direction, Random& random) const;
-    [[nodiscard]] Rgb found_light(const Walk& walk, const BsdfSample& sample,
-                                  const SpecularEnd& met, const Vertex& next) const;
-    [[nodiscard]] std::optional<SurfacePoint> next_point(const Walk& walk, Vec3 direction) const;
-    [[nodiscard]] Rgb environment_sample(const Vertex& at, std::uint32_t bounce,
-                                         Random& random) const;
-    [[nodiscard]] Rgb found_environment(const Walk& walk, const BsdfSample& sample,
-                                        const SpecularEnd& met) const;
-    [[nodiscard]] bool is_all_wanted(std::uint32_t bounce) const;
-    [[nodiscard]] bool is_wanted(const SpecularEnd& met) const {
+    [[nodiscard]] MIR_HD bool has_lamps() const { return !world_.lights.lamps.by_power.empty(); }
+    [[nodiscard]] MIR_HD std::uint32_t light_samples_at(std::uint32_t bounce) const;
+    [[nodiscard]] MIR_HD std::uint32_t directions_at(std::uint32_t bounce) const;
+    [[nodiscard]] MIR_HD Rgb sampled_light(const Vertex& at, std::uint32_t bounce,
+                                           Random& random) const;
+    [[nodiscard]] MIR_HD Rgb light_sample(const Vertex& at, std::uint32_t bounce,
+                                          Random& random) const;
+    [[nodiscard]] MIR_HD SpecularEnd met_along(const Walk& walk, Vec3 direction,
+                                               Random& random) const;
+    [[nodiscard]] MIR_HD Rgb found_light(const Walk& walk, const BsdfSample& sample,
+                                         const SpecularEnd& met, const Vertex& next) const;
+    [[nodiscard]] MIR_HD bool find_next_point(const Walk& walk, const Ray& ray,
+                                              SurfacePoint& point) const;
+    [[nodiscard]] MIR_HD Rgb environment_sample(const Vertex& at, std::uint32_t bounce,
+                                                Random& random) const;
+    [[nodiscard]] MIR_HD Rgb found_environment(const Walk& walk, const BsdfSample& sample,
+                                               const SpecularEnd& met) const;
+    [[nodiscard]] MIR_HD bool is_all_wanted(std::uint32_t bounce) const;
+    [[nodiscard]] MIR_HD bool is_wanted(const SpecularEnd& met) const {
         return options_.paths == PathPart::all ||
                met.is_straight == (options_.paths == PathPart::gathered);
     }
-    bool advance(Walk& walk, Random& random, std::span<RgbSum> bounces) const;
-    static RgbSum& sum_of(std::span<RgbSum> bounces, std::uint32_t bounce) {
-        return bounces[std::min<std::size_t>(bounce, bounces.size() - 1)];
-    }
+    template <class Sums>
+    MIR_HD bool advance(Walk& walk, Random& random, Sums& sums) const;
 
     World world_;
-    LuxelTracer<R, Space::host, B> luxels_;
+    LuxelTracer<R, space, B> luxels_;
     PathTracerOptions options_;
+    std::uint32_t last_bounce_;  ///< PathTracerOptions::max_bounce, in a form that kernels read
     BoundSplit split_;
     ListedLight<B, V> listed_;
-    EnvironmentView<Space::host> environment_;
+    EnvironmentView<space> environment_;
     EnvironmentLight<B, V> environment_light_;
 };
 
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
+template <Bsdf B, class R, Visibility V, PathRules Rules>
 PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions options)
     : world_(world),
-      luxels_{world.caster, world.surfaces.view()},
+      luxels_{world.caster, world.surfaces},
       options_(options),
+      last_bounce_(options.max_bounce ? *options.max_bounce : endless),
       split_{options.bound, options.part, options.bound_lamps},
       listed_(world.lights, world.visibility),
-      environment_(world.lights.view().environment),
+      environment_(world.lights.environment),
       environment_light_(world.lights, world.visibility, 1) {
     expects(options.light_samples >= 1 && options.light_samples <= 65536,
             "light samples at the first vertex must be 1 to 65536; set LightSearch::directions for "
@@ -132,56 +176,50 @@ PathTracer<B, R, V, Rules>::PathTracer(const World& world, PathTracerOptions opt
             "two bounces and more is lost; leave it at its default for none");
 }
 
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-void PathTracer<B, R, V, Rules>::trace(const Vertex& first, Random& random,
-                                       std::span<RgbSum> bounces) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+template <class Sums>
+MIR_HD void PathTracer<B, R, V, Rules>::trace_to(Sums& sums, const Vertex& first,
+                                                 Random& random) const {
     const bool has_rest = options_.paths != PathPart::residual;
-    if (has_rest) bounces[0] += first.surface.emission * split_.unbounded();
+    if (has_rest) sums.add(0, first.surface.emission * split_.unbounded());
     if (is_empty(first.hit) || B::is_black(first.surface.bsdf)) return;
-    if (has_rest) bounces[1] += sampled_light(first, 1, random);
+    if (has_rest) sums.add(1, sampled_light(first, 1, random));
     const float share = 1.0f / static_cast<float>(options_.directions);
     for (std::uint32_t i = 0; i < options_.directions; ++i) {
         Walk walk{first, share};
-        while (advance(walk, random, bounces)) {
+        while (advance(walk, random, sums)) {
         }
     }
 }
 
-/// What a path meets next, if that can count.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-std::optional<SurfacePoint> PathTracer<B, R, V, Rules>::next_point(const Walk& walk,
-                                                                   Vec3 direction) const {
-    const Ray ray{walk.at.hit.position, direction};
-    if constexpr (ShortRayCaster<R>)
-        if (walk.bounce == 1) {
-            // A little farther, because points are lifted once they are met.
-            const float reach = split_.reach(glm::dot(direction, walk.at.surface.normal));
-            const float lifted = world_.geometry.view().offset_at(ray.origin);
-            return world_.caster.closest_hit(ray, 1.001f * reach + 16.0f * lifted);
-        }
-    return world_.caster.closest_hit(ray);
+/// Writes what a path meets next. False where nothing is met that can count.
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD bool PathTracer<B, R, V, Rules>::find_next_point(const Walk& walk, const Ray& ray,
+                                                        SurfacePoint& point) const {
+    if (walk.bounce > 1) return find_point(world_.caster, ray, point);
+    // A little farther, because points are lifted once they are met.
+    const float reach = split_.reach(glm::dot(ray.direction, walk.at.surface.normal));
+    const float lifted = world_.geometry.offset_at(ray.origin);
+    return find_point_within(world_.caster, ray, 1.001f * reach + 16.0f * lifted, point);
 }
 
 /// Where a path goes on to. The end of a specular chain, or the first surface.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-SpecularEnd PathTracer<B, R, V, Rules>::met_along(const Walk& walk, Vec3 direction,
-                                                  Random& random) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD SpecularEnd PathTracer<B, R, V, Rules>::met_along(const Walk& walk, Vec3 direction,
+                                                         Random& random) const {
     SpecularEnd met;
     met.ray = {walk.at.hit.position, direction};
-    if (const auto point = next_point(walk, direction)) {
-        met.point = *point;
-        met.is_background = false;
-        SpecularTracer{world_.caster, world_.surfaces.view()}.follow(met, Transport::radiance,
-                                                                     random);
-    }
+    met.is_background = !find_next_point(walk, met.ray, met.point);
+    if (!met.is_background)
+        SpecularTracer{world_.caster, world_.surfaces}.follow(met, Transport::radiance, random);
     return met;
 }
 
 /// One edge further: false when the path is over.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
-                                         std::span<RgbSum> bounces) const {
-    const bool last = walk.bounce == options_.max_bounce;
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+template <class Sums>
+MIR_HD bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random, Sums& sums) const {
+    const bool last = walk.bounce == last_bounce_;
     if (last && directions_at(walk.bounce) == 0) return false;
     const float chance = random.next();
     if (walk.bounce >= options_.roulette_from)
@@ -195,16 +233,15 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
     const SpecularEnd met = met_along(walk, sample.wi, random);
     if (walk.bounce == 1 && !is_wanted(met)) return false;
     if (met.is_background) {
-        sum_of(bounces, walk.bounce) +=
-            walk.throughput * found_environment(walk, sample, met) * walk.share;
+        sums.add(walk.bounce, walk.throughput * found_environment(walk, sample, met) * walk.share);
         return false;
     }
 
-    Vertex next{LuxelTracer<R, Space::host, B>::hit(met),
+    Vertex next{LuxelTracer<R, space, B>::hit(met),
                 world_.surfaces.surface(met.point, -met.ray.direction)};
     luxels_.weaken(met, next.surface);
     const Rgb found = found_light(walk, sample, met, next);
-    sum_of(bounces, walk.bounce) += walk.throughput * found * walk.share;
+    sums.add(walk.bounce, walk.throughput * found * walk.share);
     if (last || B::is_black(next.surface.bsdf)) return false;
     if (walk.bounce == 1)
         walk.throughput =
@@ -214,32 +251,32 @@ bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random,
     walk.at = next;
     ++walk.bounce;
     const Rgb light = sampled_light(walk.at, walk.bounce, random);
-    sum_of(bounces, walk.bounce) += walk.throughput * light * walk.share;
+    sums.add(walk.bounce, walk.throughput * light * walk.share);
     return true;
 }
 
 /// Points on emissive triangles that a vertex asks for, and directions towards the environment.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-std::uint32_t PathTracer<B, R, V, Rules>::light_samples_at(std::uint32_t bounce) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD std::uint32_t PathTracer<B, R, V, Rules>::light_samples_at(std::uint32_t bounce) const {
     if (options_.light == LightSearch::directions) return 0;
     return bounce == 1 ? options_.light_samples : 1;
 }
 
 /// Scattered directions of a vertex that may find emissive triangles or the environment.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-std::uint32_t PathTracer<B, R, V, Rules>::directions_at(std::uint32_t bounce) const {
-    const bool any = world_.lights.has_emitters() || !environment_.empty();
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD std::uint32_t PathTracer<B, R, V, Rules>::directions_at(std::uint32_t bounce) const {
+    const bool any = has_lamps() || !environment_.empty();
     if (options_.light == LightSearch::lamps || !any) return 0;
     return bounce == 1 ? options_.directions : 1;
 }
 
 /// Light that the samples of a vertex bring, f cos included, W m^-2 sr^-1.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint32_t bounce,
-                                              Random& random) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint32_t bounce,
+                                                     Random& random) const {
     const std::uint32_t samples = light_samples_at(bounce);
     Rgb sum;
-    if (world_.lights.has_emitters())
+    if (has_lamps())
         for (std::uint32_t i = 0; i < samples; ++i) sum += light_sample(at, bounce, random);
     if (!environment_.empty() && is_all_wanted(bounce))
         for (std::uint32_t i = 0; i < samples; ++i) sum += environment_sample(at, bounce, random);
@@ -250,16 +287,16 @@ Rgb PathTracer<B, R, V, Rules>::sampled_light(const Vertex& at, std::uint32_t bo
 
 /// Whether a vertex counts light without a bound: lights without extent, the
 /// environment.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-bool PathTracer<B, R, V, Rules>::is_all_wanted(std::uint32_t bounce) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD bool PathTracer<B, R, V, Rules>::is_all_wanted(std::uint32_t bounce) const {
     return bounce > 1 || split_.unbounded() > 0.0f;
 }
 
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint32_t bounce,
-                                             Random& random) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint32_t bounce,
+                                                    Random& random) const {
     const float pick = random.next();
-    const EmitterSample lamp = world_.lights.sample_emitter(pick, random.next_2d());
+    const EmitterSample lamp = world_.lights.lamps.sample(world_.geometry, pick, random.next_2d());
     const Vec3 eye = at.hit.position;
     const LightPoint e = lamp.on_side(lamp.shows_back(eye));
     const Vec3 d = e.position - eye;
@@ -279,9 +316,9 @@ Rgb PathTracer<B, R, V, Rules>::light_sample(const Vertex& at, std::uint32_t bou
     return light * (Rules::mis(sampled, found) / density);
 }
 
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::environment_sample(const Vertex& at, std::uint32_t bounce,
-                                                   Random& random) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD Rgb PathTracer<B, R, V, Rules>::environment_sample(const Vertex& at, std::uint32_t bounce,
+                                                          Random& random) const {
     const EnvironmentSample from = environment_.sample(random.next_2d());
     const Rgb light = environment_light_.unshadowed(at.hit, at.surface, from);
     const Vec3 target = environment_light_.outside(at.hit.position, from.direction);
@@ -293,9 +330,9 @@ Rgb PathTracer<B, R, V, Rules>::environment_sample(const Vertex& at, std::uint32
 }
 
 /// Weighted radiance of the environment that a direction escaped to, W m^-2 sr^-1.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::found_environment(const Walk& walk, const BsdfSample& sample,
-                                                  const SpecularEnd& met) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD Rgb PathTracer<B, R, V, Rules>::found_environment(const Walk& walk, const BsdfSample& sample,
+                                                         const SpecularEnd& met) const {
     if (environment_.empty() || !is_all_wanted(walk.bounce)) return {};
     const Rgb radiance = environment_.radiance(met.ray.direction) * met.light;
     if (!met.is_straight) return radiance;
@@ -307,9 +344,10 @@ Rgb PathTracer<B, R, V, Rules>::found_environment(const Walk& walk, const BsdfSa
 }
 
 /// Weighted emission of what a direction met, W m^-2 sr^-1.
-template <Bsdf B, RayCaster R, Visibility V, PathRules Rules>
-Rgb PathTracer<B, R, V, Rules>::found_light(const Walk& walk, const BsdfSample& sample,
-                                            const SpecularEnd& met, const Vertex& next) const {
+template <Bsdf B, class R, Visibility V, PathRules Rules>
+MIR_HD Rgb PathTracer<B, R, V, Rules>::found_light(const Walk& walk, const BsdfSample& sample,
+                                                   const SpecularEnd& met,
+                                                   const Vertex& next) const {
     const auto& [hit, surface] = walk.at;
     if (!met.is_straight) return next.surface.emission * split_.unbounded();
     const SurfacePoint& point = met.point;
@@ -323,7 +361,7 @@ Rgb PathTracer<B, R, V, Rules>::found_light(const Walk& walk, const BsdfSample& 
     const float cosine = -glm::dot(sample.wi, point.geometric_normal);
     const float sampled =
         static_cast<float>(samples) *
-        Rules::per_steradian(world_.lights.emitter_pdf(point.triangle), d2, cosine);
+        Rules::per_steradian(world_.lights.lamps.pdf(world_.geometry, point.triangle), d2, cosine);
     return emission * Rules::mis(static_cast<float>(directions) * sample.pdf, sampled);
 }
 

@@ -4,7 +4,6 @@
 #include "mir/core/error.hpp"
 #include "mir/core/rgb.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -12,27 +11,29 @@ namespace mir {
 
 /// Red, green and blue in double precision, in the unit of what was added.
 struct RgbSum {
-    std::array<double, 3> channel{};  ///< red, green, blue
+    double channel[3] = {};  ///< red, green, blue
 
     /// Adds channel by channel, in double precision.
-    RgbSum& operator+=(Rgb c) {
+    MIR_HD RgbSum& operator+=(Rgb c) {
         channel[0] += static_cast<double>(c.r);
         channel[1] += static_cast<double>(c.g);
         channel[2] += static_cast<double>(c.b);
         return *this;
     }
     /// Adds channel by channel.
-    RgbSum& operator+=(const RgbSum& o) {
+    MIR_HD RgbSum& operator+=(const RgbSum& o) {
         for (std::size_t i = 0; i < 3; ++i) channel[i] += o.channel[i];
         return *this;
     }
     /// Every channel times `s`.
-    friend RgbSum operator*(RgbSum a, double s) {
+    MIR_HD friend RgbSum operator*(RgbSum a, double s) {
         for (double& c : a.channel) c *= s;
         return a;
     }
+    /// Equal in every channel.
+    friend bool operator==(const RgbSum&, const RgbSum&) = default;
     /// Rounded to single precision.
-    [[nodiscard]] Rgb rgb() const {
+    [[nodiscard]] MIR_HD Rgb rgb() const {
         return {static_cast<float>(channel[0]), static_cast<float>(channel[1]),
                 static_cast<float>(channel[2])};
     }

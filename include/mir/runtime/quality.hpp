@@ -18,6 +18,7 @@ enum class Quality : std::uint8_t {
 [[nodiscard]] inline RenderSettings settings_for(Quality quality) {
     RenderSettings s;
     s.sampler = SamplerKind::instant_radiosity;
+    s.compensate = 1;
     switch (quality) {
         case Quality::draft:
             s.luxels_per_pixel = 1;

@@ -49,8 +49,7 @@ class LightTable {
     }
     /// Density per m^2 with which sample_emitter() picks a point of `triangle`; 0 for others.
     [[nodiscard]] float emitter_pdf(std::uint32_t triangle) const {
-        const auto index = light_of(triangle);
-        return index ? lamps_.by_power().probability(*index) / geometry_->area(triangle) : 0.0f;
+        return lamps_.view().pdf(geometry_->view(), triangle);
     }
     /// Index, as sample_light() counts, of an emissive triangle of the WorldGeometry.
     [[nodiscard]] std::optional<std::uint32_t> light_of(std::uint32_t triangle) const {

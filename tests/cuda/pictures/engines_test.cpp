@@ -86,6 +86,25 @@ TEST_CASE("A GPU draws every scene with the bits of the host's kd-tree, by every
     }
 }
 
+TEST_CASE("A GPU traces back what the bound removed with the bits of the host's kd-tree") {
+    mir::RenderSettings settings = settings_of(mir::SamplerKind::instant_radiosity);
+    settings.compensate = 2;
+    for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {
+        const auto scene = mirtest::load_scene(named.name, named.file);
+        if (!scene) {
+            WARN("skipped: " << named.file << " is not on this machine");
+            continue;
+        }
+        INFO(named.name);
+        for (const auto sum : {mir::LightSum::all, mir::LightSum::cuts}) {
+            settings.sum = sum;
+            settings.bounce_layers = sum == mir::LightSum::all;
+            const mir::RenderResult host = render(*scene, settings, BackendKind::cpu, "cpu");
+            check_same(host, render(*scene, settings, BackendKind::cuda, "rcvp"));
+        }
+    }
+}
+
 TEST_CASE("A GPU refuses to trace by Embree, whatever makes the picture") {
     mir::RenderSettings s;
     s.image = {16, 16};

@@ -25,12 +25,17 @@ MIR_HD void keep_in_sight(SurfacePoint& point, const GeometryView<S>& geometry, 
     if (!hides(ray.origin, lift(across))) point = across;
 }
 
-/// Writes the first surface along a ray to `point`; false when there is none. The same bits on host
-/// and device. Thread-safe.
+/// Writes the first surface along a ray to `point`; false when there is none. Surfaces farther than
+/// `within` metres may not be found. The same bits on host and device. Thread-safe.
 template <RayFinder F, Space S>
 [[nodiscard]] MIR_HD bool find_surface(const F& finder, const GeometryView<S>& geometry,
-                                       const Ray& ray, SurfacePoint& point) {
-    const TriangleHit hit = finder.closest(ray);
+                                       const Ray& ray, SurfacePoint& point,
+                                       float within = INFINITY) {
+    TriangleHit hit;
+    if constexpr (ShortRayFinder<F>)
+        hit = finder.closest(ray, within);
+    else
+        hit = finder.closest(ray);
     if (hit.triangle == TriangleHit::none) return false;
     point = geometry.surface_point(hit.triangle, hit.barycentrics, ray);
     if (hit.by_edge)

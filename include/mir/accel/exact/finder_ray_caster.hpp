@@ -26,15 +26,17 @@ class FinderRayCaster {
                     const Mask& mask = {}) requires(space == Space::host)
         : FinderRayCaster(geometry.view(), view, mask) {}
 
-    /// Writes the first surface along the ray to `point`; false when there is none.
-    [[nodiscard]] MIR_HD bool find_point(const Ray& ray, SurfacePoint& point) const {
-        return find_surface(finder_, geometry_, ray, point);
+    /// Writes the first surface along the ray to `point`; false when there is none. Surfaces
+    /// farther than `reach` metres may not be found.
+    [[nodiscard]] MIR_HD bool find_point(const Ray& ray, SurfacePoint& point,
+                                         float reach = INFINITY) const {
+        return find_surface(finder_, geometry_, ray, point, reach);
     }
     /// The first surface along the ray; none when it leaves the scene. The bits of find_point().
-    [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray) const
+    [[nodiscard]] std::optional<SurfacePoint> closest_hit(Ray ray, float reach = INFINITY) const
         requires(space == Space::host) {
         SurfacePoint point;
-        if (!find_point(ray, point)) return std::nullopt;
+        if (!find_point(ray, point, reach)) return std::nullopt;
         return point;
     }
 

@@ -21,6 +21,12 @@ struct CutSegment {
     float t_length = 0.0f;  ///< rays: distance from `from` to `to`, metres
 };
 
+/// Where on a cut ray a distance of `metres` from its origin lies, as a share of the segment, a
+/// little beyond; 1 at most.
+[[nodiscard]] MIR_HD inline float share_at(const CutSegment& cut, float metres) {
+    return smaller((metres - cut.t_from) / cut.t_length * (1.0f + 0x1p-10f) + 0x1p-20f, 1.0f);
+}
+
 /// True when the point lies in the cube, which is what callers check first. Cutting is rare.
 [[nodiscard]] MIR_HD inline bool within_reach(Vec3 p, float reach) { return max_abs(p) <= reach; }
 

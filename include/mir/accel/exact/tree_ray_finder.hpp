@@ -18,9 +18,10 @@ struct TreeRayFinder {
     View tree;    ///< of the scene
     Mask mask{};  ///< which points of triangles are there
 
-    /// The first triangle along the ray, t in metres: first_hit().
-    [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray) const {
-        return first_hit(tree, ray, mask);
+    /// The first triangle along the ray, t in metres: first_hit(). What lies farther than `within`
+    /// metres may not be found.
+    [[nodiscard]] MIR_HD TriangleHit closest(const Ray& ray, float within = INFINITY) const {
+        return first_hit(tree, ray, mask, within);
     }
     /// Whether a triangle lies between two points, metres: is_hidden(). One that is seen through
     /// does, too.

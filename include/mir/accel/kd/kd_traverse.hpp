@@ -169,13 +169,15 @@ template <Space S, class Mask = Opaque>
 
 /// The first triangle along a ray, with t in metres; TriangleHit::none if there is none. Equal in
 /// bits to keep_closer() over all triangles.
-/// `mask` says which points of triangles are there, an Opaque or an AlphaMaskView. Thread-safe.
+/// `mask` says which points of triangles are there, an Opaque or an AlphaMaskView. What lies
+/// farther than `within` metres may not be found. Thread-safe.
 template <Space S, class Mask = Opaque>
 [[nodiscard]] MIR_HD TriangleHit first_hit(const KdTreeView<S>& tree, const Ray& ray,
-                                           const Mask& mask = {}) {
+                                           const Mask& mask = {}, float within = INFINITY) {
     const CutSegment cut = cut_to_reach(ray, tree.reach);
     if (cut.empty) return {};
     detail::FindFirst<S, Mask> first{tree, mask, cut.from, cut.to, {}};
+    first.best.t = share_at(cut, within);
     detail::walk(tree, cut.from, cut.to, first);
     if (first.best.triangle == TriangleHit::none) return {};
     first.best.t = strict::add(cut.t_from, strict::mul(first.best.t, cut.t_length));

@@ -85,6 +85,13 @@ struct LampView {
         return s;
     }
 
+    /// Density per m^2 with which sample() picks a point of a triangle of the WorldGeometry; 0 for
+    /// those that emit nothing.
+    [[nodiscard]] MIR_HD float pdf(const GeometryView<S>& geometry, std::uint32_t triangle) const {
+        const std::uint32_t index = index_of(triangle);
+        return index == none ? 0.0f : by_power.probability(index) / geometry.area(triangle);
+    }
+
     /// Place among `triangles` of a triangle of the WorldGeometry, or `none`.
     [[nodiscard]] MIR_HD std::uint32_t index_of(std::uint32_t triangle) const {
         const std::uint32_t found =
