@@ -51,6 +51,13 @@ class VplList {
     void append(const Vpl& vpl, const VplOrigin& origin, std::uint8_t bounce = 2,
                 std::uint16_t light_group = 0, float weight = 1.0f);
 
+    /// Makes room for so many path VPLs, each of which may be a geometric one.
+    void reserve(std::size_t count) {
+        vpls_.reserve(count);
+        origins_.reserve(count);
+        path_vpls_.reserve(count);
+    }
+
     /// Gives every path VPL a new intensity, in their order; geometric VPLs get the sums. Those
     /// that become black keep their place.
     /// @throws Error(invalid_argument) unless there is one intensity for each path VPL.

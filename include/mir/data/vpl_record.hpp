@@ -83,6 +83,7 @@ struct SampledVpls {
 /// light keeps the direction that it came from, every record becomes one.
 inline VplList aggregate(const VplRecords& from) {
     VplList list;
+    list.reserve(from.records.size());
     if (!from.arrivals.empty()) {
         for (const VplRecord& r : from.records)
             list.push_back(r.vpl, r.origin, r.bounce, r.light_group, r.weight);

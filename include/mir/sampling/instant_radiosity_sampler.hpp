@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace mir {
 
@@ -62,18 +64,27 @@ class InstantRadiositySampler {
     [[nodiscard]] VplRecords sample(E& executor) const;
 
  private:
-    struct Path {
+    /// What neighbouring paths leave, one path after the other.
+    struct Paths {
         std::vector<VplRecord> records;
         std::vector<VplArrival> arrivals;
+        std::size_t first = 0;  ///< record, among those of all paths
     };
+    static constexpr std::uint64_t together = 64;  ///< paths that one task traces
 
-    [[nodiscard]] std::uint64_t paths_for_target() const;
-    [[nodiscard]] Path trace(std::uint64_t index, Stream stream,
-                             const SurvivorCounts* levels) const;
+    template <Executor E>
+    [[nodiscard]] std::vector<Paths> trace(std::uint64_t count, Stream stream,
+                                           const SurvivorCounts* levels, E& executor) const;
+    template <Executor E>
+    void join(std::span<const Paths> all, E& executor, VplRecords& out) const;
+    template <Executor E>
+    [[nodiscard]] std::uint64_t paths_for_target(E& executor) const;
+    void trace_path(std::uint64_t index, Stream stream, const SurvivorCounts* levels,
+                    Paths& path) const;
     bool bounce_once(Emission& light, std::uint8_t bounce, float survival, PathNumbers& numbers,
-                     Path& path) const;
+                     Paths& path) const;
     void record(const Arrival<B>& at, const typename B::Params& bsdf, const BsdfSample& sample,
-                std::uint8_t bounce, std::uint16_t light_group, Path& path) const;
+                std::uint8_t bounce, std::uint16_t light_group, Paths& path) const;
     [[nodiscard]] SurvivorCounts level_counts() const;
 
     World world_;
@@ -88,31 +99,61 @@ VplRecords InstantRadiositySampler<B, R>::sample(E& executor) const {
     if (world_.lights.empty()) return out;
     const bool levels = options_.termination == Termination::levels;
     const SurvivorCounts counts = levels ? level_counts() : SurvivorCounts{};
-    out.paths = levels ? counts.at(0) : paths_for_target();
-
-    std::vector<Path> paths(out.paths);
-    executor.for_each(paths.size(), [&](std::size_t i) {
-        paths[i] = trace(i, Stream::light_path, levels ? &counts : nullptr);
-    });
-    const float scale = 1.0f / static_cast<float>(out.paths);
-    for (const Path& path : paths)
-        for (std::size_t i = 0; i < path.records.size(); ++i) {
-            out.records.push_back(path.records[i]);
-            out.records.back().vpl.intensity = path.records[i].vpl.intensity * scale;
-            if (!options_.arrivals) continue;
-            out.arrivals.push_back(path.arrivals[i]);
-            out.arrivals.back().power = path.arrivals[i].power * scale;
-        }
+    out.paths = levels ? counts.at(0) : paths_for_target(executor);
+    join(trace(out.paths, Stream::light_path, levels ? &counts : nullptr, executor), executor, out);
     out.non_lambertian_share = share_of_non_lambertian(out.records);
     return out;
 }
 
+/// Paths 0 to count - 1, in their order.
 template <Bsdf B, RayCaster R>
-std::uint64_t InstantRadiositySampler<B, R>::paths_for_target() const {
+template <Executor E>
+auto InstantRadiositySampler<B, R>::trace(std::uint64_t count, Stream stream,
+                                          const SurvivorCounts* levels, E& executor) const
+    -> std::vector<Paths> {
+    std::vector<Paths> all((count + together - 1) / together);
+    executor.for_each(all.size(), [&](std::size_t k) {
+        const std::uint64_t end = std::min(count, (k + 1) * together);
+        for (std::uint64_t i = k * together; i < end; ++i) trace_path(i, stream, levels, all[k]);
+    });
+    std::size_t before = 0;
+    for (Paths& some : all) {
+        some.first = before;
+        before += some.records.size();
+    }
+    return all;
+}
+
+/// Writes all records, each path's power shared out over the number of paths.
+template <Bsdf B, RayCaster R>
+template <Executor E>
+void InstantRadiositySampler<B, R>::join(std::span<const Paths> all, E& executor,
+                                         VplRecords& out) const {
+    if (all.empty()) return;
+    const std::size_t records = all.back().first + all.back().records.size();
+    out.records.resize(records);
+    if (options_.arrivals) out.arrivals.resize(records);
+    const float scale = 1.0f / static_cast<float>(out.paths);
+    executor.for_each(all.size(), [&](std::size_t k) {
+        const Paths& some = all[k];
+        for (std::size_t i = 0; i < some.records.size(); ++i) {
+            VplRecord& record = out.records[some.first + i];
+            record = some.records[i];
+            record.vpl.intensity = record.vpl.intensity * scale;
+            if (!options_.arrivals) continue;
+            VplArrival& arrival = out.arrivals[some.first + i];
+            arrival = some.arrivals[i];
+            arrival.power = arrival.power * scale;
+        }
+    });
+}
+
+template <Bsdf B, RayCaster R>
+template <Executor E>
+std::uint64_t InstantRadiositySampler<B, R>::paths_for_target(E& executor) const {
     constexpr std::uint64_t pilot_paths = 4096;
-    std::uint64_t records = 0;
-    for (std::uint64_t i = 0; i < pilot_paths; ++i)
-        records += trace(i, Stream::pilot, nullptr).records.size();
+    const std::vector<Paths> pilot = trace(pilot_paths, Stream::pilot, nullptr, executor);
+    const std::uint64_t records = pilot.back().first + pilot.back().records.size();
     // Nothing hit at all: the target cannot be met, so the count of paths is the target itself.
     const double per_path =
         records == 0 ? 1.0 : static_cast<double>(records) / static_cast<double>(pilot_paths);
@@ -140,7 +181,7 @@ SurvivorCounts InstantRadiositySampler<B, R>::level_counts() const {
 template <Bsdf B, RayCaster R>
 void InstantRadiositySampler<B, R>::record(const Arrival<B>& at, const typename B::Params& bsdf,
                                            const BsdfSample& sample, std::uint8_t bounce,
-                                           std::uint16_t light_group, Path& path) const {
+                                           std::uint16_t light_group, Paths& path) const {
     const SurfacePoint& point = at.point;
     const float lobe_share = world_.surfaces.view().lobe_share(point.material);
     const Rgb weight = options_.arrivals && lobe_share > 0.0f
@@ -161,9 +202,8 @@ void InstantRadiositySampler<B, R>::record(const Arrival<B>& at, const typename 
 }
 
 template <Bsdf B, RayCaster R>
-auto InstantRadiositySampler<B, R>::trace(std::uint64_t index, Stream stream,
-                                          const SurvivorCounts* levels) const -> Path {
-    Path path;
+void InstantRadiositySampler<B, R>::trace_path(std::uint64_t index, Stream stream,
+                                               const SurvivorCounts* levels, Paths& path) const {
     PathNumbers numbers(options_.sequence, options_.seed, stream, index);
     Emission light = sample_emission(world_.lights, numbers);
     if (options_.emitter_vpls && light.emitter) {
@@ -183,13 +223,12 @@ auto InstantRadiositySampler<B, R>::trace(std::uint64_t index, Stream stream,
         }
         if (!bounce_once(light, bounce, survival, numbers, path)) break;
     }
-    return path;
 }
 
 template <Bsdf B, RayCaster R>
 bool InstantRadiositySampler<B, R>::bounce_once(Emission& light, std::uint8_t bounce,
                                                 float survival, PathNumbers& numbers,
-                                                Path& path) const {
+                                                Paths& path) const {
     auto v = LightWalk<B, R>{world_.surfaces.view(), world_.caster}.next(light, numbers);
     if (!v) return false;
     v->at.power = v->at.power * (1.0f / survival);
