@@ -59,7 +59,8 @@ std::uint32_t add_material(PyScene& self, const std::string& name, nb::handle ba
                            nb::handle emission, bool emits_from_both_sides,
                            std::uint16_t light_group, float alpha, bool blend, float alpha_cutoff,
                            float transmission, bool thin, nb::handle attenuation_color,
-                           float attenuation_distance, const ImageIndex& base_color_image,
+                           float attenuation_distance, float clearcoat, float clearcoat_roughness,
+                           const ImageIndex& base_color_image,
                            const ImageIndex& metallic_roughness_image,
                            const ImageIndex& normal_image, const ImageIndex& emission_image,
                            float normal_scale, const std::string& wrap, bool nearest) {
@@ -83,6 +84,8 @@ std::uint32_t add_material(PyScene& self, const std::string& name, nb::handle ba
     if (!(attenuation_distance > 0.0f))
         throw ArgumentError("attenuation_distance", "give metres above 0, or infinity");
     m.attenuation_distance = attenuation_distance;
+    check_share(m.clearcoat = clearcoat, "clearcoat");
+    check_share(m.clearcoat_roughness = clearcoat_roughness, "clearcoat_roughness");
     const Lookup lookup{self.scene().images.size(), wrap_of(wrap), nearest};
     m.textures.base_color = lookup.texture(base_color_image, "base_color_image");
     m.textures.metallic_roughness =
@@ -133,6 +136,7 @@ void bind_materials(nb::class_<PyScene>& scene) {
              nb::arg("transmission") = 0.0f, nb::arg("thin") = true,
              nb::arg("attenuation_color") = white,
              nb::arg("attenuation_distance") = std::numeric_limits<float>::infinity(),
+             nb::arg("clearcoat") = 0.0f, nb::arg("clearcoat_roughness") = 0.0f,
              nb::arg("base_color_image") = nb::none(),
              nb::arg("metallic_roughness_image") = nb::none(), nb::arg("normal_image") = nb::none(),
              nb::arg("emission_image") = nb::none(), nb::arg("normal_scale") = 1.0f,
@@ -145,7 +149,9 @@ void bind_materials(nb::class_<PyScene>& scene) {
              "share of the surface. Where it is below alpha_cutoff, there is a hole.\n\n"
              "transmission: 0..1, share of the light below the interface that goes through. thin:\n"
              "a sheet, which light leaves as it came; else the surface of a body, which refracts\n"
-             "by ior and leaves attenuation_color of the light after attenuation_distance, m.")
+             "by ior and leaves attenuation_color of the light after attenuation_distance, m.\n\n"
+             "clearcoat: 0..1, weight of a second, colourless interface on top, with a roughness\n"
+             "of its own; not on glass.")
         .def("add_image", add_image, nb::arg("pixels").none(), nb::arg("name") = "",
              "Adds a picture for textures; returns its index.\n\n"
              "pixels: (height, width, 3 or 4) of uint8, the top row first; sRGB where a colour\n"

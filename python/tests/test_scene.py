@@ -86,6 +86,8 @@ def test_glass_and_coverage_come_back_from_a_file(tmp_path):
     [
         {"alpha": 1.5},
         {"transmission": -0.1},
+        {"clearcoat": 1.5},
+        {"clearcoat_roughness": -0.5},
         {"attenuation_color": (0, 2, 0)},
         {"attenuation_distance": 0.0},
     ],

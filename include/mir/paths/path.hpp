@@ -20,6 +20,7 @@ struct PathVertex {
     Vec2 barycentrics{0};        ///< weights of the triangle's second and third vertex
     std::uint32_t triangle = 0;  ///< index into WorldGeometry
     std::uint32_t material = 0;  ///< index into Scene::materials
+    bool on_coat = false;        ///< reflects by the rough coat of the material alone
 };
 
 /// What is known about the light at the end of a path besides its place.

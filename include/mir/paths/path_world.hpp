@@ -99,12 +99,14 @@ struct PathWorld {
         const SeenLuxel seen = luxels(ray);
         if (seen.is_background) return false;
         vertex = vertex_at(seen.point, luxels.normal(seen));
+        vertex.on_coat = seen.on_coat;
         path.eye = seen.ray.origin;
         path.chain = seen.reflection;
         return true;
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.
     [[nodiscard]] MIR_HD_CALL typename B::Params params(const PathVertex& v) const {
+        if (v.on_coat) return luxels.surfaces.coat(v.material);
         if (luxels.surfaces.is_specular(v.material))
             return luxels.surfaces.params_of_side(
                 luxels.surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics)),

@@ -37,16 +37,22 @@ struct LightWalk {
         met.is_background = false;
         SpecularTracer{caster, surfaces}.follow(met, Transport::power, numbers);
         if (met.is_background || is_black(met.reflection)) return std::nullopt;
-        LightVertex<B> v{
-            {met.point, -met.ray.direction, light.power * met.reflection},
-            surfaces.params_of_side(surfaces.params(met.point.material, attributes_of(met.point)),
-                                    met.point.material, met.point.front),
-            met.point.geometric_normal,
-            met.is_straight};
-        v.at.point.shading_normal = surfaces.shading_normal(met.point);
+        LightVertex<B> v{{met.point, -met.ray.direction, light.power * met.reflection},
+                         params_at(met),
+                         met.point.geometric_normal,
+                         met.is_straight};
+        if (!met.on_coat) v.at.point.shading_normal = surfaces.shading_normal(met.point);
         // What reflects alike in all directions does so below its shading normal, too.
         if (!surfaces.is_lambertian(met.point.material)) v.normal = v.at.point.shading_normal;
         return v;
+    }
+
+ private:
+    [[nodiscard]] typename B::Params params_at(const SpecularEnd& met) const {
+        const SurfacePoint& p = met.point;
+        if (met.on_coat) return surfaces.coat(p.material);
+        return surfaces.params_of_side(surfaces.params(p.material, attributes_of(p)), p.material,
+                                       p.front);
     }
 };
 

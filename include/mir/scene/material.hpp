@@ -34,11 +34,15 @@ struct Material {
     Rgb attenuation_color{1.0f, 1.0f, 1.0f};
     float attenuation_distance = std::numeric_limits<float>::infinity();  ///< metres
 
+    float clearcoat = 0.0f;            ///< MaterialFactors::clearcoat
+    float clearcoat_roughness = 0.0f;  ///< MaterialFactors::clearcoat_roughness
+
     /// True when its emission is not black, whatever its texture.
     [[nodiscard]] bool emits() const { return !is_black(emission); }
     /// How it reflects without textures and vertex colours.
     [[nodiscard]] MaterialFactors factors() const {
-        return {base_color, metallic, roughness, specular, ior, transmission, is_thin};
+        return {base_color,   metallic, roughness, specular,           ior,
+                transmission, is_thin,  clearcoat, clearcoat_roughness};
     }
     /// True when it may have holes.
     [[nodiscard]] bool is_masked() const { return alpha_cutoff > 0.0f; }
@@ -55,7 +59,7 @@ struct Material {
     }
     /// True when it has no specular part. Textures do not change that, because they multiply.
     [[nodiscard]] bool is_lambertian() const {
-        return metallic == 0.0f && specular == 0.0f && transmission == 0.0f;
+        return metallic == 0.0f && specular == 0.0f && transmission == 0.0f && clearcoat == 0.0f;
     }
 };
 

@@ -17,6 +17,9 @@ struct MaterialFactors {
     /// `base_color`; the rest is diffuse. Metals let nothing through.
     float transmission = 0.0f;
     bool is_thin = true;  ///< a sheet that light leaves as it came; false: the surface of a body
+    float clearcoat =
+        0.0f;  ///< weight of a second, colourless interface on top, 0..1; not on glass
+    float clearcoat_roughness = 0.0f;  ///< of that one, 0..1
 };
 
 }  // namespace mir

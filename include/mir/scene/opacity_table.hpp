@@ -93,6 +93,10 @@ class OpacityTable {
         if (!(m.transmission >= 0.0f && m.transmission <= 1.0f))
             fail("its transmission is " + number_text(m.transmission) +
                  " (it is a share of the light); use a number from 0 to 1");
+        for (const float share : {m.clearcoat, m.clearcoat_roughness})
+            if (!(share >= 0.0f && share <= 1.0f))
+                fail("its clear coat has " + number_text(share) +
+                     " as weight or roughness (they are shares); use numbers from 0 to 1");
     }
 
     void keep(const Scene& scene, const Texture& texture) {

@@ -90,6 +90,7 @@ class SceneHash {
         if (m.is_blended) add_each(m.is_blended, m.alpha);
         if (m.transmission > 0.0f)
             add_each(m.transmission, m.is_thin, m.attenuation_color, m.attenuation_distance);
+        if (m.clearcoat > 0.0f) add_each(m.clearcoat, m.clearcoat_roughness);
     }
 
     void add_environment(const Environment& e) {

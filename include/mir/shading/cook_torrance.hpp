@@ -5,6 +5,7 @@
 #include "mir/core/rgb.hpp"
 #include "mir/core/warp.hpp"
 #include "mir/data/bsdf_sample.hpp"
+#include "mir/shading/clearcoat.hpp"
 #include "mir/shading/ggx.hpp"
 #include "mir/shading/reflection_lobe.hpp"
 
@@ -15,13 +16,13 @@ namespace mir {
 /// Specular: F D V with D and V of shading/ggx.hpp, F by Schlick between f0 and f90.
 /// Diffuse: base (1 - F(n.wi)) (1 - F(n.wo)) / (pi (1 - F_avg)), the reciprocal coupling of Kelemen
 /// and Szirmay-Kalos (2001): what the interface reflects does not reach the base, so a white base
-/// under a smooth interface reflects exactly all light. Reciprocal. The directional albedo is at
-/// most 1.0025: over a rough lobe the mean of Schlick's convex term exceeds what the coupling takes
-/// away.
+/// under a smooth interface reflects exactly all light. A Clearcoat takes its share from both on
+/// the way in and on the way out. Reciprocal. The directional albedo is at most 1.0025: over a
+/// rough lobe the mean of Schlick's convex term exceeds what the coupling takes away.
 struct CookTorrance {
     static constexpr bool has_interface = true;  ///< smooth surfaces are mirrors
 
-    /// Eleven words, made by material_params() so that eval() divides by no constant.
+    /// Twelve words, made by material_params() so that eval() divides by no constant.
     struct Params {
         Rgb diffuse;       ///< base reflectance / (1 - F_avg), 0 for metals
         Rgb f0;            ///< reflectance at normal incidence
@@ -30,6 +31,7 @@ struct CookTorrance {
         /// the rest is the base below it.
         float alpha = 1.0f;
         Rgb scale{1.0f, 1.0f, 1.0f};  ///< multiplies f: what a specular chain to the point leaves
+        float clearcoat = 0.0f;       ///< Clearcoat::weight; its reflection is not part of f
 
         /// True when the interface has a lobe of its own.
         [[nodiscard]] MIR_HD bool has_lobe() const { return alpha > 0.0f; }
@@ -53,6 +55,8 @@ struct CookTorrance {
         Rgb to_f90_by_32;            ///< what it gains to grazing incidence, over 2^5
         Rgb base;                    ///< of diffuse reflection, light at normal incidence, sr^-1
         Rgb to_grazing;              ///< what that gains (it loses) to grazing incidence, sr^-1
+        float below;                 ///< share that a coat leaves of light at normal incidence
+        float below_to_grazing;      ///< what that gains (it loses) to grazing incidence
 
         /// f(wi, wo), sr^-1; `cos_i` is n.wi.
         [[nodiscard, gnu::always_inline]] MIR_HD Rgb operator()(Vec3 wi, float cos_i) const {
@@ -60,8 +64,10 @@ struct CookTorrance {
             const auto half = HalfVector<Rounding>::of(n, wi, wo, cosine + ggx.cos_o);
             const Rgb fresnel =
                 mul_add<Rounding>(fifth_power(half.twice_versine()), to_f90_by_32, f0);
-            const Rgb diffuse = mul_add<Rounding>(fifth_power(1.0f - cosine), to_grazing, base);
-            return mul_add<Rounding>(ggx.dv(half, cosine), fresnel, diffuse);
+            const float grazing = fifth_power(1.0f - cosine);
+            const Rgb diffuse = mul_add<Rounding>(grazing, to_grazing, base);
+            return mul_add<Rounding>(ggx.dv(half, cosine), fresnel, diffuse) *
+                   Rounding::mul_add(grazing, below_to_grazing, below);
         }
     };
 
@@ -72,16 +78,20 @@ struct CookTorrance {
         const float cos_o = dot<Rounding>(n, wo);
         const Rgb white{1.0f, 1.0f, 1.0f};
         const Rgb to_f90 = Rgb{p.f90, p.f90, p.f90} - p.f0;
+        const Clearcoat coat{p.clearcoat};
+        const Rgb scale = p.scale * (1.0f - coat.reflectance(fifth_power(1.0f - cos_o)));
         const Rgb base =
-            p.scale * p.diffuse * inv_pi * (white - schlick<Rounding>(p.f0, to_f90, cos_o));
-        const Rgb lobe = kept_if(p.has_lobe(), p.scale);
+            scale * p.diffuse * inv_pi * (white - schlick<Rounding>(p.f0, to_f90, cos_o));
+        const Rgb lobe = kept_if(p.has_lobe(), scale);
         return {n,
                 wo,
                 GgxOutgoing<Rounding>::of(cos_o, p.has_lobe() ? p.alpha : 1.0f),
                 lobe * p.f0,
                 lobe * to_f90 * 0x1p-5f,
                 base * (white - p.f0),
-                base * (p.f0 - Rgb{p.f90, p.f90, p.f90})};
+                base * (p.f0 - Rgb{p.f90, p.f90, p.f90}),
+                1.0f - coat.reflectance(0.0f),
+                coat.reflectance(0.0f) - coat.reflectance(1.0f)};
     }
 
     /// Density of sample() at `wi`, per steradian.
@@ -137,14 +147,28 @@ struct CookTorrance {
         return p;
     }
 
+    /// A clear coat alone, with a lobe.
+    MIR_HD static Params coat(float weight, float roughness) {
+        Params p;
+        p.f0 = Rgb{1.0f, 1.0f, 1.0f} * Clearcoat{weight}.reflectance(0.0f);
+        p.f90 = Clearcoat{weight}.reflectance(1.0f);
+        p.alpha = roughness * roughness;
+        return p;
+    }
+
     /// Reflectance towards `wo` for guide images and samplers, 0..1. The diffuse base is exact, the
-    /// interface counts without its roughness.
+    /// interface counts without its roughness, a coat by what it takes.
     MIR_HD static Rgb albedo(const Params& p, Vec3 n, Vec3 wo) {
         const Rgb white{1.0f, 1.0f, 1.0f};
-        const Rgb f = schlick(p, larger(glm::dot(n, wo), 0.0f));
+        const float cosine = larger(glm::dot(n, wo), 0.0f);
+        const Rgb f = schlick(p, cosine);
+        const Clearcoat coat{p.clearcoat};
+        const float below = 1.0f - coat.reflectance(fifth_power(1.0f - cosine));
         const Rgb mean = p.f0 * (20.0f / 21.0f) + white * (p.f90 / 21.0f);
-        const Rgb all = kept_if(p.has_lobe(), f) + p.diffuse * (white - mean) * (white - f);
-        return p.scale * all;
+        const Rgb taken{coat.mean_taken(p.f0.r, p.f90), coat.mean_taken(p.f0.g, p.f90),
+                        coat.mean_taken(p.f0.b, p.f90)};
+        const Rgb base = p.diffuse * (white - mean - taken) * (white - f);
+        return p.scale * below * (kept_if(p.has_lobe(), f * below) + base);
     }
 
     /// Schlick's Fresnel term between f0 and f90.

@@ -60,7 +60,9 @@ struct LuxelTracer {
     }
     /// Unit shading normal of the surface that is seen.
     [[nodiscard]] MIR_HD Vec3 normal(const SeenLuxel& seen) const {
-        return surfaces.seen_normal(seen.point, -seen.ray.direction);
+        const Vec3 wo = -seen.ray.direction;
+        return seen.on_coat ? surfaces.coat_normal(seen.point, wo)
+                            : surfaces.seen_normal(seen.point, wo);
     }
     /// Surface that is seen. Of the background it has the radiance as its emission and no more.
     [[nodiscard]] MIR_HD Surface surface(const SeenLuxel& seen,
@@ -86,6 +88,10 @@ MIR_HD void LuxelTracer<R, S, B>::weaken(const SeenLuxel& seen, Surface& surface
         surface.emission = surface.emission * seen.light;
         if (ends_specular)
             surface.bsdf = surfaces.params_of_side(surface.bsdf, p.material, p.front);
+        if (seen.on_coat) {
+            surface.bsdf = surfaces.coat(p.material);
+            surface.normal = surfaces.coat_normal(p, surface.wo);
+        }
         surface.bsdf = B::scaled(surface.bsdf, seen.reflection);
     }
 }

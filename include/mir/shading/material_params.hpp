@@ -27,11 +27,14 @@ MIR_HD inline CookTorrance::Params material_params(const MaterialFactors& m, Coo
     p.f0 = {mix(m.base_color.r), mix(m.base_color.g), mix(m.base_color.b)};
     p.f90 = m.specular + (1.0f - m.specular) * m.metallic;
     p.alpha = larger(m.roughness * m.roughness, min_ggx_alpha);
-    // Cosine-weighted mean of Schlick's term: F_avg = f0 + (f90 - f0) / 21.
+    p.clearcoat = m.transmission > 0.0f ? 0.0f : m.clearcoat;
+    // Cosine-weighted mean of Schlick's term: F_avg = f0 + (f90 - f0) / 21. What interface and coat
+    // throw back inside reaches the base again.
     const auto base = [&](float color, float f0) {
         const float mean = f0 + (p.f90 - f0) / 21.0f;
+        const float below = 1.0f - mean - Clearcoat{p.clearcoat}.mean_taken(f0, p.f90);
         const float diffuse = color * (1.0f - m.metallic) * (1.0f - m.transmission);
-        return mean < 1.0f ? diffuse / (1.0f - mean) : 0.0f;
+        return below > 0.0f ? diffuse / below : 0.0f;
     };
     p.diffuse = {base(m.base_color.r, p.f0.r), base(m.base_color.g, p.f0.g),
                  base(m.base_color.b, p.f0.b)};

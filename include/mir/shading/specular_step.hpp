@@ -8,10 +8,11 @@ namespace mir {
 
 /// What a ray does at a surface where it may go on.
 enum class SpecularEvent : std::uint8_t {
-    stop,     ///< the surface is the end of the chain
-    pass,     ///< straight on
-    mirror,   ///< reflected
-    transmit  ///< to the other side in another direction
+    stop,      ///< the surface is the end of the chain
+    pass,      ///< straight on
+    mirror,    ///< reflected
+    transmit,  ///< to the other side in another direction
+    coat       ///< its rough coat is the end of the chain, with a lobe of its own
 };
 
 /// How events are drawn and weighed.
@@ -24,7 +25,7 @@ struct SpecularRules {
 struct SpecularStep {
     SpecularEvent event = SpecularEvent::stop;  ///< drawn by specular_step()
     Vec3 direction{0};                          ///< unit, where the ray goes on
-    /// Share of the event over its probability; at an end, of what the Bsdf is multiplied by.
+    /// Share of the event over its probability; at an end, what the Bsdf is multiplied by.
     Rgb weight{1.0f, 1.0f, 1.0f};
     float probability = 1.0f;  ///< of the event, in (0, 1]
 };
@@ -38,23 +39,26 @@ struct SpecularOdds {
     float pass = 0.0f;
     float mirror = 0.0f;
     float transmit = 0.0f;
+    float coat = 0.0f;
 
     /// `rest` is what the Bsdf may be worth.
     [[nodiscard]] MIR_HD static SpecularOdds of(const SpecularShares& shares, float rest,
                                                 float least) {
         SpecularOdds o{rest, luminance(shares.pass), luminance(shares.mirrored),
-                       luminance(shares.transmitted)};
-        const float sum = o.stop + o.pass + o.mirror + o.transmit;
+                       luminance(shares.transmitted), shares.coated};
+        const float sum = o.sum();
         if (!(sum > 0.0f)) return {};
         const auto odd = [=](float x) { return x > 0.0f ? larger(x / sum, least) : 0.0f; };
-        o = {odd(o.stop), odd(o.pass), odd(o.mirror), odd(o.transmit)};
-        const float paid = o.stop + o.pass + o.mirror + o.transmit - 1.0f;
+        o = {odd(o.stop), odd(o.pass), odd(o.mirror), odd(o.transmit), odd(o.coat)};
+        const float paid = o.sum() - 1.0f;
         float* likeliest = &o.stop;
-        for (float* other : {&o.pass, &o.mirror, &o.transmit})
+        for (float* other : {&o.pass, &o.mirror, &o.transmit, &o.coat})
             if (*other > *likeliest) likeliest = other;
         *likeliest -= paid;
         return o;
     }
+
+    [[nodiscard]] MIR_HD float sum() const { return stop + pass + mirror + transmit + coat; }
 };
 
 /// Direction behind an interface of index `eta` with normal `n`, on the side of `wo`. Zero where
@@ -105,6 +109,15 @@ MIR_HD void roughen(const SpecularSurface& s, Numbers& numbers, SpecularStep& st
     step.weight = share * (s.cover * ggx_g1(cosine, alpha) / step.probability);
 }
 
+/// The share of a coat, drawn with the probability `odds`: what it mirrors, or its own lobe.
+[[nodiscard]] MIR_HD inline SpecularStep coat_step(const SpecularSurface& s, float share,
+                                                   float odds) {
+    const bool smooth = is_smooth(s.factors.clearcoat_roughness);
+    const float weight = (smooth ? share : s.cover) / odds;
+    if (!smooth) return {SpecularEvent::coat, Vec3(0.0f), {weight, weight, weight}, odds};
+    return {SpecularEvent::mirror, mirrored(s, s.coat_normal), {weight, weight, weight}, odds};
+}
+
 }  // namespace detail
 
 /// Draws what a ray does at a surface, by the luminance of the shares. `albedo` is that of the
@@ -141,6 +154,7 @@ template <class Numbers>
             step.weight = step.weight * (1.0f / (s.eta() * s.eta()));
         return step;
     }
+    if (take(odds.coat)) return detail::coat_step(s, shares.coated, odds.coat);
     if (odds.stop > 0.0f) {
         const float rest = shares.rest / odds.stop;
         return {SpecularEvent::stop, Vec3(0.0f), Rgb{rest, rest, rest}, odds.stop};

@@ -24,6 +24,7 @@ struct SpecularSurface {
     Vec3 wo{0};                 ///< unit, where the ray came from
     bool front = true;          ///< `wo` lies outside of a body
     bool has_interface = true;  ///< what is opaque and smooth is a mirror
+    Vec3 coat_normal{0, 0, 1};  ///< unit, that of a coat: without the surface's normal texture
 
     /// True for the surface of a body that light enters.
     [[nodiscard]] MIR_HD bool bounds_body() const { return !factors.is_thin && clear() > 0.0f; }
@@ -41,6 +42,12 @@ struct SpecularSurface {
         const float f = dielectric_reflectance(eta(), smaller(cosine, 1.0f));
         return f < 1.0f ? factors.specular * f : 1.0f;
     }
+    /// Reflectance of the coat at a cosine, 0..1. Glass has none.
+    [[nodiscard]] MIR_HD float coat(float cosine) const {
+        if (!has_interface || factors.transmission > 0.0f) return 0.0f;
+        return Clearcoat{factors.clearcoat}.reflectance(
+            CookTorrance::fifth_power(1.0f - larger(cosine, 0.0f)));
+    }
     /// What a mirror reflects at a cosine: the clear share by the interface's reflectance
     /// `at_glass`, the rest by the Fresnel term of CookTorrance. Its base is below that term alone:
     /// where glass reflects all, the clear share must not add to what the base sends back.
@@ -55,10 +62,11 @@ struct SpecularSurface {
 /// The shares of light that leave a surface other than by its Bsdf. Of all that is reflected and
 /// let through they leave `rest` times what specular_end_params() says.
 struct SpecularShares {
-    Rgb pass;           ///< goes straight on
-    Rgb mirrored;       ///< reflected by an interface without a lobe of its own
-    Rgb transmitted;    ///< refracted, or spread by a rough sheet
-    float rest = 1.0f;  ///< covered share, which the Bsdf is of
+    Rgb pass;             ///< goes straight on
+    Rgb mirrored;         ///< reflected by an interface without a lobe of its own
+    float coated = 0.0f;  ///< reflected by the coat, in one direction or by its lobe
+    Rgb transmitted;      ///< refracted, or spread by a rough sheet
+    float rest = 1.0f;    ///< covered share, which the Bsdf is of
 };
 
 /// What a surface does to a ray. The interface of opaque materials has the Fresnel term of their
@@ -79,11 +87,13 @@ struct SpecularShares {
     SpecularShares shares;
     shares.rest = s.cover;
     shares.pass = straight_transmittance(f, s.cover, cosine);
+    const float coat = s.coat(glm::dot(s.coat_normal, s.wo));
+    shares.coated = s.cover * coat;
     if (clear > 0.0f && !(is_sheet && smooth))
         shares.transmitted = f.base_color * (s.cover * clear * (1.0f - reflected));
     const bool is_mirror = smooth && (clear > 0.0f || s.has_interface);
     if (!is_mirror && !(s.bounds_body() && !s.front)) return shares;
-    shares.mirrored = s.cover * s.mirror(reflected, cosine);
+    shares.mirrored = s.cover * s.mirror(reflected, cosine) * ((1.0f - coat) * (1.0f - coat));
     return shares;
 }
 

@@ -20,6 +20,7 @@ struct SpecularEnd {
     float before = 0.0f;       ///< metres travelled before `ray`
     std::uint32_t events = 0;  ///< surfaces that the ray went on from
     bool is_straight = true;   ///< none of them has changed its direction
+    bool on_coat = false;  ///< the end is the rough coat of the surface, and not what lies below
 };
 
 /// Follows rays through specular chains to the first surface that ends them. A value of views;
@@ -64,7 +65,8 @@ struct SpecularTracer {
         absorb(end, inside);
         const SpecularSurface surface = surface_of(end);
         const SpecularStep step = step_of(end, surface, rules, numbers);
-        if (step.event == SpecularEvent::stop || is_black(step.weight)) {
+        const bool ends = step.event == SpecularEvent::stop || step.event == SpecularEvent::coat;
+        if (ends || is_black(step.weight)) {
             stop(end, step);
             return false;
         }
@@ -86,7 +88,8 @@ struct SpecularTracer {
                 p.geometric_normal,
                 wo,
                 p.front,
-                B::has_interface};
+                B::has_interface,
+                surfaces.coat_normal(p, wo)};
     }
 
     template <class Numbers>
@@ -113,6 +116,9 @@ struct SpecularTracer {
     MIR_HD static void stop(SpecularEnd& end, const SpecularStep& step) {
         end.reflection = end.light * step.weight;
         end.light = end.light * (1.0f / step.probability);
+        end.on_coat = step.event == SpecularEvent::coat;
+        // What shines is the surface below.
+        if (end.on_coat) end.light = {};
         if (is_black(step.weight)) lose(end);
     }
     MIR_HD static void lose(SpecularEnd& end) { end.light = end.reflection = {}; }

@@ -69,13 +69,14 @@ class SurfaceTable {
  private:
     /// Whether some of what it reflects, or lets through, goes in one direction.
     static bool is_specular(const Scene& scene, const Material& m) {
-        return SpecularBsdf<B> && (m.is_blended || bends_rays(scene, m));
+        return SpecularBsdf<B> && (m.is_blended || m.clearcoat > 0.0f || bends_rays(scene, m));
     }
     /// Whether some of it goes on in one direction that is not that of before.
     static bool bends_rays(const Scene& scene, const Material& m) {
         bool mirrors = false;
         if constexpr (SpecularBsdf<B>) mirrors = B::has_interface;
         if (m.transmission > 0.0f && m.metallic < 1.0f) return true;
+        if (mirrors && m.clearcoat > 0.0f && is_smooth(m.clearcoat_roughness)) return true;
         const bool reflects = m.metallic > 0.0f || m.specular > 0.0f;
         return mirrors && reflects && is_smooth(m.roughness * least_green(scene, m));
     }

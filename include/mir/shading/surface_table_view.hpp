@@ -96,6 +96,18 @@ struct SurfaceTableView {
         if (glm::dot(bent, wo) > 0.0f) return bent;
         return glm::dot(p.shading_normal, wo) > 0.0f ? p.shading_normal : p.geometric_normal;
     }
+    /// The normal of a clear coat, which knows no normal texture, seen from `wo`.
+    [[nodiscard]] MIR_HD static Vec3 coat_normal(const SurfacePoint& p, Vec3 wo) {
+        return glm::dot(p.shading_normal, wo) > 0.0f ? p.shading_normal : p.geometric_normal;
+    }
+    /// How the rough coat of a material reflects, which it must have.
+    [[nodiscard]] MIR_HD typename B::Params coat(std::uint32_t material) const {
+        const MaterialFactors& m = entries[material].factors;
+        if constexpr (requires { B::coat(m.clearcoat, m.clearcoat_roughness); })
+            return B::coat(m.clearcoat, m.clearcoat_roughness);
+        else
+            return {};
+    }
     /// True when rays that meet the material may go on as specular chains. Never of a model that
     /// cannot stand at their end.
     [[nodiscard]] MIR_HD bool is_specular(std::uint32_t material) const {

@@ -101,7 +101,13 @@ class Materials:
             self._losses.add(name, "its volume: it is no closed mesh of glass")
         if surface.transmission == 0.0:
             specular = 1.0 if surface.reflection > 0.0 else 0.0
-            return {"specular": specular, "ior": ior_of(surface.reflection)}
+            values = {"specular": specular, "ior": ior_of(surface.reflection)}
+            if surface.clearcoat > 0.0:
+                values["clearcoat"] = min(1.0, surface.clearcoat)
+                values["clearcoat_roughness"] = min(1.0, max(0.0, surface.clearcoat_roughness))
+            return values
+        if surface.clearcoat > 0.0:
+            self._losses.add(name, "its coat: glass has none")
         ior = max(1.0, surface.ior)
         most = reflection_of(ior)
         values = {

@@ -11,7 +11,6 @@ from .surface import BLACK, Surface, added, mixed, reflection_of, without_reflec
 _LOST_WEIGHTS = (
     ("Subsurface Weight", "Subsurface"),
     ("Sheen Weight", "Sheen"),
-    ("Coat Weight", "Clearcoat"),
     ("Anisotropic",),
     ("Thin Film Thickness",),
 )
@@ -177,6 +176,8 @@ class ShaderReader:
         self._alpha(node, surface)
         surface.emission = tuple(max(0.0, c * strength * surface.opacity) for c in color)
         self._transmission(node, surface)
+        surface.clearcoat = self._number(node, "Coat Weight", "Clearcoat")
+        surface.clearcoat_roughness = self._number(node, "Coat Roughness", "Clearcoat Roughness")
         self._normal(node, surface)
         for names in _LOST_WEIGHTS:
             if self._number(node, *names) != 0.0:

@@ -18,6 +18,8 @@ class Surface:
     opacity: float = 1.0  # covered share
     transmission: float = 0.0  # of what passes the interface, 0..1, tinted by base_color
     ior: float = 1.5  # of what transmits
+    clearcoat: float = 0.0  # weight of an interface of index 1.5 on top, 0..1
+    clearcoat_roughness: float = 0.0
     absorption: tuple | None = None  # m^-1, inside of a body
     is_sheet: bool = False  # light goes straight on, whatever the mesh
     color_attribute: str | None = None
@@ -72,6 +74,7 @@ def mixed(a: Surface, b: Surface, share: float) -> Surface:
         roughness=_mixed_roughness(a, b, weight),
         reflection=_blend(a.reflection, b.reflection, weight),
         transmission=_blend(a.transmission, b.transmission, weight),
+        clearcoat=_blend(a.clearcoat, b.clearcoat, weight),
         ior=_glass_of(main, other).ior,
         is_sheet=_glass_of(main, other).is_sheet,
         emission=_blend(a.emission, b.emission, share),

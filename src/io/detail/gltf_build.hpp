@@ -116,6 +116,10 @@ class GltfBuilder {
         if (from.ior != 1.5f)
             extend(to.extensions, "KHR_materials_ior", {{"ior", number(from.ior)}});
         transmission(from, to);
+        if (from.clearcoat > 0.0f)
+            extend(to.extensions, "KHR_materials_clearcoat",
+                   {{"clearcoatFactor", number(from.clearcoat)},
+                    {"clearcoatRoughnessFactor", number(from.clearcoat_roughness)}});
         keep_group(from.light_group, to.extras);
         use_textures(from, to);
     }

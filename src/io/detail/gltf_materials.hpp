@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "io/detail/gltf_parse_materials.hpp"
 #include "io/detail/gltf_textures.hpp"
 #include "mir/core/number_text.hpp"
 #include "mir/scene/material.hpp"
@@ -31,6 +32,8 @@ class GltfMaterials {
         alpha(from, to);
         emission(from, to);
         for (const auto& [name, extension] : from.extensions) this->extension(name, extension, to);
+        if (to.clearcoat > 0.0f && to.transmission > 0.0f)
+            ignore("KHR_materials_clearcoat on glass");
         textures(from, to);
         if (from.extensions.contains("KHR_materials_unlit")) shine(to);
         return to;
@@ -83,6 +86,7 @@ class GltfMaterials {
         if (name == "KHR_materials_ior") return ior(value, to);
         if (name == "KHR_materials_transmission") return transmission(value, to);
         if (name == "KHR_materials_volume") return volume(value, to);
+        if (name == "KHR_materials_clearcoat") return clearcoat(value, to);
         if (name == "KHR_materials_pbrSpecularGlossiness") return specular_glossiness(value, to);
         count_extension(name, report_);
     }
@@ -111,6 +115,14 @@ class GltfMaterials {
         to.transmission =
             unit(number_or(from, "transmissionFactor", 0.0, place_), "transmissionFactor");
         if (from.Has("transmissionTexture")) ignore("texture transmissionTexture");
+    }
+
+    void clearcoat(const tinygltf::Value& from, Material& to) {
+        to.clearcoat = unit(number_or(from, "clearcoatFactor", 0.0, place_), "clearcoatFactor");
+        to.clearcoat_roughness = unit(number_or(from, "clearcoatRoughnessFactor", 0.0, place_),
+                                      "clearcoatRoughnessFactor");
+        for (const char* texture : clearcoat_textures)
+            if (from.Has(texture)) ignore(std::string("texture ") + texture);
     }
 
     /// How thick it is, rays find out; that it is thick, makes it a body.

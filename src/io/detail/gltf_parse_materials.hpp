@@ -6,6 +6,7 @@
 
 #include <tiny_gltf.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -45,6 +46,10 @@ inline void parse_surface(const GltfDocument& document, const GltfValue& from,
         parse_texture_info(document, *texture, to.metallicRoughnessTexture);
 }
 
+/// Of KHR_materials_clearcoat, which are counted.
+inline constexpr std::array clearcoat_textures = {"clearcoatTexture", "clearcoatRoughnessTexture",
+                                                  "clearcoatNormalTexture"};
+
 inline tinygltf::Value parse_material_extension(const std::string& name, const GltfValue& from) {
     tinygltf::Value::Object to;
     if (name == "KHR_materials_emissive_strength") {
@@ -54,6 +59,10 @@ inline tinygltf::Value parse_material_extension(const std::string& name, const G
     } else if (name == "KHR_materials_transmission") {
         take_number(from, "transmissionFactor", to);
         take_presence(from, "transmissionTexture", to);
+    } else if (name == "KHR_materials_clearcoat") {
+        take_number(from, "clearcoatFactor", to);
+        take_number(from, "clearcoatRoughnessFactor", to);
+        for (const char* texture : clearcoat_textures) take_presence(from, texture, to);
     } else if (name == "KHR_materials_volume") {
         take_number(from, "thicknessFactor", to);
         take_presence(from, "thicknessTexture", to);

@@ -118,7 +118,7 @@ inline void MtlText::begin(const std::string& name) {
 
 inline void MtlText::statement(std::string_view keyword, std::string_view rest) {
     constexpr std::array<std::string_view, 5> colors = {"Kd", "Ks", "Ke", "Tf", "Kt"};
-    constexpr std::array<std::string_view, 5> numbers = {"Ns", "Ni", "Tr", "Pr", "Pm"};
+    constexpr std::array<std::string_view, 7> numbers = {"Ns", "Ni", "Tr", "Pr", "Pm", "Pc", "Pcr"};
     constexpr std::array<std::string_view, 4> images = {"map_Kd", "map_Ke", "map_d", "norm"};
     constexpr std::array<std::string_view, 3> meaningless = {"Ka", "sharpness", "map_Ka"};
     if (keyword == "newmtl") return begin(trimmed(rest));

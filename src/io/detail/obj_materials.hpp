@@ -220,6 +220,10 @@ inline void ObjMaterials::interface_of(MtlMaterial& from, Material& to) {
         to.roughness = unit_factor((*pr)[0], "Pr", place_, from.lost);
     else if (const auto ns = from.find("Ns"))
         to.roughness = roughness_of_phong(checked_amount((*ns)[0], "Ns", place_));
+    if (const auto pc = from.find("Pc"))
+        to.clearcoat = unit_factor((*pc)[0], "Pc", place_, from.lost);
+    if (const auto pcr = from.find("Pcr"))
+        to.clearcoat_roughness = unit_factor((*pcr)[0], "Pcr", place_, from.lost);
     // Exporters write 1 for "none", and nothing is below that.
     if (const auto ni = from.find("Ni"); ni && (*ni)[0] > 1.0f) to.ior = (*ni)[0];
 }

@@ -40,8 +40,7 @@ inline constexpr std::array gltf_material_effects = {
     VisibleEffect{"KHR_materials_dispersion", "glass shows no rainbow colours"},
     VisibleEffect{"KHR_materials_diffuse_transmission",
                   "leaves, paper and lampshades let no light through: their far side is dark"},
-    VisibleEffect{"KHR_materials_clearcoat",
-                  "the clear coat is missing: lacquer lacks its second, sharp highlight"},
+    VisibleEffect{"KHR_materials_clearcoat on glass", "the coat of the glass is missing"},
     VisibleEffect{"KHR_materials_sheen", "cloth lacks its soft, bright rim"},
     VisibleEffect{"KHR_materials_iridescence", "thin films show no rainbow colours"},
     VisibleEffect{"KHR_materials_anisotropy",
@@ -71,6 +70,10 @@ inline constexpr std::array gltf_texture_effects = {
     VisibleEffect{"texture emissiveTexture*",
                   "all of the surface shines, where this image lets parts of it shine"},
     VisibleEffect{"texture transmissionTexture", "it is equally clear all over the surface"},
+    VisibleEffect{"texture clearcoatTexture", "the coat is the same all over the surface"},
+    VisibleEffect{"texture clearcoatRoughnessTexture",
+                  "the coat is equally sharp all over the surface"},
+    VisibleEffect{"texture clearcoatNormalTexture", "the coat lacks the fine relief of this image"},
     VisibleEffect{"texture thicknessTexture", "bodies are as thick as their surfaces are apart"},
     VisibleEffect{"texture specularTexture", "reflections are equally strong all over the surface"},
     VisibleEffect{"texture specularColorTexture",
@@ -149,8 +152,6 @@ inline constexpr std::array obj_effects = {
 };
 
 inline constexpr std::string_view no_relief = "the surface lacks the fine relief of this image";
-inline constexpr std::string_view no_clear_coat =
-    "the clear coat is missing: lacquer lacks its second, sharp highlight";
 inline constexpr std::string_view round_highlights =
     "highlights are round, not drawn out as on brushed metal";
 
@@ -172,8 +173,6 @@ inline constexpr std::array mtl_effects = {
     VisibleEffect{"MTL 'map_Pm'", "the surface is equally metallic all over"},
     VisibleEffect{"MTL 'Ps'", "cloth lacks its soft, bright rim"},
     VisibleEffect{"MTL 'map_Ps'", "cloth lacks its soft, bright rim"},
-    VisibleEffect{"MTL 'Pc'", no_clear_coat},
-    VisibleEffect{"MTL 'Pcr'", no_clear_coat},
     VisibleEffect{"MTL 'aniso'", round_highlights},
     VisibleEffect{"MTL 'anisor'", round_highlights},
     VisibleEffect{"MTL *", "drawn as if the line were missing"},

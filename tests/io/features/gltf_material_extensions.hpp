@@ -103,6 +103,30 @@ inline std::vector<Extension> read_materials() {
                         CHECK(m.is_thin);
                     })),
             "the factor is read: glass, a sheet without `KHR_materials_volume`"),
+        extension(
+            "KHR_materials_clearcoat",
+            "`clearcoatFactor`, `clearcoatRoughnessFactor`, `clearcoatTexture`, "
+            "`clearcoatRoughnessTexture`, `clearcoatNormalTexture`",
+            of_material("KHR_materials_clearcoat", {{"clearcoatFactor", 0.75},
+                                                    {"clearcoatRoughnessFactor", 0.25},
+                                                    {"clearcoatTexture", {{"index", 0}}},
+                                                    {"clearcoatRoughnessTexture", {{"index", 0}}},
+                                                    {"clearcoatNormalTexture", {{"index", 0}}}}),
+            counted({"texture clearcoatNormalTexture", "texture clearcoatRoughnessTexture",
+                     "texture clearcoatTexture"},
+                    material([](const mir::Material& m) {
+                        CHECK(m.clearcoat == 0.75f);
+                        CHECK(m.clearcoat_roughness == 0.25f);
+                    })),
+            "both factors are read: a second interface on top, without the normal texture"),
+        extension(
+            "KHR_materials_clearcoat", "on glass",
+            [](Gltf& g) {
+                json& all = g.material()["extensions"];
+                all["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
+                all["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1}};
+            },
+            counted({"KHR_materials_clearcoat on glass"}), "no coat"),
         extension("KHR_materials_volume",
                   "`thicknessFactor`, `thicknessTexture`, `attenuationDistance`, "
                   "`attenuationColor`",
@@ -139,7 +163,6 @@ inline std::vector<Extension> read_materials() {
 inline std::vector<Extension> counted_materials() {
     const std::vector<std::pair<const char*, const char*>> names = {
         {"KHR_materials_anisotropy", "highlights drawn out"},
-        {"KHR_materials_clearcoat", "a second interface on top"},
         {"KHR_materials_diffuse_transmission", "light through leaves and paper"},
         {"KHR_materials_dispersion", "colours of glass"},
         {"KHR_materials_iridescence", "thin films"},

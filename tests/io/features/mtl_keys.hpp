@@ -121,7 +121,12 @@ inline Features mtl_models() {
             })),
             "`Pr` before `Ns`; with either and no `Ks` the interface has weight 1"),
         key("sheen", "`Ps`", {"Ps 1"}, mtl_lost("Ps")),
-        key("clearcoat", "`Pc`, `Pcr`", {"Pc 1\nPcr 0.5"}, counted({"MTL 'Pc'", "MTL 'Pcr'"})),
+        key("clearcoat", "`Pc`, `Pcr`", {"Pc 1\nPcr 0.5"},
+            read(material([](const mir::Material& m) {
+                CHECK(m.clearcoat == 1.0f);
+                CHECK(m.clearcoat_roughness == 0.5f);
+            })),
+            "weight and roughness of a second interface; not on glass"),
         key("anisotropy", "`aniso`, `anisor`", {"aniso 1\nanisor 0.5"},
             counted({"MTL 'aniso'", "MTL 'anisor'"})),
         key("any other keyword", "for instance `Km`", {"Km 1"}, mtl_lost("Km")),
