@@ -30,12 +30,12 @@ class LampSampler {
             starts[i] = mir::sample_emission(lights_, numbers);
         });
         for (const mir::Emission& e : starts) {
-            if (!e.emitter) continue;  // a light without extent
+            if (!e.is_lamp) continue;  // a light without extent
             mir::Vpl vpl = mir::emitter_vpl(e);
             vpl.intensity = vpl.intensity * (1.0f / static_cast<float>(vpls_));
             out.records.push_back(
                 {vpl,
-                 {mir::VplKind::emitter, e.emitter->triangle, e.emitter->barycentrics},
+                 {mir::VplKind::emitter, e.emitter.triangle, e.emitter.barycentrics},
                  1,
                  e.light_group});
         }

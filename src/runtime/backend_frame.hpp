@@ -68,6 +68,9 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] const AnyEngine& rays() override;
     [[nodiscard]] double visible_area() override;
     [[nodiscard]] VplRecords sample_chains(const MetropolisOptions& options, float bound) override;
+    [[nodiscard]] VplRecords sample_light_paths(const InstantRadiosityOptions& options) override;
+    [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
+                                                     float bound) override;
 
     /// Returns with no work under way, as all members that take bands or layers.
     /// @throws Error(limit_exceeded) for 2^32 luxels and more.
@@ -140,6 +143,9 @@ class BackendFrame final : public RenderFrame {
     template <class Use>
     auto with_tile_visibility(const Use& use) const;
 
+    template <class Rays>
+    [[nodiscard]] BandPtr traced(Extent extent, Extent tile, std::uint32_t first_row,
+                                 const Rays& camera);
     template <class Rays>
     [[nodiscard]] VplRecords sample_chains_through(const Rays& rays,
                                                    const MetropolisOptions& options, float bound);

@@ -48,6 +48,13 @@ class HostFrame final : public RenderFrame {
     [[nodiscard]] VplRecords sample_chains(const MetropolisOptions& options, float bound) override {
         return sample_chains_on_host(*this, options, bound);
     }
+    [[nodiscard]] VplRecords sample_light_paths(const InstantRadiosityOptions& options) override {
+        return sample_light_paths_on_host(*this, options);
+    }
+    [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
+                                                     float bound) override {
+        return light_path_luminance_on_host(*this, sampled, bound);
+    }
 
     [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override {
         return traced(extent, tile, first_row, job_.rays);

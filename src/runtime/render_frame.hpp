@@ -5,6 +5,7 @@
 #include "mir/data/vpl_record.hpp"
 #include "mir/metropolis/metropolis_options.hpp"
 #include "mir/runtime/any_engine.hpp"
+#include "mir/sampling/light_path_options.hpp"
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/shading/direct_samples.hpp"
 #include "runtime/band_turn.hpp"
@@ -83,6 +84,14 @@ class RenderFrame {
     /// @throws Error(invalid_argument) for options out of range; Error(cancelled).
     [[nodiscard]] virtual VplRecords sample_chains(const MetropolisOptions& options,
                                                    float bound) = 0;
+
+    /// The records of InstantRadiositySampler.
+    /// @throws Error(invalid_argument) for options out of range; Error(cancelled);
+    /// Error(unsupported) for arrivals, of frames without FrameFeature::lobes.
+    [[nodiscard]] virtual VplRecords sample_light_paths(const InstantRadiosityOptions& options) = 0;
+    /// What such records say of P_c under `bound`: light_path_luminance() by path_probe().
+    [[nodiscard]] virtual PathLuminance light_path_luminance(const VplRecords& sampled,
+                                                             float bound) = 0;
 
     /// Calls work(by, i, turn) for all i < bands. `by` is a frame that this one is made of: here
     /// itself, from top to bottom. A band goes to the same frame in every loop over so many.

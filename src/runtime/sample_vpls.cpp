@@ -7,6 +7,7 @@
 #include "mir/sampling/metropolis_sampler.hpp"
 #include "mir/sampling/proposal_sampler.hpp"
 #include "mir/sampling/vpl_roulette.hpp"
+#include "runtime/path_probe.hpp"
 
 namespace mir {
 namespace {
@@ -39,9 +40,8 @@ BidirectionalOptions bidirectional_options(const RenderSettings& settings) {
 template <Bsdf B>
 auto image_probe(const RenderJob& job, const SurfaceTable<B>& surfaces, const AnyEngine& rays,
                  float bound) {
-    const ProbeRays probes{job.rays.camera, job.aspect(), 256, job.settings.seed};
-    return ImageProbe<B, AnyVisibility>(probes, rays.ray_caster(), surfaces, rays.visibility(),
-                                        VplShading<B>{bound});
+    return ImageProbe<B, AnyVisibility>(path_probe(job), rays.ray_caster(), surfaces,
+                                        rays.visibility(), VplShading<B>{bound});
 }
 
 /// What full paths of a render run through.
@@ -66,15 +66,11 @@ bool needs_probe(const RenderSettings& s) {
            s.normalisation_policy() == NormalisationPolicy::proposal;
 }
 
-/// Calls use(sampler) with the one that the settings name, chains without a probe apart.
+/// Calls use(sampler) with the one that the settings name, of those that need a probe.
 template <Bsdf B, class Use>
 auto with_sampler(const RenderJob& job, const SurfaceTable<B>& surfaces, const AnyEngine& rays,
                   float bound, const Use& use) {
     const RenderSettings& s = job.settings;
-    using LightPaths = InstantRadiositySampler<B, AnyRayCaster>;
-    const typename LightPaths::World light_paths{job.geometry, job.lights, surfaces,
-                                                 rays.ray_caster()};
-    if (!needs_probe(s)) return use(LightPaths(light_paths, light_path_options(s), s.limits));
     const auto paths = path_world(job, surfaces, rays, bound);
     const auto probe = image_probe(job, surfaces, rays, bound);
     if (s.sampler == SamplerKind::metropolis)
@@ -82,7 +78,17 @@ auto with_sampler(const RenderJob& job, const SurfaceTable<B>& surfaces, const A
     if (s.sampler == SamplerKind::bidirectional)
         return use(BidirectionalSampler(paths, probe, bidirectional_options(s), s.limits));
     using Roulette = RouletteRadiositySampler<B, AnyRayCaster, AnyVisibility>;
-    return use(Roulette(light_paths, light_path_options(s), probe, {}, s.limits));
+    return use(Roulette({job.geometry, job.lights, surfaces, rays.ray_caster()},
+                        light_path_options(s), probe, {}, s.limits));
+}
+
+/// Light paths, and how well they know P_c where that is wanted.
+SampledVpls sample_light_paths(RenderFrame& frame, float bound) {
+    const RenderSettings& s = frame.job().settings;
+    SampledVpls sampled{frame.sample_light_paths(light_path_options(s)), Normalisation::none};
+    if (s.sampler == SamplerKind::instant_radiosity && s.measure_missing)
+        sampled.records.light_paths = frame.light_path_luminance(sampled.records, bound);
+    return sampled;
 }
 
 }  // namespace
@@ -96,17 +102,36 @@ MetropolisOptions metropolis_options(const RenderSettings& settings) {
 SampledVpls sample_vpls(RenderFrame& frame, float bound) {
     RenderJob& job = frame.job();
     const RenderSettings& s = job.settings;
-    if (s.sampler == SamplerKind::metropolis && !has_nothing_to_sample(s) && !needs_probe(s))
+    if (needs_probe(s)) {
+        const AnyEngine& rays = frame.rays();
+        return job.with_surfaces([&](const auto& surfaces) {
+            return with_sampler(job, surfaces, rays, bound, [&job](const auto& sampler) {
+                return SampledVpls{sampler.sample(job.executor), sampler.normalisation};
+            });
+        });
+    }
+    if (s.sampler == SamplerKind::metropolis && !has_nothing_to_sample(s))
         return {frame.sample_chains(metropolis_options(s), bound), Normalisation::image_response};
+    return sample_light_paths(frame, bound);
+}
+
+VplRecords sample_light_paths_on_host(RenderFrame& frame, const InstantRadiosityOptions& options) {
+    RenderJob& job = frame.job();
+    const AnyEngine& rays = frame.rays();
+    return job.with_surfaces([&]<Bsdf B>(const SurfaceTable<B>& surfaces) {
+        return InstantRadiositySampler<B, AnyRayCaster>(
+                   {job.geometry, job.lights, surfaces, rays.ray_caster()}, options,
+                   job.settings.limits)
+            .sample(job.executor);
+    });
+}
+
+PathLuminance light_path_luminance_on_host(RenderFrame& frame, const VplRecords& sampled,
+                                           float bound) {
+    RenderJob& job = frame.job();
     const AnyEngine& rays = frame.rays();
     return job.with_surfaces([&](const auto& surfaces) {
-        SampledVpls sampled = with_sampler(job, surfaces, rays, bound, [&job](const auto& sampler) {
-            return SampledVpls{sampler.sample(job.executor), sampler.normalisation};
-        });
-        if (s.sampler == SamplerKind::instant_radiosity && !s.vpl_roulette && s.measure_missing)
-            sampled.records.light_paths = light_path_luminance(
-                sampled.records, image_probe(job, surfaces, rays, bound), job.executor);
-        return sampled;
+        return light_path_luminance(sampled, image_probe(job, surfaces, rays, bound), job.executor);
     });
 }
 

@@ -16,6 +16,14 @@ namespace mir {
 [[nodiscard]] VplRecords sample_chains_on_host(RenderFrame& frame, const MetropolisOptions& options,
                                                float bound, const SharedDraw& shared = {});
 
+/// RenderFrame::sample_light_paths() on the frame's executor, by rays of the host.
+[[nodiscard]] VplRecords sample_light_paths_on_host(RenderFrame& frame,
+                                                    const InstantRadiosityOptions& options);
+
+/// RenderFrame::light_path_luminance() on the frame's executor, by rays of the host.
+[[nodiscard]] PathLuminance light_path_luminance_on_host(RenderFrame& frame,
+                                                         const VplRecords& sampled, float bound);
+
 /// How chains are to run.
 [[nodiscard]] MetropolisOptions metropolis_options(const RenderSettings& settings);
 

@@ -30,6 +30,14 @@ class SharedFrame final : public RenderFrame {
     /// Paths of the bootstrap are shared out where processors draw them; chains are not.
     [[nodiscard]] VplRecords sample_chains(const MetropolisOptions& options, float bound) override;
 
+    [[nodiscard]] VplRecords sample_light_paths(const InstantRadiosityOptions& options) override {
+        return local_->sample_light_paths(options);
+    }
+    [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
+                                                     float bound) override {
+        return local_->light_path_luminance(sampled, bound);
+    }
+
     /// Works on bands that the lead deals, and waits for all processes.
     /// @throws PictureShare::run().
     void for_each_band(std::uint32_t bands, const BandWork& work) override;

@@ -24,6 +24,14 @@ class SplitFrame final : public RenderFrame {
         return first().sample_chains(options, bound);
     }
 
+    [[nodiscard]] VplRecords sample_light_paths(const InstantRadiosityOptions& options) override {
+        return first().sample_light_paths(options);
+    }
+    [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
+                                                     float bound) override {
+        return first().light_path_luminance(sampled, bound);
+    }
+
     /// Deals bands to the parts and waits for all. In the first loop they go to whoever is free.
     /// Those of the first part are made by the calling thread.
     void for_each_band(std::uint32_t bands, const BandWork& work) override;

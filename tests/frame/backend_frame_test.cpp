@@ -2,24 +2,8 @@
 //
 // Whole pictures by a frame that keeps everything in a backend's memory, the host's here, against
 // those of the host's own stages: the same bits.
-#include "conformance/stage.hpp"
+#include "frame/drawn_frames.hpp"
 #include "frame/same_result.hpp"
-#include "mir/accel/kd/kd_tree_scene.hpp"
-#include "mir/host/backend.hpp"
-#include "runtime/backend_frame/chains.hpp"
-#include "runtime/backend_frame/chains_through.hpp"
-#include "runtime/backend_frame/cuts.hpp"
-#include "runtime/backend_frame/direct.hpp"
-#include "runtime/backend_frame/film.hpp"
-#include "runtime/backend_frame/light.hpp"
-#include "runtime/backend_frame/luxels.hpp"
-#include "runtime/backend_frame/residual.hpp"
-#include "runtime/backend_frame/response.hpp"
-#include "runtime/backend_frame/scene.hpp"
-#include "runtime/backend_frame/visibility.hpp"
-#include "runtime/host_frame.hpp"
-#include "runtime/render_vpls.hpp"
-#include "runtime/split_frame.hpp"
 #include "support/catch.hpp"
 #include "support/masked_scene.hpp"
 #include "support/test_sky.hpp"
@@ -31,93 +15,16 @@ namespace {
 
 using mir::BackendFrameOptions;
 using mir::BackendScheduler;
-using mir::CookTorrance;
 using mir::InlineExecutor;
 using mir::RenderResult;
 using mir::RenderSettings;
 using mir::Scene;
 using mirtest::check_same;
-using Host = mir::host::Backend<InlineExecutor>;
-using Frame = mir::BackendFrame<Host, CookTorrance>;
-
-RenderResult draw_on_host(const Scene& scene, const RenderSettings& settings) {
-    const mir::WorldGeometry geometry(scene);
-    InlineExecutor executor;
-    mir::StageClock clock;
-    mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
-    const mir::TracedScene traced(std::make_unique<const mir::KdTreeScene>(geometry));
-    return mir::render_vpls(*mir::host_frame(job, traced, mir::HostScheduler::cpu));
-}
-
-RenderResult draw_on_backend(const Scene& scene, const RenderSettings& settings,
-                             const BackendFrameOptions& options) {
-    const mir::WorldGeometry geometry(scene);
-    InlineExecutor executor;
-    mir::StageClock clock;
-    mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
-    int trees = 0;
-    const auto make_tree = [&] {
-        ++trees;
-        return std::make_shared<const mir::KdTree>(geometry, mir::KdTreeOptions{}, executor);
-    };
-    Frame frame(job, Host(executor), make_tree, options);
-    RenderResult result = mir::render_vpls(frame);
-    // Chains and all that follows need no rays of the host; what glass throws on surfaces does.
-    const bool throws_light =
-        settings.caustics > 0 &&
-        std::any_of(scene.materials.begin(), scene.materials.end(),
-                    [](const mir::Material& m) { return m.transmission > 0.0f; });
-    const bool on_host = options.scheduler == BackendScheduler::os || throws_light ||
-                         settings.sampler != mir::SamplerKind::metropolis;
-    CHECK(trees == (options.kd_tree || on_host ? 1 : 0));
-    return result;
-}
-
-/// By frames in the memory of as many backends as there are options, and by one of the host
-/// besides if wanted.
-RenderResult draw_split(const Scene& scene, const RenderSettings& settings,
-                        const std::vector<BackendFrameOptions>& options, bool with_host) {
-    const mir::WorldGeometry geometry(scene);
-    InlineExecutor executor;
-    mir::StageClock clock;
-    mir::RenderJob job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings);
-    const mir::TracedScene traced(std::make_unique<const mir::KdTreeScene>(geometry));
-    std::vector<std::unique_ptr<mir::RenderFrame>> parts;
-    for (const BackendFrameOptions& of : options)
-        parts.push_back(std::make_unique<Frame>(
-            job, Host(executor),
-            [&] {
-                return std::make_shared<const mir::KdTree>(geometry, mir::KdTreeOptions{},
-                                                           executor);
-            },
-            of));
-    if (with_host) parts.push_back(mir::host_frame(job, traced, mir::HostScheduler::cpu_blocks));
-    mir::SplitFrame frame(job, std::move(parts));
-    return mir::render_vpls(frame);
-}
-
-/// A room with lamps of every kind.
-Scene lit_room() {
-    Scene scene = mirtest::glossy_box();
-    scene.point_lights.push_back({"point", {0.1f, 0.6f, 0.2f}, {0.3f, 0.2f, 0.1f}});
-    mir::SpotLight spot;
-    spot.position = {-0.3f, 0.7f, 0.1f};
-    spot.direction = {0.0f, -1.0f, 0.0f};
-    spot.intensity = {1.0f, 2.0f, 3.0f};
-    scene.spot_lights.push_back(spot);
-    scene.directional_lights.push_back({"sun", {0.0f, 0.0f, -1.0f}, {0.5f, 0.5f, 0.5f}});
-    return scene;
-}
-
-RenderSettings small_picture() {
-    RenderSettings s;
-    s.image = {45, 35};
-    s.luxels_per_pixel = 1;
-    s.vpls = 24;
-    s.tile = {32, 16};
-    s.metropolis.bootstrap.min_paths = s.metropolis.bootstrap.max_paths = 4096;
-    return s;
-}
+using mirtest::draw_on_backend;
+using mirtest::draw_on_host;
+using mirtest::draw_split;
+using mirtest::lit_room;
+using mirtest::small_picture;
 
 }  // namespace
 
@@ -290,8 +197,8 @@ TEST_CASE("Backends behind the host leave their rows in one picture, whoever has
             if (k == host_place)
                 parts.push_back(mir::host_frame(job, traced, mir::HostScheduler::cpu));
             else
-                parts.push_back(
-                    std::make_unique<Frame>(job, Host(executor), make_tree, BackendFrameOptions{}));
+                parts.push_back(std::make_unique<mirtest::FrameThere>(
+                    job, mirtest::HostBackend(executor), make_tree, BackendFrameOptions{}));
         }
         mir::SplitFrame frame(job, std::move(parts));
         std::barrier all_have_one(bands);

@@ -14,6 +14,7 @@
 #include "runtime/backend_frame/film.hpp"
 #include "runtime/backend_frame/gather.hpp"
 #include "runtime/backend_frame/light.hpp"
+#include "runtime/backend_frame/light_paths.hpp"
 #include "runtime/backend_frame/luxels.hpp"
 #include "runtime/backend_frame/residual.hpp"
 #include "runtime/backend_frame/response.hpp"

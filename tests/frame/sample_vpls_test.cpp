@@ -6,6 +6,7 @@
 #include "runtime/host_frame.hpp"
 #include "support/catch.hpp"
 
+#include <optional>
 #include <utility>
 
 // Which sampler settings get, and what a frame that samples itself is told.
@@ -48,6 +49,17 @@ class SamplingFrame final : public mir::RenderFrame {
         mir::VplRecords records;
         records.paths = answer;
         return records;
+    }
+    mir::VplRecords sample_light_paths(const mir::InstantRadiosityOptions& options) override {
+        light_paths_wanted = options;
+        mir::VplRecords records;
+        records.paths = answer;
+        return records;
+    }
+    mir::PathLuminance light_path_luminance(const mir::VplRecords& records, float under) override {
+        CHECK(records.paths == answer);
+        CHECK(under == bound);
+        return {2.5, 0.5, answer, 7};
     }
     double visible_area() override { return never(0.0); }
     mir::BandPtr trace(mir::Extent, mir::Extent, std::uint32_t) override { return never(nullptr); }
@@ -93,6 +105,7 @@ class SamplingFrame final : public mir::RenderFrame {
 
     Asked asked;
     int rays_wanted = 0;
+    std::optional<mir::InstantRadiosityOptions> light_paths_wanted;
 
  private:
     template <class T>
@@ -150,12 +163,40 @@ TEST_CASE("A frame is asked for Metropolis' records, with all there is to know")
     CHECK(asked.options.emitter_vpls == (s.direct == DirectLight::vpl));
 }
 
+TEST_CASE("A frame is asked for light paths, and how well they know the brightness") {
+    RenderSettings s = settings();
+    s.sampler = SamplerKind::instant_radiosity;
+    s.termination = mir::Termination::levels;
+    s.measure_missing = GENERATE(true, false);
+    SECTION("by light paths") {}
+    SECTION("that leave nothing to Metropolis") {
+        s.sampler = SamplerKind::metropolis;
+        s.max_bounce = 1;
+        s.measure_missing = true;
+    }
+    Render render(s);
+    const mir::SampledVpls sampled = sample_vpls(render.frame, bound);
+    CHECK(sampled.normalisation == mir::Normalisation::none);
+    CHECK(sampled.records.paths == SamplingFrame::answer);
+    CHECK(render.frame.asked.times == 0);
+    CHECK(render.frame.rays_wanted == 0);
+    REQUIRE(render.frame.light_paths_wanted);
+    CHECK(render.frame.light_paths_wanted->vpls == 9);
+    CHECK(render.frame.light_paths_wanted->termination == mir::Termination::levels);
+    CHECK(render.frame.light_paths_wanted->seed == 77);
+    const bool told = s.measure_missing && s.sampler == SamplerKind::instant_radiosity;
+    REQUIRE(sampled.records.light_paths.has_value() == told);
+    if (told) CHECK(sampled.records.light_paths->mean == 2.5);
+}
+
 TEST_CASE("Other samplers stay with the executor, whatever the frame can do") {
     RenderSettings s = settings();
-    SECTION("instant radiosity") { s.sampler = SamplerKind::instant_radiosity; }
+    SECTION("instant radiosity behind a roulette") {
+        s.sampler = SamplerKind::instant_radiosity;
+        s.vpl_roulette = true;
+    }
     SECTION("resampled paths") { s.sampler = SamplerKind::bidirectional; }
     SECTION("the proposal's normalisation") { s.normalisation = NormalisationPolicy::proposal; }
-    SECTION("nothing to sample") { s.max_bounce = 1; }
     Render render(s);
     CHECK(sample_vpls(render.frame, bound).normalisation == mir::Normalisation::none);
     CHECK(render.frame.asked.times == 0);

@@ -208,7 +208,7 @@ TEST_CASE("lamp points are uniform over the lamp", "[statistical]") {
     const Lit lit(lamp(true));
     Histogram h(20, 16);
     for (std::uint64_t i = 0; i < draws; ++i) {
-        const Vec3 p = lit.emission(167, i).emitter->position;  // a (1,0,.5) + b (0,1,.25)
+        const Vec3 p = lit.emission(167, i).emitter.position;  // a (1,0,.5) + b (0,1,.25)
         h.add(static_cast<double>(p.x), static_cast<double>(p.y));
     }
     CHECK(h.against(uniform).p_value > level);
@@ -220,11 +220,11 @@ TEST_CASE("an emission from a lamp knows its place, side and density") {
     const float area = lit.geometry.area(12) + lit.geometry.area(13);
     for (std::uint64_t i = 0; i < 200; ++i) {
         const Emission e = lit.emission(1, i);
-        REQUIRE(e.emitter);
+        REQUIRE(e.is_lamp);
         CHECK(e.light_group == 5);
-        CHECK(std::fabs(glm::dot(e.emitter->normal, front)) == Approx(1.0f));
-        CHECK(glm::dot(e.ray.direction, e.emitter->normal) > 0.0f);
-        CHECK(e.ray.origin == e.emitter->position);
+        CHECK(std::fabs(glm::dot(e.emitter.normal, front)) == Approx(1.0f));
+        CHECK(glm::dot(e.ray.direction, e.emitter.normal) > 0.0f);
+        CHECK(e.ray.origin == e.emitter.position);
         CHECK(e.pdf_point == Approx(0.5f / area));
         CHECK(e.power.r == Approx(3 * mir::pi * 2 * area));
         CHECK(e.power.b == Approx(1 * mir::pi * 2 * area));
@@ -233,7 +233,7 @@ TEST_CASE("an emission from a lamp knows its place, side and density") {
 
 TEST_CASE("lights without extent have no emitter and keep their group and colour") {
     const Emission point = Lit(bulb()).emission(1, 0);
-    CHECK_FALSE(point.emitter);
+    CHECK_FALSE(point.is_lamp);
     CHECK(point.light_group == 6);
     CHECK(point.ray.origin == Vec3(0.5f, 0, 0));
     CHECK(point.power.g == Approx(2 * 4 * mir::pi));

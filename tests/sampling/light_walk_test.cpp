@@ -53,10 +53,10 @@ TEST_CASE("inside a rough body chains carry the lobe, and light paths leave it t
             // From outside.
             light.ray = {3.0f * light.ray.direction + Vec3(0, 0.3f, 0), -light.ray.direction};
         }
-        const auto v = walk.next(light, numbers);
-        if (!v || v->at.point.material != 0) continue;
-        (v->at.point.front ? outside : inside) += 1;
-        REQUIRE(v->bsdf.has_lobe() == v->at.point.front);
+        mir::LightVertex<CookTorrance> v;
+        if (!walk.next(light, numbers, v) || v.at.point.material != 0) continue;
+        (v.at.point.front ? outside : inside) += 1;
+        REQUIRE(v.bsdf.has_lobe() == v.at.point.front);
     }
     CHECK(inside > 50);
     CHECK(outside > 50);

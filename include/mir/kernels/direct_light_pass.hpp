@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/data/blocked_layout.hpp"
 #include "mir/data/soa.hpp"
+#include "mir/kernels/light_of_luxel.hpp"
 #include "mir/kernels/luxel_light.hpp"
 
 namespace mir {
@@ -19,14 +19,11 @@ struct DirectLightPass {
 
     /// Luxel `i` (blocked index) of the tile; black for the padding.
     MIR_HD void operator()(LuxelIndex i) const {
-        const LuxelPlace at = BlockedLayout::of(tile).place(i);
-        Rgb sum;
-        if (at.x < tile.width && at.y < tile.height) {
-            const Hit hit = luxels.hit(i);
-            if (!is_empty(hit))
-                sum = light(hit, luxels.surface(i), tile.x + at.x, tile.y + at.y, sky_of(skies, i));
-        }
-        out.store(i, sum);
+        out.store(i, light_of_luxel(luxels, tile, i,
+                                    [&](const Hit& hit, const auto& surface, std::uint32_t x,
+                                        std::uint32_t y) {
+                                        return light(hit, surface, x, y, sky_of(skies, i));
+                                    }));
     }
 };
 template <class G, class Light>

@@ -4,11 +4,11 @@
 #include "mir/reference/bound_split.hpp"
 #include "mir/reference/path_rules.hpp"
 #include "mir/reference/path_tracer_options.hpp"
+#include "mir/reference/path_tracer_world.hpp"
 #include "mir/reference/rgb_moments.hpp"
 #include "mir/shading/environment_light.hpp"
 #include "mir/shading/luxel_tracer.hpp"
 #include "mir/shading/scene_light.hpp"
-#include "mir/shading/surface_table.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -30,34 +30,9 @@ namespace mir {
 template <Bsdf B, class R, Visibility V, PathRules Rules = BalanceRules>
 class PathTracer {
  public:
-    static constexpr Space space = space_of_lights<V>;  ///< memory that the views read
-    static_assert(CastsRaysFrom<R, space>,
-                  "mir: paths in a kernel need a ray caster with find_point() that reads the same "
-                  "memory, such as KdRayCaster<Space::device>");
-
     /// What paths run through.
-    struct World {
-        GeometryView<space> geometry;         ///< triangles
-        LightTableView<space> lights;         ///< what shines
-        SurfaceTableView<space, B> surfaces;  ///< how they reflect
-        R caster;                             ///< finds what paths meet, from many threads at once
-        V visibility;                         ///< asked about lights, from many threads at once
-
-        /// Views that lie in the tracer's memory.
-        World(const GeometryView<space>& geometry_view, const LightTableView<space>& light_table,
-              const SurfaceTableView<space, B>& surface_table, R ray_caster, V sight)
-            : geometry(geometry_view),
-              lights(light_table),
-              surfaces(surface_table),
-              caster(ray_caster),
-              visibility(sight) {}
-        /// Views of what the host has, which must outlive the tracer.
-        World(const WorldGeometry& world_geometry, const LightTable& light_table,
-              const SurfaceTable<B>& surface_table, R ray_caster,
-              V sight) requires(space == Space::host)
-            : World(world_geometry.view(), light_table.view(), surface_table.view(), ray_caster,
-                    sight) {}
-    };
+    using World = PathTracerWorld<B, R, V>;
+    static constexpr Space space = World::space;  ///< memory that the views read
 
     /// A lifted point of a surface, seen from where the path came from.
     struct Vertex {

@@ -95,14 +95,14 @@ void CausticTracer<B, R, V>::trace(std::uint64_t index, const CausticPaths& opti
     PathNumbers numbers(options.sequence, options.seed, Stream::caustic, index);
     Emission light = sample_emission(lights_, numbers);
     for (std::uint8_t bounce = 1; bounce <= options.max_bounce; ++bounce) {
-        const auto v = walk_.next(light, numbers);
-        if (!v) return;
+        LightVertex<B> v;
+        if (!walk_.next(light, numbers, v)) return;
         const Vec2 lens = view_.optics.lens_radius > 0.0f ? numbers.next_2d() : Vec2(0.0f);
-        if (!v->is_straight) splat(*v, bounce, lens, static_cast<double>(options.paths), out);
+        if (!v.is_straight) splat(v, bounce, lens, static_cast<double>(options.paths), out);
         const Vec2 uv = numbers.next_2d();
         const BsdfSample sample =
-            B::sample(v->bsdf, v->normal, v->at.towards_light, uv, numbers.next());
-        light = scatter(v->at, sample, v->normal);
+            B::sample(v.bsdf, v.normal, v.at.towards_light, uv, numbers.next());
+        light = scatter(v.at, sample, v.normal);
         if (!survives_roulette(light, sample.weight, numbers.next())) return;
     }
 }

@@ -15,6 +15,29 @@
 
 namespace mir {
 
+/// What a VPL gives to luxels of a probe, added up one by one: in the same order, the same bits on
+/// host and device.
+struct LitSum {
+    double r = 0.0;  ///< W m^-2 sr^-1, of all luxels so far
+    double g = 0.0;  ///< the same
+    double b = 0.0;  ///< the same
+
+    /// Adds a luxel.
+    MIR_HD void add(Rgb radiance) {
+        r += radiance.r;
+        g += radiance.g;
+        b += radiance.b;
+    }
+    /// Mean over `luxels` luxels, as if the groups that were added stood for all.
+    [[nodiscard]] MIR_HD Rgb mean(std::uint32_t luxels, std::size_t groups,
+                                  std::size_t added_groups) const {
+        const double share =
+            1.0 / luxels * (static_cast<double>(groups) / static_cast<double>(added_groups));
+        return {static_cast<float>(r * share), static_cast<float>(g * share),
+                static_cast<float>(b * share)};
+    }
+};
+
 /// Estimates what a VPL gives to the image, from a few luxels. That is the quantity that Georgiev
 /// and Slusallek, "Simple and robust iterative importance sampling of virtual point lights",
 /// Eurographics 2010, decide by. Unbiased over seeds. Owns what it needs of the scene except for
@@ -156,19 +179,11 @@ void ImageProbe<B, V>::for_each_lit(const Vpl& place, F&& f) const {
 /// As if the groups stood for all luxels, those included that reflect nothing.
 template <Bsdf B, Visibility V>
 Rgb ImageProbe<B, V>::mean_of(std::span<const Group> groups, const Vpl& place) const {
-    double r = 0.0;
-    double g = 0.0;
-    double b = 0.0;
+    LitSum sum;
     for (const Group& group : groups)
-        for_each_lit(group, place, [&](const Hit&, const auto&, Rgb radiance) {
-            r += radiance.r;
-            g += radiance.g;
-            b += radiance.b;
-        });
-    const double share =
-        1.0 / luxels_ * (static_cast<double>(groups_.size()) / static_cast<double>(groups.size()));
-    return {static_cast<float>(r * share), static_cast<float>(g * share),
-            static_cast<float>(b * share)};
+        for_each_lit(group, place,
+                     [&](const Hit&, const auto&, Rgb radiance) { sum.add(radiance); });
+    return sum.mean(luxels_, groups_.size(), groups.size());
 }
 
 template <Bsdf B, Visibility V>

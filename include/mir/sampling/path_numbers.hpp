@@ -21,21 +21,21 @@ MIR_HD inline float radical_inverse(std::uint32_t base, std::uint64_t i) {
 class PathNumbers {
  public:
     /// Numbers of path `path` of a stream; a pure function of the arguments.
-    PathNumbers(Sequence sequence, std::uint64_t seed, Stream stream, std::uint64_t path)
+    MIR_HD PathNumbers(Sequence sequence, std::uint64_t seed, Stream stream, std::uint64_t path)
         : sequence_(sequence),
           path_(path),
           random_(seed, stream, path),
           shift_(seed, stream, ~std::uint64_t{0}) {}
 
     /// Number of the next dimension, in [0, 1).
-    float next() {
+    MIR_HD float next() {
         const std::uint32_t d = dimension_++;
         if (sequence_ == Sequence::random || d >= halton_dimensions) return random_.at(d);
         const float x = radical_inverse(prime(d), path_ + 1) + shift_.at(d);
         return x < 1.0f ? x : x - 1.0f;
     }
     /// Numbers of the next two dimensions, x first.
-    Vec2 next_2d() {
+    MIR_HD Vec2 next_2d() {
         const float x = next();
         return {x, next()};
     }
@@ -43,7 +43,7 @@ class PathNumbers {
  private:
     // Beyond some twenty dimensions neighbouring large primes correlate visibly.
     static constexpr std::uint32_t halton_dimensions = 20;
-    static constexpr std::uint32_t prime(std::uint32_t d) {
+    MIR_HD static constexpr std::uint32_t prime(std::uint32_t d) {
         constexpr std::uint32_t primes[halton_dimensions] = {
             2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71};
         return primes[d];

@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "mir/core/hd.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mir {
+
+/// SurvivorCounts as kernels read them. A view; thread-safe.
+struct SurvivorCountsView {
+    const std::uint64_t* counts = nullptr;  ///< by level
+    std::uint32_t size = 0;                 ///< levels
+
+    /// Particles of level `n`; 0 beyond the last.
+    [[nodiscard]] MIR_HD std::uint64_t at(std::size_t n) const { return n < size ? counts[n] : 0; }
+    /// Share of level n - 1 that takes part in level `n` >= 1.
+    [[nodiscard]] MIR_HD float survival(std::size_t n) const {
+        return static_cast<float>(static_cast<double>(at(n)) / static_cast<double>(at(n - 1)));
+    }
+};
 
 /// How many particles take part in each level of Keller's instant radiosity. Particle i takes part
 /// in level n when i < at(n); survivors carry the actual ratio of the counts, so that flooring
@@ -45,13 +61,16 @@ class SurvivorCounts {
     }
 
     /// Particles of level `n`; 0 beyond the last.
-    [[nodiscard]] std::uint64_t at(std::size_t n) const {
-        return n < counts_.size() ? counts_[n] : 0;
-    }
+    [[nodiscard]] std::uint64_t at(std::size_t n) const { return view().at(n); }
 
     /// Share of level n - 1 that takes part in level `n` >= 1.
-    [[nodiscard]] float survival(std::size_t n) const {
-        return static_cast<float>(static_cast<double>(at(n)) / static_cast<double>(at(n - 1)));
+    [[nodiscard]] float survival(std::size_t n) const { return view().survival(n); }
+
+    /// By level.
+    [[nodiscard]] std::span<const std::uint64_t> counts() const { return counts_; }
+    /// What the host reads; valid until this changes or ends.
+    [[nodiscard]] SurvivorCountsView view() const {
+        return {counts_.data(), static_cast<std::uint32_t>(counts_.size())};
     }
 
     /// VPLs of all levels; the lamp's count only with `from_lamp`.

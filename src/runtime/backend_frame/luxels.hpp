@@ -30,25 +30,25 @@ double BackendFrame<M, B>::visible_area() {
 
 template <Backend M, Bsdf B>
 BandPtr BackendFrame<M, B>::trace(Extent extent, Extent tile, std::uint32_t first_row) {
-    auto band = std::make_unique<Band>(BackendGBuffer<M, Params>(machine_, extent, tile));
-    band->first_row = first_row;
-    with_rays([&](const auto& structure) {
-        trace_primary_hits(queue_, band->gbuffer, first_row, job_.rays.luxel_rays(),
-                           LuxelTracer{structure.caster(geometry_there_.view()), surfaces_.view()},
-                           lights_.view().environment);
-    });
-    queue_.record().sync();
-    return band;
+    return traced(extent, tile, first_row, job_.rays.luxel_rays());
 }
 
 template <Backend M, Bsdf B>
 BandPtr BackendFrame<M, B>::trace(const ProbeRays& probes) {
-    const Extent tile = whole_blocks(probes.cells());
-    BlockedGBuffer<Params> here(probes.cells(), tile);
-    fill_gbuffer<B>(here, 0, probes, rays().ray_caster(), std::get<SurfaceTable<B>>(job_.surfaces),
-                    job_.executor);
-    auto band = std::make_unique<Band>(BackendGBuffer<M, Params>(machine_, here.extent(), tile));
-    band->gbuffer.upload(queue_, here);
+    return traced(probes.cells(), whole_blocks(probes.cells()), 0, probes);
+}
+
+template <Backend M, Bsdf B>
+template <class Rays>
+BandPtr BackendFrame<M, B>::traced(Extent extent, Extent tile, std::uint32_t first_row,
+                                   const Rays& camera) {
+    auto band = std::make_unique<Band>(BackendGBuffer<M, Params>(machine_, extent, tile));
+    band->first_row = first_row;
+    with_rays([&](const auto& structure) {
+        trace_primary_hits(queue_, band->gbuffer, first_row, camera,
+                           LuxelTracer{structure.caster(geometry_there_.view()), surfaces_.view()},
+                           lights_.view().environment);
+    });
     queue_.record().sync();
     return band;
 }

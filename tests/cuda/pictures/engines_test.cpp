@@ -23,6 +23,18 @@ mir::RenderResult render(const mir::Scene& scene, mir::RenderSettings settings, 
     return registry.make(backend, scheduler)->render(scene, settings, nullptr);
 }
 
+/// Calls check(name, scene) for each scene of picture_scenes() that this machine has.
+template <class Check>
+void for_each_picture_scene(const Check& check) {
+    for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {
+        const auto scene = mirtest::load_scene(named.name, named.file);
+        if (scene)
+            check(named.name, *scene);
+        else
+            WARN("skipped: " << named.file << " is not on this machine");
+    }
+}
+
 mir::RenderSettings settings_of(mir::SamplerKind sampler) {
     mir::RenderSettings s;
     s.image = {80, 60};
@@ -66,43 +78,33 @@ TEST_CASE("A GPU draws every scene with the bits of the host's kd-tree, by every
     const mir::SamplerKind sampler =
         GENERATE(mir::SamplerKind::metropolis, mir::SamplerKind::instant_radiosity);
     const mir::RenderSettings settings = settings_of(sampler);
-    for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {
-        const auto scene = mirtest::load_scene(named.name, named.file);
-        if (!scene) {
-            WARN("skipped: " << named.file << " is not on this machine");
-            continue;
-        }
-        const mir::RenderResult host = render(*scene, settings, BackendKind::cpu, "cpu");
+    for_each_picture_scene([&](const std::string& name, const mir::Scene& scene) {
+        const mir::RenderResult host = render(scene, settings, BackendKind::cpu, "cpu");
         for (const char* scheduler : {"os", "rc", "rcvp"}) {
-            INFO(named.name << ", " << scheduler);
-            check_same(host, render(*scene, settings, BackendKind::cuda, scheduler));
+            INFO(name << ", " << scheduler);
+            check_same(host, render(scene, settings, BackendKind::cuda, scheduler));
         }
         for (const auto acceleration : {mir::Acceleration::automatic, mir::Acceleration::bvh}) {
-            INFO(named.name << ", shafts, " << static_cast<int>(acceleration));
+            INFO(name << ", shafts, " << static_cast<int>(acceleration));
             mir::RenderSettings by_shafts = settings;
             by_shafts.acceleration = acceleration;
-            check_same(host, render(*scene, by_shafts, BackendKind::cuda, "rcvp"));
+            check_same(host, render(scene, by_shafts, BackendKind::cuda, "rcvp"));
         }
-    }
+    });
 }
 
 TEST_CASE("A GPU traces back what the bound removed with the bits of the host's kd-tree") {
     mir::RenderSettings settings = settings_of(mir::SamplerKind::instant_radiosity);
     settings.compensate = 2;
-    for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {
-        const auto scene = mirtest::load_scene(named.name, named.file);
-        if (!scene) {
-            WARN("skipped: " << named.file << " is not on this machine");
-            continue;
-        }
-        INFO(named.name);
+    for_each_picture_scene([&](const std::string& name, const mir::Scene& scene) {
+        INFO(name);
         for (const auto sum : {mir::LightSum::all, mir::LightSum::cuts}) {
             settings.sum = sum;
             settings.bounce_layers = sum == mir::LightSum::all;
-            const mir::RenderResult host = render(*scene, settings, BackendKind::cpu, "cpu");
-            check_same(host, render(*scene, settings, BackendKind::cuda, "rcvp"));
+            const mir::RenderResult host = render(scene, settings, BackendKind::cpu, "cpu");
+            check_same(host, render(scene, settings, BackendKind::cuda, "rcvp"));
         }
-    }
+    });
 }
 
 TEST_CASE("A GPU refuses to trace by Embree, whatever makes the picture") {
@@ -123,14 +125,9 @@ TEST_CASE("A GPU refuses to trace by Embree, whatever makes the picture") {
 TEST_CASE("Metropolis sampling on the GPU brings the light that it brings with Embree",
           "[statistical]") {
     const double level = mirtest::sidak(0.01, 2);
-    for (const mirtest::NamedScene& named : mirtest::picture_scenes()) {
-        if (named.name != "cornell-box.glb" && named.name != "veach-ajar-diffuse") continue;
-        const auto scene = mirtest::load_scene(named.name, named.file);
-        if (!scene) {
-            WARN("skipped: " << named.file << " is not on this machine");
-            continue;
-        }
-        INFO(named.name);
+    for_each_picture_scene([&](const std::string& name, const mir::Scene& scene) {
+        if (name != "cornell-box.glb" && name != "veach-ajar-diffuse") return;
+        INFO(name);
         mirtest::Moments by_gpu;
         mirtest::Moments by_embree;
         for (std::uint64_t seed = 0; seed < 16; ++seed) {
@@ -138,14 +135,14 @@ TEST_CASE("Metropolis sampling on the GPU brings the light that it brings with E
             s.bounce_layers = false;
             s.seed = seed;
             by_gpu.add(
-                mirtest::mean_luminance(render(*scene, s, BackendKind::cuda, "rcvp").indirect));
+                mirtest::mean_luminance(render(scene, s, BackendKind::cuda, "rcvp").indirect));
             s.seed = seed + 100;
             s.acceleration = mir::Acceleration::embree;
-            by_embree.add(mirtest::mean_luminance(
-                render(*scene, s, BackendKind::cpu, "cpu-blocks").indirect));
+            by_embree.add(
+                mirtest::mean_luminance(render(scene, s, BackendKind::cpu, "cpu-blocks").indirect));
         }
         CHECK(mirtest::welch_p_value(by_gpu, by_embree) > level);
-    }
+    });
 }
 
 TEST_CASE("All GPUs of a machine draw with the bytes of one") {

@@ -25,6 +25,9 @@ class AnySource {
     }
 
     /// f(source) of the light as what it is; the same type for all kinds.
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
     template <class F>
     [[nodiscard]] MIR_HD auto visit(const F& f) const {
         return visit_from<F, Sources...>(f, kind_);
@@ -37,6 +40,9 @@ class AnySource {
         return static_cast<std::uint32_t>(std::find(is_it.begin(), is_it.end(), true) -
                                           is_it.begin());
     }
+#if defined(__CUDACC__)
+#pragma nv_exec_check_disable
+#endif
     template <class F, class First, class... Rest>
     [[nodiscard]] MIR_HD auto visit_from(const F& f, std::uint32_t kind) const {
         if constexpr (sizeof...(Rest) > 0)
