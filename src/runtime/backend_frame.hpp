@@ -71,6 +71,9 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] VplRecords sample_light_paths(const InstantRadiosityOptions& options) override;
     [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
                                                      float bound) override;
+    [[nodiscard]] std::vector<CausticSplat> trace_caustics(const CausticPaths& paths,
+                                                           std::uint64_t first,
+                                                           std::uint64_t last) override;
 
     /// Returns with no work under way, as all members that take bands or layers.
     /// @throws Error(limit_exceeded) for 2^32 luxels and more.

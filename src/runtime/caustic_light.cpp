@@ -61,17 +61,13 @@ class SplatSums {
     std::size_t merged_ = 0;  ///< of them at the last merge()
 };
 
-template <Bsdf B>
-std::vector<CausticSplat> traced(RenderJob& job, const AnyEngine& rays,
-                                 const SurfaceTable<B>& surfaces, const ImageBands& bands) {
-    const CausticTracer tracer(
-        job.lights, LightWalk<B, AnyRayCaster>{surfaces.view(), rays.ray_caster()},
-        rays.visibility(), {job.rays.camera.optics(), job.aspect(), job.rays.grid.luxels()});
+std::vector<CausticSplat> traced(RenderFrame& frame, const ImageBands& bands) {
+    const RenderJob& job = frame.job();
     const CausticPaths paths = paths_of(job.settings);
     SplatSums sums(bands.first_row(), bands.end_row(), job.settings.bounce_layers);
     constexpr std::uint64_t at_once = 1u << 18;
     for (std::uint64_t first = 0; first < paths.paths; first += at_once)
-        sums.add(tracer.trace(paths, first, std::min(first + at_once, paths.paths), job.executor));
+        sums.add(frame.trace_caustics(paths, first, std::min(first + at_once, paths.paths)));
     return sums.take();
 }
 
@@ -145,7 +141,7 @@ CausticLight::CausticLight(RenderFrame& frame, const ImageBands& bands) {
     job.with_surfaces([&](const auto& surfaces) {
         if (!surfaces.bends_rays()) return;
         rays_ = &frame.rays();
-        splats_ = traced(job, *rays_, surfaces, bands);
+        splats_ = traced(frame, bands);
         job.result.statistics.caustic_paths = paths_of(job.settings).paths;
     });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "mir/sampling/caustic_tracer.hpp"
+#include "mir/sampling/caustic_paths.hpp"
 #include "runtime/image_bands.hpp"
 
 #include <vector>
@@ -13,6 +13,11 @@ struct CausticRows {
     std::vector<double> all;     ///< of all caustics
     std::vector<double> direct;  ///< of those that belong to direct light
 };
+
+/// Who looks at the caustics of a render.
+[[nodiscard]] inline CausticView caustic_view(const RenderJob& job) {
+    return {job.rays.camera.optics(), job.aspect(), job.rays.grid.luxels()};
+}
 
 /// Light that mirrors and glass throw on the surfaces of a render, by paths of the host. Those from
 /// the lights are traced at once, as they may end anywhere; what luxels see in mirrors and through

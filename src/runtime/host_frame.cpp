@@ -9,10 +9,12 @@
 #include "mir/normalise/response.hpp"
 #include "mir/reconstruct_cuts.hpp"
 #include "mir/reshade.hpp"
+#include "mir/sampling/caustic_tracer.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/shading/glossy_shading.hpp"
 #include "mir/shading/vsl_shading.hpp"
 #include "mir/vsl_light.hpp"
+#include "runtime/caustic_light.hpp"
 #include "runtime/film_layers.hpp"
 #include "runtime/host_band.hpp"
 #include "runtime/luxel_coverage.hpp"
@@ -54,6 +56,14 @@ class HostFrame final : public RenderFrame {
     [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
                                                      float bound) override {
         return light_path_luminance_on_host(*this, sampled, bound);
+    }
+    [[nodiscard]] std::vector<CausticSplat> trace_caustics(const CausticPaths& paths,
+                                                           std::uint64_t first,
+                                                           std::uint64_t last) override {
+        const CausticTracer tracer(
+            job_.lights, LightWalk<B, AnyRayCaster>{surfaces_.view(), rays().ray_caster()},
+            rays().visibility(), caustic_view(job_));
+        return mir::trace_caustics(tracer, paths, first, last, job_.executor);
     }
 
     [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override {

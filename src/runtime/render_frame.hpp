@@ -5,6 +5,7 @@
 #include "mir/data/vpl_record.hpp"
 #include "mir/metropolis/metropolis_options.hpp"
 #include "mir/runtime/any_engine.hpp"
+#include "mir/sampling/caustic_paths.hpp"
 #include "mir/sampling/light_path_options.hpp"
 #include "mir/sampling/probe_rays.hpp"
 #include "mir/shading/direct_samples.hpp"
@@ -92,6 +93,12 @@ class RenderFrame {
     /// What such records say of P_c under `bound`: light_path_luminance() by path_probe().
     [[nodiscard]] virtual PathLuminance light_path_luminance(const VplRecords& sampled,
                                                              float bound) = 0;
+
+    /// What light paths from `first` to before `last` throw on luxels off mirrors and through
+    /// glass: trace_caustics(). Something must shine.
+    [[nodiscard]] virtual std::vector<CausticSplat> trace_caustics(const CausticPaths& paths,
+                                                                   std::uint64_t first,
+                                                                   std::uint64_t last) = 0;
 
     /// Calls work(by, i, turn) for all i < bands. `by` is a frame that this one is made of: here
     /// itself, from top to bottom. A band goes to the same frame in every loop over so many.

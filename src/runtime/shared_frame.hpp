@@ -38,6 +38,12 @@ class SharedFrame final : public RenderFrame {
         return local_->light_path_luminance(sampled, bound);
     }
 
+    [[nodiscard]] std::vector<CausticSplat> trace_caustics(const CausticPaths& paths,
+                                                           std::uint64_t begin,
+                                                           std::uint64_t end) override {
+        return local_->trace_caustics(paths, begin, end);
+    }
+
     /// Works on bands that the lead deals, and waits for all processes.
     /// @throws PictureShare::run().
     void for_each_band(std::uint32_t bands, const BandWork& work) override;

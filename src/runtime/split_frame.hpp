@@ -32,6 +32,12 @@ class SplitFrame final : public RenderFrame {
         return first().light_path_luminance(sampled, bound);
     }
 
+    [[nodiscard]] std::vector<CausticSplat> trace_caustics(const CausticPaths& paths,
+                                                           std::uint64_t begin,
+                                                           std::uint64_t end) override {
+        return first().trace_caustics(paths, begin, end);
+    }
+
     /// Deals bands to the parts and waits for all. In the first loop they go to whoever is free.
     /// Those of the first part are made by the calling thread.
     void for_each_band(std::uint32_t bands, const BandWork& work) override;

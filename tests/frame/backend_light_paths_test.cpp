@@ -138,6 +138,23 @@ TEST_CASE("A backend knows P_c by light paths as well as the host does, to the l
     CHECK(there.contributing == here.contributing);
 }
 
+TEST_CASE("Light that glass throws has the splats of the host in a backend's memory") {
+    TwoFrames frames(glazed_room());
+    const mir::CausticPaths paths{20000, 8, mir::Sequence::random, 3};
+    const auto here = frames.host->trace_caustics(paths, 100, 20000);
+    const auto there = frames.there.trace_caustics(paths, 100, 20000);
+    CHECK(here.size() > 100);
+    REQUIRE(there.size() == here.size());
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < here.size(); ++i)
+        other += here[i].x == there[i].x && here[i].y == there[i].y &&
+                         here[i].bounce == there[i].bounce &&
+                         is_same(here[i].radiance, there[i].radiance)
+                     ? 0
+                     : 1;
+    CHECK(other == 0);
+}
+
 TEST_CASE("Luxels of probes have the same bits in a backend's memory, behind glass too") {
     TwoFrames frames(glazed_room());
     const mir::ProbeRays probes(frames.scene.cameras[0], 1.5f, 300, 4);

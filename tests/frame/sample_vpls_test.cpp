@@ -61,6 +61,10 @@ class SamplingFrame final : public mir::RenderFrame {
         CHECK(under == bound);
         return {2.5, 0.5, answer, 7};
     }
+    std::vector<mir::CausticSplat> trace_caustics(const mir::CausticPaths&, std::uint64_t,
+                                                  std::uint64_t) override {
+        return never(std::vector<mir::CausticSplat>{});
+    }
     double visible_area() override { return never(0.0); }
     mir::BandPtr trace(mir::Extent, mir::Extent, std::uint32_t) override { return never(nullptr); }
     mir::BandPtr trace(const mir::ProbeRays&) override { return never(nullptr); }

@@ -107,7 +107,8 @@ TEST_CASE("light paths and camera paths bring the same caustics", "[statistical]
     Moments traced[4];
     for (std::uint64_t r = 0; r < 24; ++r) {
         double sums[4] = {};
-        for (const auto& s : caustics.trace({8192, 3, mir::Sequence::random, 933 + r}, executor))
+        for (const auto& s :
+             trace_caustics(caustics, {8192, 3, mir::Sequence::random, 933 + r}, 0, 8192, executor))
             sums[s.bounce] += static_cast<double>(luminance(s.radiance)) / 256;
         for (int b = 1; b <= 3; ++b) splatted[b].add(sums[b]);
         double back[4] = {};

@@ -2,74 +2,48 @@
 #pragma once
 
 #include "mir/core/monitor.hpp"
-#include "mir/resident/uploaded_array.hpp"
-#include "mir/resident/wait_at_end.hpp"
+#include "mir/resident/append_outputs.hpp"
 #include "mir/sampling/light_path_tracer.hpp"
 #include "mir/sampling/run_light_paths.hpp"
 
 #include <algorithm>
 #include <numeric>
-#include <span>
 #include <vector>
 
 namespace mir {
 
-/// Kernel over light paths: how many VPLs each places.
+/// Item of append_outputs(): a light path, whose outputs are its VPLs.
 template <class Tracer>
-struct CountLightPaths {
-    Tracer tracer;                    ///< a LightPathTracer
-    Stream stream;                    ///< of the paths
-    std::uint64_t first = 0;          ///< path
-    std::uint32_t* counts = nullptr;  ///< written, by path
+struct LightPathOutputs {
+    Tracer tracer;            ///< a LightPathTracer
+    Stream stream;            ///< of the paths
+    std::uint64_t first = 0;  ///< path of item 0
+    float scale = 1.0f;       ///< of intensities
 
-    /// Path first + i.
-    MIR_HD void operator()(std::uint32_t i) const {
-        Counter counter;
-        tracer(first + i, stream, counter);
-        counts[i] = counter.records;
+    /// Calls out.add(record) for each VPL of path first + i.
+    template <class Out>
+    MIR_HD void operator()(std::uint32_t i, Out& out) const {
+        Scaled<Out> scaled{out, scale};
+        tracer(first + i, stream, scaled);
     }
 
  private:
-    struct Counter {
-        std::uint32_t records = 0;
-
-        MIR_HD void add(const VplRecord& /*record*/, const VplArrival& /*arrival*/) { ++records; }
-    };
-};
-
-/// Kernel over light paths: writes the VPLs that CountLightPaths counted. Their power is shared out
-/// over all paths.
-template <class Tracer>
-struct WriteLightPaths {
-    Tracer tracer;                          ///< a LightPathTracer
-    std::uint64_t first = 0;                ///< path
-    float scale = 1.0f;                     ///< 1 / paths
-    const std::uint32_t* places = nullptr;  ///< of each path's first record in `records`
-    VplRecord* records = nullptr;           ///< written
-
-    /// Path first + i.
-    MIR_HD void operator()(std::uint32_t i) const {
-        Writer writer{records + places[i], scale};
-        tracer(first + i, Stream::light_path, writer);
-    }
-
- private:
-    struct Writer {
-        VplRecord* to;
+    template <class Out>
+    struct Scaled {
+        Out& out;
         float scale;
 
         MIR_HD void add(const VplRecord& record, const VplArrival& /*arrival*/) {
-            *to = record;
-            to->vpl.intensity = record.vpl.intensity * scale;
-            ++to;
+            VplRecord own = record;
+            own.vpl.intensity = record.vpl.intensity * scale;
+            out.add(own);
         }
     };
 };
 
-/// InstantRadiositySampler on a backend: each path is traced twice, to count its VPLs and to write
-/// them. Same records, in every bit, as InstantRadiositySampler over the same scene and ray caster,
-/// where neither compiler fuses products (docs/embedding.md). It keeps no arrivals. Const use by
-/// one thread per queue.
+/// InstantRadiositySampler on a backend. Same records, in every bit, as InstantRadiositySampler
+/// over the same scene and ray caster, where neither compiler fuses products (docs/embedding.md).
+/// It keeps no arrivals. Const use by one thread per queue.
 template <Backend B, Bsdf F, class R>
 class BackendLightPaths {
  public:
@@ -108,8 +82,9 @@ class BackendLightPaths {
         Monitor* monitor;
 
         [[nodiscard]] std::uint64_t count(std::uint64_t paths) const {
-            const auto counts = sampler.count(queue, Tracer(sampler.world_, sampler.options_),
-                                              Stream::pilot, 0, static_cast<std::uint32_t>(paths));
+            const auto counts = count_outputs(
+                sampler.backend_, queue, static_cast<std::uint32_t>(paths),
+                LightPathOutputs<Tracer>{{sampler.world_, sampler.options_}, Stream::pilot});
             return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
         }
         void trace(const SurvivorCounts& levels, VplRecords& out) const {
@@ -117,9 +92,6 @@ class BackendLightPaths {
         }
     };
 
-    [[nodiscard]] std::vector<std::uint32_t> count(typename B::Queue& queue, const Tracer& tracer,
-                                                   Stream stream, std::uint64_t first,
-                                                   std::uint32_t paths) const;
     void trace(typename B::Queue& queue, Monitor* monitor, const SurvivorCounts& levels,
                VplRecords& out) const;
 
@@ -129,44 +101,18 @@ class BackendLightPaths {
 };
 
 template <Backend B, Bsdf F, class R>
-std::vector<std::uint32_t> BackendLightPaths<B, F, R>::count(typename B::Queue& queue,
-                                                             const Tracer& tracer, Stream stream,
-                                                             std::uint64_t first,
-                                                             std::uint32_t paths) const {
-    auto there = backend_.template buffer<std::uint32_t>(paths);
-    std::vector<std::uint32_t> here(paths);
-    const WaitAtEnd wait(queue);
-    queue.for_each(paths, CountLightPaths<Tracer>{tracer, stream, first, there.data()});
-    queue.download(there, std::span(here));
-    queue.record().sync();
-    return here;
-}
-
-template <Backend B, Bsdf F, class R>
 void BackendLightPaths<B, F, R>::trace(typename B::Queue& queue, Monitor* monitor,
                                        const SurvivorCounts& levels, VplRecords& out) const {
     const UploadedArray<B, std::uint64_t> levels_there(backend_, queue, levels.counts());
     const Tracer tracer(world_, options_,
                         {levels_there.data(), static_cast<std::uint32_t>(levels_there.size())});
     const float scale = 1.0f / static_cast<float>(out.paths);
-    const WaitAtEnd wait(queue);
     for (std::uint64_t first = 0; first < out.paths; first += at_a_time) {
         if (monitor != nullptr) monitor->check();
         const auto paths = static_cast<std::uint32_t>(std::min(at_a_time, out.paths - first));
-        std::vector<std::uint32_t> places = count(queue, tracer, Stream::light_path, first, paths);
-        const std::uint32_t last = places.back();
-        std::exclusive_scan(places.begin(), places.end(), places.begin(), 0u);
-        const std::size_t records = std::size_t{places.back()} + last;
-        if (records == 0) continue;
-        const UploadedArray<B, std::uint32_t> places_there(backend_, queue, places);
-        auto there = backend_.template buffer<VplRecord>(records);
-        // What lies between members is copied home too.
-        queue.clear(there);
-        queue.for_each(paths, WriteLightPaths<Tracer>{tracer, first, scale, places_there.data(),
-                                                      there.data()});
-        out.records.resize(out.records.size() + records);
-        queue.download(there, std::span(out.records).last(records));
-        queue.record().sync();
+        append_outputs(backend_, queue, paths,
+                       LightPathOutputs<Tracer>{tracer, Stream::light_path, first, scale},
+                       out.records);
     }
 }
 

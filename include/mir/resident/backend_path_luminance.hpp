@@ -35,7 +35,8 @@ struct ProbeView {
     [[nodiscard]] MIR_HD Rgb response_of_part(const Vpl& place, std::uint64_t turn) const {
         if (receiver_count == 0) return {};
         const auto first = static_cast<std::uint32_t>(turn % parts()) * width;
-        return mean_of(place, first, smaller(first + width, receiver_count));
+        const std::uint32_t left = receiver_count - first;
+        return mean_of(place, first, first + (left < width ? left : width));
     }
 
  private:
