@@ -72,8 +72,8 @@ class BackendFrame final : public RenderFrame {
     [[nodiscard]] PathLuminance light_path_luminance(const VplRecords& sampled,
                                                      float bound) override;
     [[nodiscard]] std::vector<CausticSplat> trace_caustics(const CausticPaths& paths,
-                                                           std::uint64_t first,
-                                                           std::uint64_t last) override;
+                                                           std::uint64_t begin,
+                                                           std::uint64_t end) override;
 
     /// Returns with no work under way, as all members that take bands or layers.
     /// @throws Error(limit_exceeded) for 2^32 luxels and more.
@@ -93,6 +93,8 @@ class BackendFrame final : public RenderFrame {
                                          Monitor* monitor) override;
     [[nodiscard]] LayerPtr residual(const FrameBand& band, float bound,
                                     std::span<const LayerPtr> bounces) override;
+    [[nodiscard]] CausticLayers seen_caustics(const FrameBand& band,
+                                              std::span<const LayerPtr> bounces) override;
     void add(FrameLayer& sum, const FrameLayer& layer) override;
     [[nodiscard]] std::vector<double> row_luminances(const FrameLayer& layer) override;
 

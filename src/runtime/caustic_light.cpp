@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/caustic_light.hpp"
 
-#include "mir/reference/path_tracer.hpp"
 #include "mir/runtime/film_layer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <tuple>
 
@@ -71,48 +69,6 @@ std::vector<CausticSplat> traced(RenderFrame& frame, const ImageBands& bands) {
     return sums.take();
 }
 
-PathTracerOptions residual_of(const RenderSettings& s) {
-    PathTracerOptions options;
-    options.paths = PathPart::residual;
-    options.max_bounce = s.bounce_limit();
-    options.directions = s.caustics;
-    return options;
-}
-
-/// Of a band's luxels that are seen in mirrors or through bodies of glass: no light path meets
-/// those.
-template <Bsdf B>
-std::vector<CausticSplat> traced_back(RenderJob& job, const AnyEngine& rays,
-                                      const SurfaceTable<B>& surfaces, const FrameBand& band) {
-    const LuxelTracer luxels{rays.ray_caster(), surfaces.view()};
-    const PathTracer<B, AnyRayCaster, AnyVisibility> paths(
-        {job.geometry, job.lights, surfaces, rays.ray_caster(), rays.visibility()},
-        residual_of(job.settings));
-    const std::uint32_t width = job.rays.grid.luxels().width;
-    std::vector<std::vector<CausticSplat>> rows(band.extent().height);
-    job.executor.for_each(rows.size(), [&](std::size_t row) {
-        const std::uint32_t y = band.first_row + static_cast<std::uint32_t>(row);
-        SplatSums sums(y, y + 1, job.settings.bounce_layers);
-        std::array<RgbSum, 256> bounces;
-        std::vector<CausticSplat> splats;
-        for (std::uint32_t x = 0; x < width; ++x) {
-            const SeenLuxel seen = luxels.luxel(job.rays, x, y);
-            if (seen.is_background || seen.is_straight) continue;
-            bounces.fill({});
-            Random random(job.settings.seed, Stream::caustic, ~(std::uint64_t{y} * width + x));
-            paths.trace({luxels.hit(seen), luxels.surface(seen)}, random, bounces);
-            for (std::uint32_t b = 1; b < bounces.size(); ++b)
-                if (const Rgb light = bounces[b].rgb(); !is_black(light))
-                    splats.push_back({x, y, static_cast<std::uint8_t>(b), light});
-        }
-        sums.add(splats);
-        rows[row] = sums.take();
-    });
-    std::vector<CausticSplat> all;
-    for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
-    return all;
-}
-
 /// Adds splats of a band's rows to its layers.
 void add_to_layers(std::span<const CausticSplat> splats, RenderFrame& by, const FrameBand& band,
                    std::vector<LayerPtr>& layers) {
@@ -138,33 +94,32 @@ CausticLight::CausticLight(RenderFrame& frame, const ImageBands& bands) {
     RenderJob& job = frame.job();
     if (job.settings.caustics == 0 || job.lights.empty()) return;
     const auto stage = job.clock.measure(&StageSeconds::caustics);
-    job.with_surfaces([&](const auto& surfaces) {
-        if (!surfaces.bends_rays()) return;
-        rays_ = &frame.rays();
-        splats_ = traced(frame, bands);
-        job.result.statistics.caustic_paths = paths_of(job.settings).paths;
-    });
+    is_traced_ = job.with_surfaces([](const auto& surfaces) { return surfaces.bends_rays(); });
+    if (!is_traced_) return;
+    splats_ = traced(frame, bands);
+    job.result.statistics.caustic_paths = paths_of(job.settings).paths;
 }
 
 CausticRows CausticLight::add(RenderFrame& by, const FrameBand& band,
                               std::vector<LayerPtr>& layers) const {
-    if (rays_ == nullptr) return {};
+    if (!is_traced_) return {};
+    const CausticLayers seen =
+        by.seen_caustics(band, std::span<const LayerPtr>(layers).subspan(first_bounce_layer));
+    by.add(*layers[direct_layer], *seen.direct);
+    by.add(*layers[indirect_layer], *seen.indirect);
+    CausticRows rows{by.row_luminances(*seen.indirect), by.row_luminances(*seen.direct)};
+    for (std::size_t y = 0; y < rows.all.size(); ++y) rows.all[y] += rows.direct[y];
+
     const std::uint32_t end = band.first_row + band.extent().height;
     const auto row_before = [](const CausticSplat& s, std::uint32_t y) { return s.y < y; };
     const auto first = std::lower_bound(splats_.begin(), splats_.end(), band.first_row, row_before);
     const auto last = std::lower_bound(first, splats_.end(), end, row_before);
-    const std::vector<CausticSplat> back = by.job().with_surfaces(
-        [&](const auto& surfaces) { return traced_back(by.job(), *rays_, surfaces, band); });
-    CausticRows rows{std::vector<double>(band.extent().height),
-                     std::vector<double>(band.extent().height)};
-    for (const std::span<const CausticSplat> splats :
-         {std::span<const CausticSplat>(first, last), std::span<const CausticSplat>(back)}) {
-        add_to_layers(splats, by, band, layers);
-        for (const CausticSplat& s : splats) {
-            const auto light = static_cast<double>(luminance(s.radiance));
-            rows.all[s.y - band.first_row] += light;
-            if (s.bounce == 1) rows.direct[s.y - band.first_row] += light;
-        }
+    const std::span<const CausticSplat> splats(first, last);
+    add_to_layers(splats, by, band, layers);
+    for (const CausticSplat& s : splats) {
+        const auto light = static_cast<double>(luminance(s.radiance));
+        rows.all[s.y - band.first_row] += light;
+        if (s.bounce == 1) rows.direct[s.y - band.first_row] += light;
     }
     return rows;
 }

@@ -19,9 +19,9 @@ struct CausticRows {
     return {job.rays.camera.optics(), job.aspect(), job.rays.grid.luxels()};
 }
 
-/// Light that mirrors and glass throw on the surfaces of a render, by paths of the host. Those from
-/// the lights are traced at once, as they may end anywhere; what luxels see in mirrors and through
-/// bodies is traced back band by band.
+/// Light that mirrors and glass throw on the surfaces of a render, by paths of its frame. Those
+/// from the lights are traced at once, as they may end anywhere; what luxels see in mirrors and
+/// through bodies is traced back band by band.
 class CausticLight {
  public:
     /// Traces the light paths, where the settings want them and the scene bends rays. Of what they
@@ -37,7 +37,7 @@ class CausticLight {
                                   std::vector<LayerPtr>& layers) const;
 
  private:
-    const AnyEngine* rays_ = nullptr;   ///< null: nothing is traced
+    bool is_traced_ = false;            ///< whether there are caustics
     std::vector<CausticSplat> splats_;  ///< of light paths, by rows of luxels
 };
 

@@ -9,12 +9,11 @@
 #include "mir/normalise/response.hpp"
 #include "mir/reconstruct_cuts.hpp"
 #include "mir/reshade.hpp"
-#include "mir/sampling/caustic_tracer.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/shading/glossy_shading.hpp"
 #include "mir/shading/vsl_shading.hpp"
 #include "mir/vsl_light.hpp"
-#include "runtime/caustic_light.hpp"
+#include "runtime/caustics_on_host.hpp"
 #include "runtime/film_layers.hpp"
 #include "runtime/host_band.hpp"
 #include "runtime/luxel_coverage.hpp"
@@ -58,12 +57,9 @@ class HostFrame final : public RenderFrame {
         return light_path_luminance_on_host(*this, sampled, bound);
     }
     [[nodiscard]] std::vector<CausticSplat> trace_caustics(const CausticPaths& paths,
-                                                           std::uint64_t first,
-                                                           std::uint64_t last) override {
-        const CausticTracer tracer(
-            job_.lights, LightWalk<B, AnyRayCaster>{surfaces_.view(), rays().ray_caster()},
-            rays().visibility(), caustic_view(job_));
-        return mir::trace_caustics(tracer, paths, first, last, job_.executor);
+                                                           std::uint64_t begin,
+                                                           std::uint64_t end) override {
+        return trace_caustics_on_host(*this, paths, begin, end);
     }
 
     [[nodiscard]] BandPtr trace(Extent extent, Extent tile, std::uint32_t first_row) override {
@@ -118,6 +114,13 @@ class HostFrame final : public RenderFrame {
         for (const LayerPtr& layer : bounces) images.push_back(&HostLayer::of(*layer));
         return host_layer(residual_on_host(*this, LuxelsOf<B>{HostBand<B>::of(band).gbuffer},
                                            band.first_row, bound, images));
+    }
+    [[nodiscard]] CausticLayers seen_caustics(const FrameBand& band,
+                                              std::span<const LayerPtr> bounces) override {
+        std::vector<Image<Rgb>*> images;
+        for (const LayerPtr& layer : bounces) images.push_back(&HostLayer::of(*layer));
+        CausticImages seen = seen_caustics_on_host(*this, band, images);
+        return {host_layer(std::move(seen.direct)), host_layer(std::move(seen.indirect))};
     }
     [[nodiscard]] LayerPtr layer_of(const FrameBand& /*band*/, Image<Rgb> light) override {
         return host_layer(std::move(light));

@@ -53,6 +53,12 @@ class FrameLayer {
 using BandPtr = std::unique_ptr<FrameBand>;    ///< never null
 using LayerPtr = std::unique_ptr<FrameLayer>;  ///< never null
 
+/// Caustics of the luxels of a band.
+struct CausticLayers {
+    LayerPtr direct;    ///< light of one bounce
+    LayerPtr indirect;  ///< that of more
+};
+
 /// What a render needs to know of a kind of frame.
 struct FrameTraits {
     std::size_t luxel_bytes;  ///< of a luxel with its surface
@@ -94,11 +100,11 @@ class RenderFrame {
     [[nodiscard]] virtual PathLuminance light_path_luminance(const VplRecords& sampled,
                                                              float bound) = 0;
 
-    /// What light paths from `first` to before `last` throw on luxels off mirrors and through
+    /// What light paths from `begin` to before `end` throw on luxels off mirrors and through
     /// glass: trace_caustics(). Something must shine.
     [[nodiscard]] virtual std::vector<CausticSplat> trace_caustics(const CausticPaths& paths,
-                                                                   std::uint64_t first,
-                                                                   std::uint64_t last) = 0;
+                                                                   std::uint64_t begin,
+                                                                   std::uint64_t end) = 0;
 
     /// Calls work(by, i, turn) for all i < bands. `by` is a frame that this one is made of: here
     /// itself, from top to bottom. A band goes to the same frame in every loop over so many.
@@ -153,6 +159,10 @@ class RenderFrame {
     /// is added to element b - 1 of `bounces` too, where there is one.
     [[nodiscard]] virtual LayerPtr residual(const FrameBand& band, float bound,
                                             std::span<const LayerPtr> bounces) = 0;
+    /// Caustics that a band's luxels see in mirrors or through bodies of glass: SeenCaustics. That
+    /// of bounce b > 1 is added to element b - 1 of `bounces` too, or to the last one.
+    [[nodiscard]] virtual CausticLayers seen_caustics(const FrameBand& band,
+                                                      std::span<const LayerPtr> bounces) = 0;
     /// A layer of these radiances of a band's luxels, W m^-2 sr^-1.
     [[nodiscard]] virtual LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) = 0;
     /// sum += layer.

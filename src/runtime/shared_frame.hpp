@@ -86,6 +86,10 @@ class SharedFrame final : public RenderFrame {
                                     std::span<const LayerPtr> bounces) override {
         return local_->residual(band, bound, bounces);
     }
+    [[nodiscard]] CausticLayers seen_caustics(const FrameBand& band,
+                                              std::span<const LayerPtr> bounces) override {
+        return local_->seen_caustics(band, bounces);
+    }
     [[nodiscard]] LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) override {
         return local_->layer_of(band, std::move(light));
     }

@@ -81,6 +81,10 @@ class SplitFrame final : public RenderFrame {
                                     std::span<const LayerPtr> bounces) override {
         return first().residual(band, bound, bounces);
     }
+    [[nodiscard]] CausticLayers seen_caustics(const FrameBand& band,
+                                              std::span<const LayerPtr> bounces) override {
+        return first().seen_caustics(band, bounces);
+    }
     [[nodiscard]] LayerPtr layer_of(const FrameBand& band, Image<Rgb> light) override {
         return first().layer_of(band, std::move(light));
     }

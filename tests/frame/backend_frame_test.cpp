@@ -139,6 +139,20 @@ TEST_CASE("A frame with masks and glass has the bits of the host's, by every sch
     CHECK_FALSE(mirtest::same_bits(whole.indirect, host.indirect));
 }
 
+TEST_CASE("What mirrors and glass throw, and what is seen in them, has the bits of the host's") {
+    const Scene scene = mir::builtin::make(GENERATE("glass-room", "caustics"));
+    RenderSettings settings = small_picture();
+    settings.sampler = mir::SamplerKind::instant_radiosity;
+    settings.caustics = 2;
+    settings.bounce_layers = GENERATE(false, true);
+    const RenderResult host = draw_on_host(scene, settings);
+    const BackendFrameOptions wide{BackendScheduler::rcvp, false, true};
+    check_same(host, draw_on_backend(scene, settings, wide));
+    check_same(host, draw_split(scene, settings, {wide, wide}, true));
+    settings.caustics = 0;
+    CHECK_FALSE(mirtest::same_bits(draw_on_host(scene, settings).indirect, host.indirect));
+}
+
 TEST_CASE("Cuts of many VPLs have the bits of the host's in a backend's memory") {
     Scene scene = lit_room();
     RenderSettings settings = small_picture();

@@ -139,7 +139,7 @@ TEST_CASE("A backend knows P_c by light paths as well as the host does, to the l
 }
 
 TEST_CASE("Light that glass throws has the splats of the host in a backend's memory") {
-    TwoFrames frames(glazed_room());
+    TwoFrames frames(mir::builtin::make("caustics"));
     const mir::CausticPaths paths{20000, 8, mir::Sequence::random, 3};
     const auto here = frames.host->trace_caustics(paths, 100, 20000);
     const auto there = frames.there.trace_caustics(paths, 100, 20000);

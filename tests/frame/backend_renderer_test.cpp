@@ -7,6 +7,7 @@
 #include "conformance/stage.hpp"
 #include "images/support.hpp"
 #include "mir/host/backend.hpp"
+#include "runtime/backend_frame/caustics.hpp"
 #include "runtime/backend_frame/chains.hpp"
 #include "runtime/backend_frame/chains_through.hpp"
 #include "runtime/backend_frame/cuts.hpp"

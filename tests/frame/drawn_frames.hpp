@@ -6,6 +6,7 @@
 #include "conformance/stage.hpp"
 #include "mir/accel/kd/kd_tree_scene.hpp"
 #include "mir/host/backend.hpp"
+#include "runtime/backend_frame/caustics.hpp"
 #include "runtime/backend_frame/chains.hpp"
 #include "runtime/backend_frame/chains_through.hpp"
 #include "runtime/backend_frame/cuts.hpp"
@@ -23,7 +24,6 @@
 #include "runtime/split_frame.hpp"
 #include "support/catch.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -60,13 +60,9 @@ inline mir::RenderResult draw_on_backend(const mir::Scene& scene,
     };
     FrameThere frame(job, HostBackend(executor), make_tree, options);
     mir::RenderResult result = mir::render_vpls(frame);
-    // Chains, light paths and all that follows need no rays of the host. What glass throws on
-    // surfaces does, and samplers that look at the image before.
-    const bool throws_light =
-        settings.caustics > 0 &&
-        std::any_of(scene.materials.begin(), scene.materials.end(),
-                    [](const mir::Material& m) { return m.transmission > 0.0f; });
-    const bool on_host = options.scheduler == mir::BackendScheduler::os || throws_light ||
+    // Chains, light paths and all that follows need no rays of the host. Samplers do that look at
+    // the image before.
+    const bool on_host = options.scheduler == mir::BackendScheduler::os ||
                          settings.sampler == mir::SamplerKind::bidirectional ||
                          settings.vpl_roulette;
     CHECK(trees == (options.kd_tree || on_host ? 1 : 0));

@@ -73,6 +73,10 @@ class SamplingFrame final : public mir::RenderFrame {
                        mir::ResponseSum&) override {
         never(0);
     }
+    mir::CausticLayers seen_caustics(const mir::FrameBand&,
+                                     std::span<const mir::LayerPtr>) override {
+        return never(mir::CausticLayers{});
+    }
     mir::LayerPtr black(const mir::FrameBand&) override { return never(nullptr); }
     mir::LayerPtr direct(const mir::FrameBand&, mir::DirectSamples) override {
         return never(nullptr);

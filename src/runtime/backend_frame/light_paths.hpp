@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Light paths of BackendFrame: VPLs, what they say of P_c, caustics.
+// Light paths of BackendFrame: VPLs, and what they say of P_c.
 
-#include "mir/resident/backend_caustics.hpp"
 #include "mir/resident/backend_light_paths.hpp"
 #include "mir/resident/backend_path_luminance.hpp"
 #include "mir/resident/uploaded_scene.hpp"
 #include "runtime/backend_frame/structures.hpp"
-#include "runtime/caustic_light.hpp"
 #include "runtime/path_probe.hpp"
 
 namespace mir {
@@ -34,20 +32,6 @@ PathLuminance BackendFrame<M, B>::light_path_luminance(const VplRecords& sampled
     return with_rays([&](const auto& rays) {
         return backend_path_luminance<M, B>(machine_, queue_, sampled, of(*luxels).gbuffer,
                                             rays.sight(), VplShading<B>{bound});
-    });
-}
-
-template <Backend M, Bsdf B>
-std::vector<CausticSplat> BackendFrame<M, B>::trace_caustics(const CausticPaths& paths,
-                                                             std::uint64_t first,
-                                                             std::uint64_t last) {
-    return with_rays([&](const auto& rays) {
-        using Rays = std::remove_cvref_t<decltype(rays)>;
-        const LightWalk<B, typename Rays::Caster, space> walk{surfaces_.view(),
-                                                              rays.caster(geometry_there_.view())};
-        const CausticTracer<B, typename Rays::Caster, typename Rays::Sight> tracer(
-            lights_.view(), geometry_there_.view(), walk, rays.sight(), caustic_view(job_));
-        return trace_caustics_there(machine_, queue_, tracer, paths, first, last);
     });
 }
 
