@@ -2,8 +2,10 @@
 #include "runtime/caustic_light.hpp"
 
 #include "mir/runtime/film_layer.hpp"
+#include "mir/sampling/faint_splats.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -59,13 +61,43 @@ class SplatSums {
     std::size_t merged_ = 0;  ///< of them at the last merge()
 };
 
-std::vector<CausticSplat> traced(RenderFrame& frame, const ImageBands& bands) {
+/// Mean luminance of indirect light as the sampler of the VPLs knows it, or null.
+const PathLuminance* indirect_light(const RenderStatistics& s) {
+    if (s.health) return &s.health->luminance;
+    return s.light_path_luminance ? &*s.light_path_luminance : nullptr;
+}
+
+/// Light paths that say whether all of them are worth their while; none where that is not asked or
+/// would cost what it saves.
+std::uint64_t paths_to_try(const RenderJob& job) {
+    constexpr std::uint64_t enough = 1u << 17;
+    const bool is_asked = job.settings.skip_faint_caustics &&
+                          indirect_light(job.result.statistics) != nullptr &&
+                          paths_of(job.settings).paths >= 2 * enough;
+    return is_asked ? enough : 0;
+}
+
+/// How much all light paths bring at most, where the first ones say that it is next to nothing.
+std::optional<double> faint(const RenderJob& job, std::span<const CausticSplat> first,
+                            std::uint64_t tried) {
+    constexpr double least_share = 1e-3;
+    if (tried == 0) return std::nullopt;
+    const auto share =
+        faint_share(first, tried, paths_of(job.settings).paths,
+                    *indirect_light(job.result.statistics), job.rays.grid.luxels().area());
+    return share && *share < least_share ? share : std::nullopt;
+}
+
+/// The splats of all paths in some rows, those of the first `tried` ones known.
+std::vector<CausticSplat> traced(RenderFrame& frame, const ImageBands& bands,
+                                 const std::vector<CausticSplat>& first, std::uint64_t tried) {
     const RenderJob& job = frame.job();
     const CausticPaths paths = paths_of(job.settings);
     SplatSums sums(bands.first_row(), bands.end_row(), job.settings.bounce_layers);
+    sums.add(first);
     constexpr std::uint64_t at_once = 1u << 18;
-    for (std::uint64_t first = 0; first < paths.paths; first += at_once)
-        sums.add(frame.trace_caustics(paths, first, std::min(first + at_once, paths.paths)));
+    for (std::uint64_t begin = tried; begin < paths.paths; begin += at_once)
+        sums.add(frame.trace_caustics(paths, begin, std::min(begin + at_once, paths.paths)));
     return sums.take();
 }
 
@@ -96,8 +128,14 @@ CausticLight::CausticLight(RenderFrame& frame, const ImageBands& bands) {
     const auto stage = job.clock.measure(&StageSeconds::caustics);
     is_traced_ = job.with_surfaces([](const auto& surfaces) { return surfaces.bends_rays(); });
     if (!is_traced_) return;
-    splats_ = traced(frame, bands);
-    job.result.statistics.caustic_paths = paths_of(job.settings).paths;
+    const CausticPaths paths = paths_of(job.settings);
+    const std::uint64_t tried = paths_to_try(job);
+    const std::vector<CausticSplat> first =
+        tried > 0 ? frame.trace_caustics(paths, 0, tried) : std::vector<CausticSplat>{};
+    RenderStatistics& s = job.result.statistics;
+    s.faint_caustics = faint(job, first, tried);
+    s.caustic_paths = s.faint_caustics ? tried : paths.paths;
+    if (!s.faint_caustics) splats_ = traced(frame, bands, first, tried);
 }
 
 CausticRows CausticLight::add(RenderFrame& by, const FrameBand& band,

@@ -10,6 +10,7 @@
 #include "mir/micro/surfel_tree_build.hpp"
 #include "mir/micro/triangle_gather.hpp"
 #include "mir/runtime/picture_bytes.hpp"
+#include "mir/runtime/row_errors.hpp"
 #include "runtime/direct_noise.hpp"
 #include "runtime/film_layers.hpp"
 #include "runtime/host_band.hpp"
@@ -91,6 +92,7 @@ template <Bsdf B>
 RenderResult DiscRender<B>::run() {
     RenderStatistics& s = job_.result.statistics;
     s.luxels = job_.rays.grid.luxels().area();
+    s.luxel_rows_per_pixel = job_.rays.grid.per_pixel_y;
     s.emitted_power = static_cast<float>(job_.lights.power());
     Sources sources{make_discs(), {}};
     sources.light = light(sources.discs);
@@ -112,6 +114,7 @@ RenderResult DiscRender<B>::run() {
         render_band(by, *bands.make(by, i), sources, turn);
     });
     const auto stage = job_.clock.measure(&StageSeconds::film);
+    keep_row_errors(job_.result.statistics, job_.result.luminances);
     take_layers(frame_.develop(), false, job_.result, job_.executor);
     return job_.take_result();
 }
@@ -220,9 +223,10 @@ void DiscRender<B>::render_band(RenderFrame& by, const FrameBand& band, const So
         layers.push_back(by.coverage(band));
     }
     append_indirect(by, band, sources, layers);
-    const std::vector<double> luminances = by.row_luminances(*layers[indirect_layer]);
+    const std::vector<double> indirect = by.row_luminances(*layers[indirect_layer]);
+    const std::vector<double> direct = by.row_luminances(*layers[direct_layer]);
     turn.wait();
-    add_luminances(job_, band, {luminances, {}, {}, {}, {}});
+    add_luminances(job_, band, {indirect, {}, {}, {}, {}, direct});
     by.put(band, std::move(layers), turn);
 }
 

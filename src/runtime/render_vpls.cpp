@@ -2,6 +2,7 @@
 #include "runtime/render_vpls.hpp"
 
 #include "mir/runtime/picture_bytes.hpp"
+#include "mir/runtime/row_errors.hpp"
 #include "mir/sampling/visible_area.hpp"
 #include "mir/sampling/vsl_radii.hpp"
 #include "runtime/caustic_light.hpp"
@@ -45,6 +46,7 @@ void keep_statistics(RenderJob& job, const SampledVpls& sampled) {
         to_string(by_sampler ? NormalisationPolicy::none : job.settings.normalisation_policy());
     s.vpls = job.result.vpls.size();
     s.luxels = job.rays.grid.luxels().area();
+    s.luxel_rows_per_pixel = job.rays.grid.per_pixel_y;
     s.residual_paths = saturating_mul(s.luxels, job.settings.compensate_per_luxel());
     const std::uint64_t gathered =
         job.settings.wants_cuts() ? std::min<std::uint64_t>(s.vpls, job.settings.picks) : s.vpls;
@@ -121,6 +123,7 @@ void measure_what_is_missing(RenderFrame& frame, float bound) {
 struct BandLight {
     std::vector<LayerPtr> layers;  ///< in the order of FilmLayer
     // Luminances of rows, of layers that tell the result their means.
+    std::vector<double> direct;  ///< none where rows share samples of it
     std::vector<double> indirect;
     std::vector<double> removed;   ///< none where nothing is
     std::vector<double> residual;  ///< the same
@@ -167,6 +170,8 @@ BandLight light_band(RenderFrame& by, const FrameBand& band, float bound, const 
     }
     {
         const auto stage = job.clock.measure(&StageSeconds::light_budget);
+        if (job.settings.direct == DirectLight::separate)
+            made.direct = by.row_luminances(*made.layers[direct_layer]);
         made.indirect = by.row_luminances(*made.layers[indirect_layer]);
     }
     LayerPtr removed = removed_light(by, band, light, made.removed);
@@ -236,11 +241,12 @@ RenderResult render_from(RenderFrame& frame, const SampledVpls& sampled, float b
         if (stores && !band->knows_visibility()) find_visible(by, *band, vpls.span());
         BandLight made = light_band(by, *band, bound, light, caustics);
         turn.wait();
-        add_luminances(
-            job, *band,
-            {made.indirect, made.removed, made.residual, made.caustic.all, made.caustic.direct});
+        add_luminances(job, *band,
+                       {made.indirect, made.removed, made.residual, made.caustic.all,
+                        made.caustic.direct, made.direct});
         by.put(*band, std::move(made.layers), turn);
     });
+    keep_row_errors(job.result.statistics, job.result.luminances);
     develop(frame);
     return job.take_result();
 }

@@ -16,6 +16,7 @@ struct BandLuminances {
     const std::vector<double>& residual;
     const std::vector<double>& caustic;
     const std::vector<double>& caustic_direct;
+    const std::vector<double>& direct;
 };
 
 /// Adds luminances of a band's rows to a result. Row by row from top to bottom, so that bands
@@ -26,9 +27,9 @@ inline void add_luminances(RenderJob& job, const FrameBand& band, const BandLumi
     };
     for (std::uint32_t y = 0; y < band.extent().height; ++y) {
         if (!job.settings.rows.hold((band.first_row + y) / job.rays.grid.per_pixel_y)) continue;
-        const RowLuminances row{of(of_rows.indirect, y), of(of_rows.removed, y),
-                                of(of_rows.residual, y), of(of_rows.caustic, y),
-                                of(of_rows.caustic_direct, y)};
+        const RowLuminances row{of(of_rows.indirect, y),       of(of_rows.removed, y),
+                                of(of_rows.residual, y),       of(of_rows.caustic, y),
+                                of(of_rows.caustic_direct, y), of(of_rows.direct, y)};
         job.result.luminances.push_back(row);
         add_row(job.result.statistics, row);
     }

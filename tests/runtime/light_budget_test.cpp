@@ -94,6 +94,21 @@ TEST_CASE("the light of VPLs has the error of its sampler, and what it lacks") {
     CHECK(vpls.missing[0].share.share == 0.003);
 }
 
+TEST_CASE("classes that tell their error have it as a share of the picture") {
+    RenderResult r = picture(0.0f, 1.0f, 3.0f);
+    r.statistics.direct_error = 0.02;
+    r.statistics.residual_error = 0.04;
+    r.statistics.caustic_error = 0.08;
+    r.statistics.residual_paths = r.statistics.caustic_paths = 1;
+    const auto classes = light_budget(r, RenderSettings{});
+    REQUIRE(classes.size() == 5);
+    CHECK(classes[1].standard_error.value() == Approx(0.005));
+    CHECK(classes[3].standard_error.value() == Approx(0.01));
+    CHECK(classes[4].standard_error.value() == Approx(0.02));
+    for (const LightClass& c : light_budget(picture(0.0f, 1.0f, 3.0f), RenderSettings{}))
+        CHECK_FALSE(c.standard_error);
+}
+
 TEST_CASE("each integrator is named for what it brings") {
     RenderSettings s;
     const auto bringer = [&] { return light_budget(picture(1, 1, 1), s).at(2).brought_by; };

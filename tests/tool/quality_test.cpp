@@ -77,4 +77,7 @@ TEST_CASE("a quality chooses the light paths of caustics, where none are asked f
     CHECK(found({}) == 4 * 64);
     CHECK(found({"--quality", "final"}) == 8 * 64);
     CHECK(found({"--quality", "draft", "--caustics", "3"}) == 3 * 64);
+    CHECK(found({"--quality", "final", "--caustics", "auto"}) == 8 * 64);
+    CHECK(found({"--caustics", "none"}) == 0);
+    CHECK(found({"--caustics", "0"}) == 0);
 }

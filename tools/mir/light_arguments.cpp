@@ -193,9 +193,22 @@ void add_sampling(CLI::App& app, mir::RenderSettings& s) {
     add_count(app, "--compensate", s.compensate, 0, 65536,
               "Paths per pixel that bring back the light that the bound removed (default: by "
               "--quality, 1; 0: none)");
-    add_count(app, "--caustics", s.caustics, 0, 65536,
-              "Light paths per pixel that bring what mirrors and glass throw on surfaces (default: "
-              "by --quality; 0: none)");
+    app.add_option_function<std::string>(
+           "--caustics",
+           [&s](const std::string& text) {
+               s.skip_faint_caustics = text == "auto";
+               if (text == "auto") return;
+               s.caustics = 0;
+               if (text == "none") return;
+               if (!CLI::detail::lexical_cast(text, s.caustics) || s.caustics > 65536)
+                   throw CLI::ValidationError(
+                       "--caustics",
+                       "'" + text + "' is neither auto, none nor a number up to 65536");
+           },
+           "Light paths per pixel that bring what mirrors and glass throw on surfaces: auto "
+           "(default: by --quality, left out where they bring less than a thousandth of the "
+           "light), none, or a number")
+        ->type_name("auto|none|N");
     app.add_option("--seed", s.seed, "Seed of all random numbers (default 0)")
         ->check(seed_number());
 }

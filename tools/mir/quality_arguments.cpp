@@ -39,7 +39,8 @@ void fill_in(mir::Quality quality, const CLI::App& app, RenderOptions& o) {
     const bool cuts = s.sum == mir::LightSum::cuts;
     if (!is_given(app, "--luxels")) s.luxels_per_pixel = usual.luxels_per_pixel;
     if (!is_given(app, "--direct-samples")) s.direct_samples = usual.direct_samples;
-    if (!is_given(app, "--caustics")) s.caustics = usual.caustics;
+    if (!is_given(app, "--caustics")) s.skip_faint_caustics = usual.skip_faint_caustics;
+    if (s.skip_faint_caustics) s.caustics = usual.caustics;
     if (!is_given(app, "--picks")) s.picks = usual.picks;
     if (!cuts && chooses_vpls(app, o)) return;
     if (!is_given(app, "--vpls")) s.vpls = usual.vpls;

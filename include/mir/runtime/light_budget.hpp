@@ -5,6 +5,7 @@
 #include "mir/runtime/settings.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -52,6 +53,14 @@ inline std::string direct_bringer(const RenderSettings& s) {
     return by_vpls(s) ? "lights without extent" : "samples of lights and lobes";
 }
 
+inline std::string caustic_bringer(const RenderStatistics& s) {
+    if (!s.faint_caustics) return "light paths, paths traced back";
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%.2g", 100.0 * *s.faint_caustics);
+    return std::string("paths traced back; light paths are left out, at most ") + percent +
+           " % of indirect light";
+}
+
 inline std::vector<MissingLight> missing_of_vpls(const RenderStatistics& s,
                                                  const RenderSettings& settings) {
     std::vector<MissingLight> missing;
@@ -88,23 +97,29 @@ inline std::optional<double> relative_error_of_vpls(const RenderStatistics& s) {
     const double all = emitted + direct + indirect;
     const auto share = [&](double light) { return all > 0.0 ? light / all : 0.0; };
 
+    const auto error = [&](const std::optional<double>& of) -> std::optional<double> {
+        return of && all > 0.0 ? std::optional(*of / all) : std::nullopt;
+    };
+
     std::vector<LightClass> classes{
         {"lamps and sky, seen by the camera", "camera rays", share(emitted)},
-        {"scattered once", detail::direct_bringer(settings), share(direct - once)}};
+        {"scattered once", detail::direct_bringer(settings), share(direct - once),
+         error(s.direct_error)}};
     LightClass often{
         detail::by_vpls(settings) ? "scattered once or more often" : "scattered more often",
         detail::indirect_bringer(settings), share(indirect - more - traced)};
     if (settings.integrator == Integrator::vpl) {
-        if (const auto error = detail::relative_error_of_vpls(s))
-            often.standard_error = *error * often.share;
+        if (const auto relative = detail::relative_error_of_vpls(s))
+            often.standard_error = *relative * often.share;
         often.missing = detail::missing_of_vpls(s, settings);
     }
     classes.push_back(std::move(often));
     if (s.residual_paths > 0)
-        classes.push_back({"too near for VPLs", "paths traced back", share(traced)});
+        classes.push_back(
+            {"too near for VPLs", "paths traced back", share(traced), error(s.residual_error)});
     if (s.caustic_paths > 0)
-        classes.push_back({"caustics of mirrors and glass", "light paths, paths traced back",
-                           share(once + more)});
+        classes.push_back({"caustics of mirrors and glass", detail::caustic_bringer(s),
+                           share(once + more), error(s.caustic_error)});
     return classes;
 }
 

@@ -83,9 +83,13 @@ inline void add_pass(RenderStatistics& all, const RenderStatistics& pass, std::u
     detail::add_pass(all.removed, pass.removed, earlier);
     detail::add_pass(all.cut, pass.cut, earlier);
     // That of one pass would be less than all of them leave, the mean of all would be more.
-    if (all.direct_noise && pass.direct_noise)
-        all.direct_noise =
-            std::hypot(earlier * *all.direct_noise, *pass.direct_noise) / (earlier + 1.0);
+    for (std::optional<double> RenderStatistics::*error :
+         {&RenderStatistics::direct_noise, &RenderStatistics::direct_error,
+          &RenderStatistics::residual_error, &RenderStatistics::caustic_error})
+        if (all.*error && pass.*error)
+            all.*error = std::hypot(earlier * *(all.*error), *(pass.*error)) / (earlier + 1.0);
+    if (pass.faint_caustics)
+        all.faint_caustics = std::max(all.faint_caustics.value_or(0.0), *pass.faint_caustics);
     detail::add_pass(all.gather_difference, pass.gather_difference, earlier);
     if (all.light_path_luminance && pass.light_path_luminance)
         detail::add_pass(*all.light_path_luminance, *pass.light_path_luminance, earlier);

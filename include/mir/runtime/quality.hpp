@@ -19,6 +19,7 @@ enum class Quality : std::uint8_t {
     RenderSettings s;
     s.sampler = SamplerKind::instant_radiosity;
     s.compensate = 1;
+    s.skip_faint_caustics = true;
     switch (quality) {
         case Quality::draft:
             s.luxels_per_pixel = 1;

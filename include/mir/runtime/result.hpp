@@ -23,6 +23,7 @@ struct RenderStatistics {
     std::uint64_t dropped_triangles = 0;     ///< without area, left out
     std::uint64_t coinciding_triangles = 0;  ///< in one place with a lamp's, and those lamps' own
     std::uint64_t luxels = 0;                ///< of the whole image
+    std::uint32_t luxel_rows_per_pixel = 1;  ///< rows of luxels that make a row of pixels
     std::uint64_t light_paths = 0;    ///< of the sampler; of the bootstrap for Metropolis sampling
     std::uint64_t camera_paths = 0;   ///< of the reference integrator
     std::uint32_t vpls = 0;           ///< geometric VPLs placed
@@ -48,9 +49,16 @@ struct RenderStatistics {
     std::uint64_t caustic_paths = 0;   ///< light paths that brought caustics
     double caustic_luminance = 0.0;    ///< mean over luxels of what they brought, W m^-2 sr^-1
     double caustic_direct_luminance = 0.0;  ///< of it what is part of direct light
-    std::optional<ShareEstimate> removed;   ///< by the bound, by paths, where measured
-    std::optional<ShareEstimate> cut;       ///< by the largest bounce, where measured
-    std::optional<double> direct_noise;     ///< of a pixel, relative, where measured
+    std::optional<double> direct_error;     ///< of the mean over luxels of direct light that is no
+                                            ///< caustic, W m^-2 sr^-1; see error_of_rows()
+    std::optional<double> residual_error;   ///< of residual_luminance, the same
+    std::optional<double> caustic_error;    ///< of caustic_luminance, the same
+    /// Largest share of indirect light that caustics of light paths may have, 97.5 % sure, where
+    /// they were left out for it (RenderSettings::skip_faint_caustics).
+    std::optional<double> faint_caustics;
+    std::optional<ShareEstimate> removed;  ///< by the bound, by paths, where measured
+    std::optional<ShareEstimate> cut;      ///< by the largest bounce, where measured
+    std::optional<double> direct_noise;    ///< of a pixel, relative, where measured
     /// Light of discs against that of paths, before any correction, where it was measured.
     std::optional<LightDifference> gather_difference;
     bool gather_corrected = false;  ///< by what of it is no noise (LightCorrection)
@@ -82,6 +90,7 @@ struct RowLuminances {
     double residual = 0.0;        ///< of what paths traced back of that
     double caustic = 0.0;         ///< of what mirrors and bodies of glass threw there
     double caustic_direct = 0.0;  ///< of it what is part of direct light
+    double direct = 0.0;          ///< of direct light without that
 };
 
 /// A finished picture. Radiance in W m^-2 sr^-1; beauty = emission + direct + indirect.

@@ -193,6 +193,9 @@ struct RenderSettings {
     /// Light paths per pixel that bring what mirrors and glass throw on surfaces; 0: that is left
     /// out. Integrator::vpl alone, and only where a scene has mirrors or glass.
     std::uint32_t caustics = 4;
+    /// Leaves them out where the first light paths say that these bring less than a thousandth of
+    /// the picture's light. What luxels see in mirrors or through glass stays.
+    bool skip_faint_caustics = false;
     VslSettings vsl{};                                     ///< a choice instead of `bound`
     GlossySettings glossy{};                               ///< else all VPLs are Lambertian
     Filter filter = default_filter(FilterKind::gaussian);  ///< from luxels to pixels

@@ -18,17 +18,17 @@ class SettingsHash {
     explicit SettingsHash(const RenderSettings& settings) {
         const auto& [image, luxels, only_luxel, rows, camera, integrator, path, micro, vpls, sum,
                      picks, sampler, normalisation, prepass, metropolis, roulette, termination,
-                     sequence, direct, direct_samples, max_bounce, bound, compensate, caustics, vsl,
-                     glossy, filter, seed, threads, backend, devices, acceleration, scheduler, tile,
-                     bounce_layers, removed_layer, pick_error_layer, measure_missing,
-                     allow_no_light, limits] = settings;
+                     sequence, direct, direct_samples, max_bounce, bound, compensate, caustics,
+                     skip_faint, vsl, glossy, filter, seed, threads, backend, devices, acceleration,
+                     scheduler, tile, bounce_layers, removed_layer, pick_error_layer,
+                     measure_missing, allow_no_light, limits] = settings;
         static_cast<void>(threads), static_cast<void>(devices), static_cast<void>(scheduler);
         static_cast<void>(tile), static_cast<void>(limits);
         add(image.width, image.height, luxels, only_luxel.x, only_luxel.y, camera, integrator, vpls,
             sum, picks, sampler, normalisation, prepass, roulette, termination, sequence, direct,
             direct_samples, max_bounce.value_or(0), bound.kind, bound.value, compensate, caustics,
-            filter.kind, filter.half_width, filter.tau, seed, backend, acceleration, bounce_layers,
-            removed_layer, pick_error_layer, measure_missing, allow_no_light);
+            skip_faint, filter.kind, filter.half_width, filter.tau, seed, backend, acceleration,
+            bounce_layers, removed_layer, pick_error_layer, measure_missing, allow_no_light);
         add(rows.first, rows.count);
         add_vsl(vsl);
         add_glossy(glossy);

@@ -4,6 +4,7 @@
 #include "mir/core/byte_hash.hpp"
 #include "mir/runtime/mean_luminances.hpp"
 #include "mir/runtime/result.hpp"
+#include "mir/runtime/row_errors.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -46,10 +47,13 @@ inline RenderStatistics merged(const std::vector<const ShardPass*>& shards) {
     RenderStatistics all = shards.front()->statistics;
     clear_rows(all);
     all.seconds = {};
+    std::vector<RowLuminances> rows;
     for (const ShardPass* const shard : shards) {
         for (const RowLuminances& row : shard->rows) add_row(all, row);
+        rows.insert(rows.end(), shard->rows.begin(), shard->rows.end());
         add_seconds(all.seconds, shard->statistics.seconds);
     }
+    keep_row_errors(all, rows);
     return all;
 }
 

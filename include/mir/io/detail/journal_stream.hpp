@@ -75,22 +75,24 @@ class Transfer {
     }
     template <class S>
     void statistics(S& s) {
-        auto& [triangles, dropped_triangles, coinciding_triangles, luxels, light_paths,
-               camera_paths, vpls, surfels, patches, contributions, emitted_power,
+        auto& [triangles, dropped_triangles, coinciding_triangles, luxels, luxel_rows_per_pixel,
+               light_paths, camera_paths, vpls, surfels, patches, contributions, emitted_power,
                non_lambertian_share, widened_share, states, path_luminance, dropped_share, health,
                light_path_luminance, normalisation, bound, indirect_luminance, removed_luminance,
                vsl_radius, residual_paths, residual_luminance, caustic_paths, caustic_luminance,
-               caustic_direct_luminance, removed, cut, direct_noise, gather_difference,
-               gather_corrected, backend, device, acceleration, scheduler, scene_hash, origin,
-               seconds, passes, relative_error, complete] = s;
-        (*this)(triangles, dropped_triangles, coinciding_triangles, luxels, light_paths,
-                camera_paths, vpls, surfels, patches, contributions, emitted_power,
+               caustic_direct_luminance, direct_error, residual_error, caustic_error,
+               faint_caustics, removed, cut, direct_noise, gather_difference, gather_corrected,
+               backend, device, acceleration, scheduler, scene_hash, origin, seconds, passes,
+               relative_error, complete] = s;
+        (*this)(triangles, dropped_triangles, coinciding_triangles, luxels, luxel_rows_per_pixel,
+                light_paths, camera_paths, vpls, surfels, patches, contributions, emitted_power,
                 non_lambertian_share, widened_share, states, path_luminance, dropped_share, health,
                 light_path_luminance, normalisation, bound, indirect_luminance, removed_luminance,
                 vsl_radius, residual_paths, residual_luminance, caustic_paths, caustic_luminance,
-                caustic_direct_luminance, removed, cut, direct_noise, gather_difference,
-                gather_corrected, backend, device, acceleration, scheduler, scene_hash, origin,
-                seconds, passes, relative_error, complete);
+                caustic_direct_luminance, direct_error, residual_error, caustic_error,
+                faint_caustics, removed, cut, direct_noise, gather_difference, gather_corrected,
+                backend, device, acceleration, scheduler, scene_hash, origin, seconds, passes,
+                relative_error, complete);
     }
 };
 
