@@ -14,9 +14,9 @@ namespace mir {
 /// Standard error of a picture's mean luminance, from how its rows of pixels differ. Rows must be
 /// independent. Each is compared with the mean of its two neighbours: what the picture itself
 /// changes there counts as noise, unless it changes evenly, so that the error comes out too large
-/// rather than too small. `rows` are sums over luxels, `per_pixel` rows of which belong to a row of
-/// pixels; the error is that of the mean over `luxels` luxels. None for fewer than three rows, or
-/// where all are black.
+/// rather than too small. `rows` are sums over luxels; `per_pixel` of them make a row of pixels;
+/// the error is that of the mean over `luxels` luxels. None for fewer than three rows, or where all
+/// are black.
 [[nodiscard]] inline std::optional<double> error_of_rows(std::span<const double> rows,
                                                          std::uint32_t per_pixel,
                                                          std::uint64_t luxels) {
