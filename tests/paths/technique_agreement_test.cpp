@@ -145,6 +145,55 @@ TEST_CASE("all techniques agree under a sky, with more lights and gloss below it
     CHECK(agreement(mixed.world(), 3, 2700) > 0.01);
 }
 
+namespace {
+
+/// A wedge whose floor and ceiling let light through, above a cellar that sends it back.
+mir::Scene leafy(WedgeLights lights, float specular) {
+    mir::Scene scene = Wedge(lights, specular).scene();
+    for (std::size_t i = 0; i < 2; ++i) {
+        scene.materials[i].diffuse_transmission = 0.6f;
+        scene.materials[i].diffuse_transmission_color = {0.5f, 0.9f, 0.4f};
+    }
+    const std::uint32_t wall = scene.add(mir::lambertian("cellar", {0.8f, 0.8f, 0.8f}));
+    scene.place(mir::builtin::quad("cellar", wall, {-1, -0.4f, 1}, {2, 0.1f, 0}, {0, 0.05f, -2}));
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("all techniques agree where light goes through floor and ceiling", "[statistical]") {
+    const PathLab<Lambert> matte(leafy(WedgeLights::two_sided, 0.0f));
+    CHECK(agreement(matte.world(), 2, 3100) > 0.01);
+    const PathLab<CookTorrance> waxed(leafy(WedgeLights::environment, 1.0f));
+    CHECK(agreement(waxed.world(), 3, 3200) > 0.01);
+}
+
+// H0: light goes through as often as the chance of the material says. Student's t, 1 %.
+TEST_CASE("what is drawn at a vertex has the weight of its chance", "[statistical]") {
+    const PathLab<Lambert> lab(leafy(WedgeLights::two_sided, 0.0f));
+    const auto view = lab.surfaces.view();
+    const double chance = view.through_chance(0, {});
+    CHECK(chance > 0.3);
+    CHECK(chance < 0.7);
+    mirtest::Moments through;
+    mir::Random random(3300, mir::Stream::test, 0);
+    for (int i = 0; i < 4000; ++i) {
+        const mir::Ray down{{random.next() - 0.5f, 0.2f, random.next() - 0.5f}, {0, -1, 0}};
+        mir::PathVertex v;
+        if (!lab.world().hit(down, v) || v.material != 0) continue;
+        through.add(v.is_through ? 1.0 : 0.0);
+        const double weight = lab.world().event_weight(v);
+        REQUIRE(weight == mirtest::Approx(1.0 / (v.is_through ? chance : 1.0 - chance)));
+        mir::PathVertex lit;
+        REQUIRE(lab.world().hit_from_light(down, lit));
+        // The camera's side of what light goes through from above lies below.
+        REQUIRE(lit.is_through == v.is_through);
+        REQUIRE((lit.normal.y < 0.0f) == v.is_through);
+        REQUIRE((lit.position.y < 0.0f) == v.is_through);
+    }
+    CHECK(mirtest::mean_p_value(through, chance) > 0.01);
+}
+
 // H0: P_c of k edges is L_e rho^(k - 1). Student's t, 1 % over 7 lengths, seeds 2300 to 2306.
 TEST_CASE("in the furnace every bounce is rho times the one before", "[statistical]") {
     const PathLab<Lambert> lab(mir::builtin::make("furnace"));

@@ -61,7 +61,7 @@ MIR_HD inline void leave_on_ray(SurfacePoint& p, const Ray& ray, float t) {
     p.before_plane = true;
 }
 
-/// Turns a point over to the other side of its surface, as if a ray had met it there.
+/// Turns a point over to the other side of its surface. It is as if a ray had met it there.
 MIR_HD inline void turn_over(SurfacePoint& p) {
     p.geometric_normal = -p.geometric_normal;
     p.shading_normal = -p.shading_normal;

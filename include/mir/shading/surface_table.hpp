@@ -68,8 +68,7 @@ class SurfaceTable {
     }
 
  private:
-    /// Whether some of what it reflects, or lets through, goes in one direction or to the other
-    /// side.
+    /// Whether chains go on from it, or end on its other side.
     static bool is_specular(const Scene& scene, const Material& m) {
         return SpecularBsdf<B> &&
                (m.is_blended || m.clearcoat > 0.0f || m.is_translucent() || bends_rays(scene, m));

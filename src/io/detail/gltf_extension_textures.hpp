@@ -11,7 +11,7 @@
 
 namespace mir::detail {
 
-/// A texture under an extension of a material, of which tinygltf knows nothing.
+/// A texture under an extension of a material. tinygltf knows none of them.
 struct GltfExtensionTexture {
     const char* extension;            ///< of the material
     const char* key;                  ///< of the texture there
