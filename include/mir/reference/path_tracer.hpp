@@ -99,8 +99,14 @@ class PathTracer {
                                           Random& random) const;
     [[nodiscard]] MIR_HD SpecularEnd met_along(const Walk& walk, Vec3 direction,
                                                Random& random) const;
+    /// What of the light is wanted that the first vertex gets from another. A VPL there shines to
+    /// the side that the path came from, wherever its light arrives.
     [[nodiscard]] MIR_HD float share_of(const Walk& walk, const SpecularEnd& met,
-                                        const Hit& next) const;
+                                        const Hit& next) const {
+        if (!met.is_straight) return split_.unbounded();
+        const Hit from{next.position, met.is_through ? -next.normal : next.normal};
+        return split_.reflected(walk.at.hit, walk.at.surface.normal, from);
+    }
     [[nodiscard]] MIR_HD Rgb found_light(const Walk& walk, const BsdfSample& sample,
                                          const SpecularEnd& met, const Vertex& next) const;
     [[nodiscard]] MIR_HD bool find_next_point(const Walk& walk, const Ray& ray,
@@ -227,16 +233,6 @@ MIR_HD bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random, Sums
     const Rgb light = sampled_light(walk.at, walk.bounce, random);
     sums.add(walk.bounce, walk.throughput * light * walk.share);
     return true;
-}
-
-/// What of the light is wanted that the first vertex gets from another. A VPL there shines to the
-/// side that the path came from, wherever its light arrives.
-template <Bsdf B, class R, Visibility V, PathRules Rules>
-MIR_HD float PathTracer<B, R, V, Rules>::share_of(const Walk& walk, const SpecularEnd& met,
-                                                  const Hit& next) const {
-    if (!met.is_straight) return split_.unbounded();
-    const Hit from{next.position, met.is_through ? -next.normal : next.normal};
-    return split_.reflected(walk.at.hit, walk.at.surface.normal, from);
 }
 
 /// Points on emissive triangles that a vertex asks for, and directions towards the environment.
