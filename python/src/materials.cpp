@@ -54,16 +54,18 @@ struct Lookup {
     }
 };
 
-std::uint32_t add_material(PyScene& self, const std::string& name, nb::handle base_color,
-                           float metallic, float roughness, float specular, float ior,
-                           nb::handle emission, bool emits_from_both_sides,
-                           std::uint16_t light_group, float alpha, bool blend, float alpha_cutoff,
-                           float transmission, bool thin, nb::handle attenuation_color,
-                           float attenuation_distance, float clearcoat, float clearcoat_roughness,
-                           const ImageIndex& base_color_image,
-                           const ImageIndex& metallic_roughness_image,
-                           const ImageIndex& normal_image, const ImageIndex& emission_image,
-                           float normal_scale, const std::string& wrap, bool nearest) {
+std::uint32_t add_material(
+    PyScene& self, const std::string& name, nb::handle base_color, float metallic, float roughness,
+    float specular, float ior, nb::handle emission, bool emits_from_both_sides,
+    std::uint16_t light_group, float alpha, bool blend, float alpha_cutoff, float transmission,
+    bool thin, nb::handle attenuation_color, float attenuation_distance, float clearcoat,
+    float clearcoat_roughness, float diffuse_transmission, nb::handle diffuse_transmission_color,
+    const ImageIndex& base_color_image, const ImageIndex& metallic_roughness_image,
+    const ImageIndex& normal_image, const ImageIndex& emission_image,
+    const ImageIndex& transmission_image, const ImageIndex& clearcoat_image,
+    const ImageIndex& clearcoat_roughness_image, const ImageIndex& diffuse_transmission_image,
+    const ImageIndex& diffuse_transmission_color_image, float normal_scale, const std::string& wrap,
+    bool nearest) {
     mir::Material m;
     m.name = name;
     m.base_color = shares_of(base_color, "base_color");
@@ -86,12 +88,23 @@ std::uint32_t add_material(PyScene& self, const std::string& name, nb::handle ba
     m.attenuation_distance = attenuation_distance;
     check_share(m.clearcoat = clearcoat, "clearcoat");
     check_share(m.clearcoat_roughness = clearcoat_roughness, "clearcoat_roughness");
+    check_share(m.diffuse_transmission = diffuse_transmission, "diffuse_transmission");
+    m.diffuse_transmission_color =
+        shares_of(diffuse_transmission_color, "diffuse_transmission_color");
     const Lookup lookup{self.scene().images.size(), wrap_of(wrap), nearest};
     m.textures.base_color = lookup.texture(base_color_image, "base_color_image");
     m.textures.metallic_roughness =
         lookup.texture(metallic_roughness_image, "metallic_roughness_image");
     m.textures.normal = lookup.texture(normal_image, "normal_image");
     m.textures.emission = lookup.texture(emission_image, "emission_image");
+    m.textures.transmission = lookup.texture(transmission_image, "transmission_image");
+    m.textures.clearcoat = lookup.texture(clearcoat_image, "clearcoat_image");
+    m.textures.clearcoat_roughness =
+        lookup.texture(clearcoat_roughness_image, "clearcoat_roughness_image");
+    m.textures.diffuse_transmission =
+        lookup.texture(diffuse_transmission_image, "diffuse_transmission_image");
+    m.textures.diffuse_transmission_color =
+        lookup.texture(diffuse_transmission_color_image, "diffuse_transmission_color_image");
     m.textures.normal_scale = normal_scale;
     return self.edit().add(std::move(m));
 }
@@ -137,10 +150,15 @@ void bind_materials(nb::class_<PyScene>& scene) {
              nb::arg("attenuation_color") = white,
              nb::arg("attenuation_distance") = std::numeric_limits<float>::infinity(),
              nb::arg("clearcoat") = 0.0f, nb::arg("clearcoat_roughness") = 0.0f,
+             nb::arg("diffuse_transmission") = 0.0f, nb::arg("diffuse_transmission_color") = white,
              nb::arg("base_color_image") = nb::none(),
              nb::arg("metallic_roughness_image") = nb::none(), nb::arg("normal_image") = nb::none(),
-             nb::arg("emission_image") = nb::none(), nb::arg("normal_scale") = 1.0f,
-             nb::arg("wrap") = "repeat", nb::arg("nearest") = false,
+             nb::arg("emission_image") = nb::none(), nb::arg("transmission_image") = nb::none(),
+             nb::arg("clearcoat_image") = nb::none(),
+             nb::arg("clearcoat_roughness_image") = nb::none(),
+             nb::arg("diffuse_transmission_image") = nb::none(),
+             nb::arg("diffuse_transmission_color_image") = nb::none(),
+             nb::arg("normal_scale") = 1.0f, nb::arg("wrap") = "repeat", nb::arg("nearest") = false,
              "Adds a material in glTF's metallic-roughness parameters; returns its index.\n\n"
              "base_color: three of 0..1, linear Rec. 709. metallic, roughness, specular: 0..1;\n"
              "specular=0 with metallic=0 is purely Lambertian. emission: radiance of the front,\n"
@@ -151,7 +169,11 @@ void bind_materials(nb::class_<PyScene>& scene) {
              "a sheet, which light leaves as it came; else the surface of a body, which refracts\n"
              "by ior and leaves attenuation_color of the light after attenuation_distance, m.\n\n"
              "clearcoat: 0..1, weight of a second, colourless interface on top, with a roughness\n"
-             "of its own; not on glass.")
+             "of its own; not on glass.\n\n"
+             "diffuse_transmission: 0..1, share of what would be reflected diffusely that goes\n"
+             "through instead, spread in all directions and tinted: leaves, paper.\n\n"
+             "Of images red multiplies transmission and clearcoat, green clearcoat_roughness, and\n"
+             "alpha diffuse_transmission.")
         .def("add_image", add_image, nb::arg("pixels").none(), nb::arg("name") = "",
              "Adds a picture for textures; returns its index.\n\n"
              "pixels: (height, width, 3 or 4) of uint8, the top row first; sRGB where a colour\n"

@@ -68,7 +68,10 @@ def test_glass_and_coverage_come_back_from_a_file(tmp_path):
     glass = {"transmission": 1.0, "thin": False, "attenuation_color": (0.5, 0.6, 0.7)}
     scene.add_material(name="glass", attenuation_distance=2.0, **glass)
     scene.add_material(name="veil", alpha=0.25, blend=True)
-    for material in (0, 1):
+    scene.add_material(
+        name="leaf", diffuse_transmission=0.5, diffuse_transmission_color=(0.25, 0.5, 0.125)
+    )
+    for material in (0, 1, 2):
         scene.add_mesh(np.eye(3), [[0, 1, 2]], material=material)
     scene.save(tmp_path / "glass.glb")
     file = (tmp_path / "glass.glb").read_bytes()
@@ -78,6 +81,9 @@ def test_glass_and_coverage_come_back_from_a_file(tmp_path):
     assert volume["attenuationDistance"] == 2.0
     np.testing.assert_allclose(volume["attenuationColor"], (0.5, 0.6, 0.7), rtol=1e-6)
     assert by_name["veil"]["alphaMode"] == "BLEND"
+    leaf = by_name["leaf"]["extensions"]["KHR_materials_diffuse_transmission"]
+    assert leaf["diffuseTransmissionFactor"] == 0.5
+    assert leaf["diffuseTransmissionColorFactor"] == [0.25, 0.5, 0.125]
     assert by_name["veil"]["pbrMetallicRoughness"]["baseColorFactor"][3] == 0.25
 
 
@@ -88,6 +94,8 @@ def test_glass_and_coverage_come_back_from_a_file(tmp_path):
         {"transmission": -0.1},
         {"clearcoat": 1.5},
         {"clearcoat_roughness": -0.5},
+        {"diffuse_transmission": 2.0},
+        {"diffuse_transmission_color": (0, 0, 1.5)},
         {"attenuation_color": (0, 2, 0)},
         {"attenuation_distance": 0.0},
     ],

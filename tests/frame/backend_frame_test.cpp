@@ -7,6 +7,7 @@
 #include "support/catch.hpp"
 #include "support/masked_scene.hpp"
 #include "support/test_sky.hpp"
+#include "support/textured_scene.hpp"
 
 #include <algorithm>
 #include <barrier>
@@ -151,6 +152,40 @@ TEST_CASE("What mirrors and glass throw, and what is seen in them, has the bits 
     check_same(host, draw_split(scene, settings, {wide, wide}, true));
     settings.caustics = 0;
     CHECK_FALSE(mirtest::same_bits(draw_on_host(scene, settings).indirect, host.indirect));
+}
+
+TEST_CASE("Leaves and panes with textures have the same bits in a backend's memory") {
+    Scene scene = lit_room();
+    scene.images.push_back(
+        {"spots", 2, 1, {mirtest::texel(255, 80, 120, 250), mirtest::texel(10, 200, 40, 60)}});
+    mir::Material leaf = mir::lambertian("leaf", {0.3f, 0.5f, 0.2f});
+    leaf.specular = 1.0f;
+    leaf.roughness = 0.5f;
+    leaf.diffuse_transmission = 0.8f;
+    leaf.textures.diffuse_transmission = leaf.textures.diffuse_transmission_color =
+        mirtest::texture_of(0);
+    mir::Material pane = mir::lambertian("pane", {0.9f, 0.8f, 0.7f});
+    pane.roughness = 0.0f;
+    pane.transmission = 1.0f;
+    pane.textures.transmission = mirtest::texture_of(0);
+    float x = -0.9f;
+    for (const mir::Material& m : {leaf, pane}) {
+        mir::Mesh quad = mir::builtin::quad(m.name, scene.add(m), {x, 0.3f, -0.2f}, {0.8f, 0, 0.2f},
+                                            {0, 0.9f, 0.1f});
+        quad.texture_coordinates = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+        scene.place(std::move(quad));
+        x = 0.1f;
+    }
+    RenderSettings settings = small_picture();
+    settings.luxels_per_pixel = 4;
+    for (const auto sampler : {mir::SamplerKind::metropolis, mir::SamplerKind::instant_radiosity}) {
+        settings.sampler = sampler;
+        const RenderResult host = draw_on_host(scene, settings);
+        check_same(host, draw_on_backend(scene, settings, {}));
+        Scene opaque = scene;
+        for (mir::Material& m : opaque.materials) m.diffuse_transmission = 0.0f;
+        CHECK_FALSE(mirtest::same_bits(draw_on_host(opaque, settings).direct, host.direct));
+    }
 }
 
 TEST_CASE("Cuts of many VPLs have the bits of the host's in a backend's memory") {

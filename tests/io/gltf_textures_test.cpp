@@ -282,6 +282,34 @@ TEST_CASE("textures, coordinates and colours survive being written and read") {
     CHECK_THROWS_AS(mir::write_glb(scene, folder / "scene.glb"), mir::Error);
 }
 
+TEST_CASE("textures of extensions survive being written and read") {
+    mir::Material m;
+    m.transmission = 0.5f;
+    m.clearcoat = m.clearcoat_roughness = 0.75f;
+    m.diffuse_transmission = 0.25f;
+    m.diffuse_transmission_color = {0.5f, 1.0f, 0.25f};
+    mir::MaterialTextures& t = m.textures;
+    t.transmission = t.clearcoat = t.clearcoat_roughness = texture_of(0);
+    t.diffuse_transmission = t.diffuse_transmission_color = texture_of(0);
+    t.clearcoat.nearest = true;
+    t.diffuse_transmission.u_axis = {2, 0};
+    const TemporaryFolder folder("extension_textures");
+    mir::write_glb(textured_triangle(m), folder / "scene.glb");
+    const mir::LoadedScene loaded = mir::read_gltf(folder / "scene.glb");
+    // Nothing is lost by it; here glass has no coat where it is clear.
+    CHECK(loaded.report.ignored.size() == 1);
+    CHECK(loaded.report.ignored.contains("KHR_materials_clearcoat on glass"));
+    const mir::Material& back = loaded.scene.materials.at(0);
+    CHECK(back.diffuse_transmission == 0.25f);
+    CHECK(back.diffuse_transmission_color == m.diffuse_transmission_color);
+    CHECK(back.textures.transmission.is_set());
+    CHECK(back.textures.clearcoat.nearest);
+    CHECK_FALSE(back.textures.clearcoat_roughness.nearest);
+    CHECK(back.textures.diffuse_transmission_color.is_set());
+    check_close(back.textures.diffuse_transmission.place({1, 0}), {2, 0});
+    CHECK_FALSE(back.textures.base_color.is_set());
+}
+
 TEST_CASE("the JPEG images of the wooden staircase are read") {
     const auto folder = shared_scenes();
     if (!folder) {

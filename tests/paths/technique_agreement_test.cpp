@@ -6,6 +6,7 @@
 #include "support/path_lab.hpp"
 #include "support/wedge.hpp"
 
+#include <array>
 #include <cmath>
 
 // A path of k edges can be built with 0 to k - 1 vertices from the light. Each way by itself, all
@@ -143,6 +144,91 @@ TEST_CASE("all techniques agree under a sky, with more lights and gloss below it
     scene.directional_lights = Wedge(WedgeLights::directional).scene().directional_lights;
     const PathLab<CookTorrance> mixed(scene);
     CHECK(agreement(mixed.world(), 3, 2700) > 0.01);
+}
+
+namespace {
+
+/// A wedge whose floor and ceiling let light through, above a cellar that sends it back.
+mir::Scene leafy(WedgeLights lights, float specular) {
+    mir::Scene scene = Wedge(lights, specular).scene();
+    for (std::size_t i = 0; i < 2; ++i) {
+        scene.materials[i].diffuse_transmission = 0.6f;
+        scene.materials[i].diffuse_transmission_color = {0.5f, 0.9f, 0.4f};
+    }
+    const std::uint32_t wall = scene.add(mir::lambertian("cellar", {0.8f, 0.8f, 0.8f}));
+    scene.place(mir::builtin::quad("cellar", wall, {-1, -0.4f, 1}, {2, 0.1f, 0}, {0, 0.05f, -2}));
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("all techniques agree where light goes through floor and ceiling", "[statistical]") {
+    const PathLab<Lambert> matte(leafy(WedgeLights::two_sided, 0.0f));
+    CHECK(agreement(matte.world(), 2, 3100) > 0.01);
+    const PathLab<CookTorrance> waxed(leafy(WedgeLights::environment, 1.0f));
+    CHECK(agreement(waxed.world(), 3, 3200) > 0.01);
+}
+
+// H0: light goes through as often as the chance of the material says. Student's t, 1 %.
+TEST_CASE("what is drawn at a vertex has the weight of its chance", "[statistical]") {
+    const PathLab<Lambert> lab(leafy(WedgeLights::two_sided, 0.0f));
+    const auto view = lab.surfaces.view();
+    const double chance = view.through_chance(0, {});
+    CHECK(chance > 0.3);
+    CHECK(chance < 0.7);
+    mirtest::Moments through;
+    mir::Random random(3300, mir::Stream::test, 0);
+    for (int i = 0; i < 4000; ++i) {
+        const mir::Ray down{{random.next() - 0.5f, 0.2f, random.next() - 0.5f}, {0, -1, 0}};
+        mir::PathVertex v;
+        if (!lab.world().hit(down, v) || v.material != 0) continue;
+        through.add(v.is_through ? 1.0 : 0.0);
+        const double weight = lab.world().event_weight(v);
+        REQUIRE(weight == mirtest::Approx(1.0 / (v.is_through ? chance : 1.0 - chance)));
+        mir::PathVertex lit;
+        REQUIRE(lab.world().hit_from_light(down, lit));
+        // The camera's side of what light goes through from above lies below.
+        REQUIRE(lit.is_through == v.is_through);
+        REQUIRE((lit.normal.y < 0.0f) == v.is_through);
+        REQUIRE((lit.position.y < 0.0f) == v.is_through);
+    }
+    CHECK(mirtest::mean_p_value(through, chance) > 0.01);
+}
+
+TEST_CASE("light goes through a waxed leaf at every vertex of a path", "[statistical]") {
+    const PathLab<CookTorrance> lab(leafy(WedgeLights::environment, 1.0f));
+    const mir::PathGenerator generator(lab.world(),
+                                       TechniqueTable(5, 5, PathTechniques::bidirectional));
+    mir::WeightedPath p;
+    std::array<std::uint32_t, 4> lit{};
+    for (std::uint64_t i = 0; i < 20'000; ++i) {
+        generator.generate(mir::Random(3400, mir::Stream::test, i), p);
+        for (std::uint32_t k = 1; p.weight > 0.0 && k <= lit.size(); ++k)
+            lit[k - 1] += p.path.x(k).is_through;
+    }
+    for (const std::uint32_t paths_through : lit) CHECK(paths_through > 20);
+}
+
+// H0: P_c of k edges is L_e rho^(k - 1). Student's t, 1 % over 5 lengths, seeds 3502 to 3506.
+TEST_CASE("a leaf in the furnace sends out rho of the light of either side", "[statistical]") {
+    mir::Scene scene = mir::builtin::make("furnace");
+    mir::Material leaf = scene.materials.at(0);
+    leaf.base_color = {0.8f, 0.8f, 0.8f};
+    leaf.diffuse_transmission = 0.75f;
+    leaf.diffuse_transmission_color = {0.4f, 0.4f, 0.4f};
+    leaf.emits_from_both_sides = true;
+    const mir::Camera& eye = scene.cameras.at(0);
+    const mir::Vec3 corner = eye.position - 0.4f * eye.back - 0.3f * eye.right - 0.3f * eye.up;
+    scene.place(mir::builtin::quad("leaf", scene.add(leaf), corner, 0.5f * eye.right,
+                                   0.5f * eye.up - 0.1f * eye.back));
+    const PathLab<Lambert> lab(scene);
+    for (std::uint32_t k = 2; k <= 6; ++k) {
+        const TechniqueTable table(k, k, PathTechniques::bidirectional);
+        const Moments m = generator_weights(lab.world(), table, 3500 + k, 60'000);
+        CAPTURE(k, m.mean(), m.standard_error());
+        CHECK(mirtest::mean_p_value(m, 0.5 * std::pow(0.5, k - 1)) > mirtest::sidak(0.01, 5));
+        CHECK(m.standard_error() < 0.05 * m.mean());
+    }
 }
 
 // H0: P_c of k edges is L_e rho^(k - 1). Student's t, 1 % over 7 lengths, seeds 2300 to 2306.

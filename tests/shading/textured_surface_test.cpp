@@ -158,3 +158,66 @@ TEST_CASE("meshes with and without coordinates and colours stand beside each oth
     scene.meshes[2].colors.assign(3, {2, 0, 0});
     CHECK_THROWS_AS(mir::WorldGeometry(scene), mir::Error);
 }
+
+TEST_CASE("what goes through and what coats follow their textures") {
+    mir::Material m = matte();
+    m.transmission = 0.5f;
+    m.clearcoat = 0.75f;
+    m.clearcoat_roughness = 0.5f;
+    m.diffuse_transmission = 0.25f;
+    m.diffuse_transmission_color = {0.5f, 1.0f, 1.0f};
+    mir::MaterialTextures& t = m.textures;
+    t.transmission = t.clearcoat = t.clearcoat_roughness = texture_of(0);
+    t.diffuse_transmission = t.diffuse_transmission_color = texture_of(0);
+    mir::Scene scene = textured_triangle(m);
+    scene.images[0].texels[2] = texel(0, 0, 255, 0);
+    const Seen seen(scene);
+    const auto at = [&](float x, float y) {
+        return seen.surfaces.view().factors(0, attributes_of(seen.point(x, y)));
+    };
+    const mir::MaterialFactors red = at(0.25f, 0.75f);
+    const mir::MaterialFactors green = at(0.75f, 0.75f);
+    const mir::MaterialFactors blue = at(0.25f, 0.25f);
+    CHECK(red.transmission == 0.5f);
+    CHECK(green.transmission == 0.0f);
+    CHECK(red.clearcoat == 0.75f);
+    CHECK(green.clearcoat == 0.0f);
+    CHECK(red.clearcoat_roughness == 0.0f);
+    CHECK(green.clearcoat_roughness == 0.5f);
+    CHECK(red.diffuse_transmission == 0.25f);
+    CHECK(blue.diffuse_transmission == 0.0f);
+    CHECK(red.diffuse_transmission_color == Rgb{0.5f, 0, 0});
+    CHECK(blue.diffuse_transmission_color == Rgb{0, 0, 1});
+    // The base colour varies with none of them.
+    CHECK(red.base_color == m.base_color);
+}
+
+TEST_CASE("the base is what the texture of transmission leaves, and glass has no coat") {
+    mir::Material m = matte();
+    m.transmission = 1.0f;
+    m.clearcoat = 1.0f;
+    m.clearcoat_roughness = 0.5f;
+    m.textures.transmission = texture_of(0);
+    const Seen seen(textured_triangle(m));
+    const auto clear = seen.surface(0.25f, 0.75f).bsdf;
+    const auto solid = seen.surface(0.75f, 0.75f).bsdf;
+    CHECK(is_black(clear.diffuse));
+    CHECK(clear.clearcoat == 0.0f);
+    CHECK(solid.diffuse.g > 0.45f);
+    CHECK(solid.clearcoat == 1.0f);
+}
+
+TEST_CASE("a rough coat is as wide as its texture says, and one that is smooth somewhere mirrors") {
+    mir::Material m = matte();
+    m.clearcoat = 1.0f;
+    m.clearcoat_roughness = 0.5f;
+    CHECK_FALSE(Seen(textured_triangle(m)).surfaces.bends_rays());
+    m.textures.clearcoat_roughness = texture_of(0);
+    const Seen seen(textured_triangle(m));
+    CHECK(seen.surfaces.bends_rays());
+    const auto coat = [&](float x, float y) {
+        return seen.surfaces.view().coat(0, attributes_of(seen.point(x, y)));
+    };
+    CHECK(coat(0.75f, 0.75f).alpha == Approx(0.25));
+    CHECK(coat(0.25f, 0.75f).alpha < 1e-3f);
+}

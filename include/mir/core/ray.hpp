@@ -31,6 +31,7 @@ struct SurfacePoint {
     /// In the triangle's plane along rising u, not unit; zero where textures have no direction.
     Vec3 tangent{0};
     bool mirrored_texture = false;  ///< u, v and the front's normal are left-handed with v up
+    bool before_plane = false;      ///< leave_on_ray() has moved it off the triangle's plane
 };
 
 /// Lifts a point off its surface so that segments leaving it miss the surface. It moves by `offset`
@@ -57,6 +58,16 @@ MIR_HD inline void leave_on_ray(SurfacePoint& p, const Ray& ray, float t) {
     const float back = smaller(larger(4.0f * p.offset / cosine, 0x1p-20f * t), 0.5f * t);
     const Vec3 place = ray.origin + (t - back) * ray.direction;
     p.position = place - p.offset * p.geometric_normal;
+    p.before_plane = true;
+}
+
+/// Turns a point over to the other side of its surface. It is as if a ray had met it there.
+MIR_HD inline void turn_over(SurfacePoint& p) {
+    p.geometric_normal = -p.geometric_normal;
+    p.shading_normal = -p.shading_normal;
+    p.front = !p.front;
+    // As far behind its plane as leave_on_ray() put it before.
+    if (p.before_plane) p.offset = 8.0f * larger(p.offset, least_offset(p.position));
 }
 
 }  // namespace mir

@@ -27,7 +27,8 @@ struct VplRecord {
     std::uint16_t light_group = 0;  ///< group of the light that feeds it
     float weight = 1.0f;            ///< recorded states that it stands for
     float lobe_share = 0.0f;        ///< of its light: what leaves the surface in a lobe, spread as
-                                    ///< Lambertian here; 0 only on lamps and Lambertian surfaces
+                              ///< Lambertian here; 0 only on lamps and Lambertian surfaces, and
+                              ///< of what has gone through a surface diffusely
 };
 
 /// The light that arrives at a VPL: what its surface makes a lobe of.

@@ -49,12 +49,9 @@ MIR_HD bool start_at_camera(const World& world, Numbers& u, Path& path) {
     return true;
 }
 
-/// Writes the next vertex from `at` along `w`. False unless the direction lies above the surface
-/// and hits another.
-template <class World>
-MIR_HD bool step_along(const World& world, const PathVertex& at, Vec3 w, PathVertex& next) {
-    if (!(glm::dot(w, at.normal) > 0.0f) || !(glm::dot(w, at.shading_normal) > 0.0f)) return false;
-    return world.hit({at.position, w}, next);
+/// True when the direction lies above a surface.
+MIR_HD inline bool leaves(const PathVertex& at, Vec3 w) {
+    return glm::dot(w, at.normal) > 0.0f && glm::dot(w, at.shading_normal) > 0.0f;
 }
 
 /// Extends a path from the camera to `edges` edges. x2 spreads light as a VPL does, so it is
@@ -64,7 +61,7 @@ MIR_HD bool extend_from_eye(const World& world, Numbers& u, std::uint32_t edges,
     using B = typename World::Bsdf;
     while (path.edges() < edges) {
         const std::uint32_t i = path.edges();
-        const PathVertex& at = path.x(i);
+        const PathVertex at = world.lit_side(path, i);
         if (B::is_black(world.params(at))) return false;
         const std::uint32_t d = path_dimension::eye_vertex(i);
         const Vec2 uv = pair_at(u, d);
@@ -72,11 +69,12 @@ MIR_HD bool extend_from_eye(const World& world, Numbers& u, std::uint32_t edges,
         if (i == 2) {
             w = Frame::around(at.shading_normal).to_world(square_to_cosine_hemisphere(uv));
         } else {
-            const Vec3 wo = glm::normalize(path.position(i - 1) - at.position);
+            const Vec3 to_eye = glm::normalize(path.position(i - 1) - at.position);
+            const Vec3 wo = path.is_lit_behind(i) ? -to_eye : to_eye;
             w = B::sample(world.params(at), at.shading_normal, wo, uv, u.at(d + 2)).wi;
         }
         PathVertex next;
-        if (!step_along(world, at, w, next)) return false;
+        if (!leaves(at, w) || !world.hit({at.position, w}, next)) return false;
         path.vertices.push_back(next);
     }
     return true;
@@ -108,16 +106,18 @@ MIR_HD bool extend_from_light(const World& world, Numbers& u, std::uint32_t coun
         PathVertex& next = part.vertex(n);
         if (n == 1) {
             const Vec2 uv = pair_at(u, path_dimension::light_direction);
-            if (!world.hit(ray_from_light(world, at, part.path.light, uv), next)) return false;
+            if (!world.hit_from_light(ray_from_light(world, at, part.path.light, uv), next))
+                return false;
             continue;
         }
         const bool far = n == 2 && part.path.light.origin == LightOrigin::outside;
         const PathVertex& before = part.vertex(n - 2);
-        const Vec3 wo = far ? -before.normal : glm::normalize(before.position - at.position);
+        const Vec3 to_light = far ? -before.normal : glm::normalize(before.position - at.position);
+        const Vec3 wo = at.is_through ? -to_light : to_light;
         const std::uint32_t d = path_dimension::light_vertex(n - 1);
         const Vec2 uv = pair_at(u, d);
         const Vec3 w = B::sample(world.params(at), at.shading_normal, wo, uv, u.at(d + 2)).wi;
-        if (!step_along(world, at, w, next)) return false;
+        if (!leaves(at, w) || !world.hit_from_light({at.position, w}, next)) return false;
     }
     return true;
 }
@@ -171,13 +171,14 @@ MIR_HD bool close_path(const World& world, Numbers& u, std::uint32_t from_light,
     return attach_light_path(world, u, from_light, path);
 }
 
-/// Whether the edge from x_i to x_(i+1) is free.
+/// Whether the edge from x_i to x_(i+1) is free, i >= 1.
 template <class World>
 MIR_HD_CALL bool edge_is_free(const World& world, const Path& path, std::uint32_t i) {
+    const Vec3 from = world.lit_side(path, i).position;
     Vec3 to = path.position(i + 1);
     if (i + 1 == path.edges() && path.light.origin == LightOrigin::outside)
-        to = world.lights.sphere.outside(path.position(i), -path.x(i + 1).normal);
-    return world.visibility.visible(to, path.position(i));
+        to = world.lights.sphere.outside(from, -path.x(i + 1).normal);
+    return world.visibility.visible(to, from);
 }
 
 }  // namespace mir

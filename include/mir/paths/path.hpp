@@ -21,6 +21,9 @@ struct PathVertex {
     std::uint32_t triangle = 0;  ///< index into WorldGeometry
     std::uint32_t material = 0;  ///< index into Scene::materials
     bool on_coat = false;        ///< reflects by the rough coat of the material alone
+    /// Light goes through diffusely. Place and normals are those of the camera's side then, and of
+    /// x1, whose camera seems to stand opposite, those of the light's.
+    bool is_through = false;
 };
 
 /// What is known about the light at the end of a path besides its place.
@@ -54,6 +57,10 @@ struct Path {
     [[nodiscard]] MIR_HD const PathVertex& x(std::uint32_t i) const { return vertices[i - 1]; }
     /// x_i, 1 <= i <= edges(), to write to.
     [[nodiscard]] MIR_HD PathVertex& x(std::uint32_t i) { return vertices[i - 1]; }
+    /// True when light arrives at x_i on the side that its normals point away from.
+    [[nodiscard]] MIR_HD bool is_lit_behind(std::uint32_t i) const {
+        return i > 1 && x(i).is_through;
+    }
     /// Position of x_i, x0 included.
     [[nodiscard]] MIR_HD Vec3 position(std::uint32_t i) const {
         return i == 0 ? eye : vertices[i - 1].position;

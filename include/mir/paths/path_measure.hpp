@@ -94,73 +94,91 @@ class PathMeasurer {
     [[nodiscard]] MIR_HD bool is_representable() const {
         return k_ > 2 || (k_ == 2 && ends_on_surface());
     }
+    /// Normals of the side where light arrives.
+    [[nodiscard]] MIR_HD Vec3 lit_normal(std::uint32_t i) const {
+        return path_.is_lit_behind(i) ? -path_.x(i).normal : path_.x(i).normal;
+    }
+    [[nodiscard]] MIR_HD Vec3 lit_shading_normal(std::uint32_t i) const {
+        return path_.is_lit_behind(i) ? -path_.x(i).shading_normal : path_.x(i).shading_normal;
+    }
+    /// A direction on one side of x_i as the Bsdf of what goes through wants it on the other.
+    [[nodiscard]] MIR_HD Vec3 turned(std::uint32_t i, Vec3 w) const {
+        return path_.is_lit_behind(i) ? -w : w;
+    }
     [[nodiscard]] MIR_HD PathEdge edge(std::uint32_t i) const {
         return edge_between(path_.position(i), path_.position(i + 1));
     }
-    [[nodiscard]] MIR_HD static bool above(Vec3 w, const PathVertex& x) {
-        return glm::dot(w, x.normal) > 0.0f && glm::dot(w, x.shading_normal) > 0.0f;
+    [[nodiscard]] MIR_HD bool is_lit(std::uint32_t i) const {
+        return glm::dot(to_light(i), lit_normal(i)) > 0.0f &&
+               glm::dot(to_light(i), lit_shading_normal(i)) > 0.0f;
     }
     /// Reflecting vertices must see both neighbours on their side, and light above the normal. That
     /// is the shading normal. Whether it reflects below that is the BSDF's matter.
     [[nodiscard]] MIR_HD bool suffix_sides_agree() const {
         for (std::uint32_t i = 2; i < k_; ++i) {
-            if (!above(to_light(i), path_.x(i))) return false;
+            if (!is_lit(i)) return false;
             if (i > 2 && !(glm::dot(to_eye(i), path_.x(i).normal) > 0.0f)) return false;
         }
         const bool lamp_behind = k_ > 2 && ends_on_surface();
         return !lamp_behind || glm::dot(to_eye(k_), end().normal) > 0.0f;
     }
     [[nodiscard]] MIR_HD bool camera_sides_agree() const {
-        return above(to_light(1), path_.x(1)) && above(to_eye(1), path_.x(1)) &&
+        const PathVertex& x = path_.x(1);
+        return is_lit(1) && glm::dot(to_eye(1), x.normal) > 0.0f &&
+               glm::dot(to_eye(1), x.shading_normal) > 0.0f &&
                glm::dot(to_eye(2), path_.x(2).normal) > 0.0f;
     }
 
     /// cos at x_i, shading normal, times cos at x_(i+1), geometric normal, over d^2.
     [[nodiscard]] MIR_HD float geometry(std::uint32_t i) const {
         const PathEdge& e = edges_[i];
-        const float receiver = larger(glm::dot(e.w, path_.x(i).shading_normal), 0.0f);
+        const float receiver = larger(glm::dot(e.w, lit_shading_normal(i)), 0.0f);
         return receiver * larger(-glm::dot(e.w, path_.x(i + 1).normal), 0.0f) / e.d2;
     }
     /// Irradiance at the last reflecting vertex.
     [[nodiscard]] MIR_HD Rgb light_at(std::uint32_t receiver) const {
         const PathEdge& e = edges_[receiver];
-        const float cosine = larger(glm::dot(e.w, path_.x(receiver).shading_normal), 0.0f);
+        const float cosine = larger(glm::dot(e.w, lit_shading_normal(receiver)), 0.0f);
         return light_at_receiver(world_, end(), path_.light, -e.w, e.d2) * cosine;
     }
     [[nodiscard]] MIR_HD Rgb bsdf(std::uint32_t i) const {
         const PathVertex& x = path_.x(i);
-        return B::eval(world_.params(x), x.shading_normal, to_light(i), to_eye(i));
+        return B::eval(world_.params(x), lit_shading_normal(i), to_light(i), turned(i, to_eye(i)));
     }
     /// Irradiance at x2, spread diffusely, or the emission of a lamp there.
     [[nodiscard]] MIR_HD WideRgb leaving_second() const {
         if (k_ == 2) return path_.light.emission;
         WideRgb light = WideRgb(light_at(k_ - 1)) * unit_of(k_);
         for (std::uint32_t i = k_ - 1; i > 2; --i)
-            light = light * bsdf(i) * (static_cast<double>(geometry(i - 1)) * unit_of(i));
+            light = light * bsdf(i) * (static_cast<double>(geometry(i - 1)) * unit_of(i)) *
+                    static_cast<double>(world_.event_weight(path_.x(i)));
         const PathVertex& x = path_.x(2);
-        const BsdfSample sample = B::sample(world_.params(x), x.shading_normal, to_light(2),
-                                            {path_.spread.x, path_.spread.y}, path_.spread.z);
-        return light * sample.weight * static_cast<double>(inv_pi);
+        const BsdfSample sample =
+            B::sample(world_.params(x), x.shading_normal, turned(2, to_light(2)),
+                      {path_.spread.x, path_.spread.y}, path_.spread.z);
+        return light * sample.weight * static_cast<double>(inv_pi * world_.event_weight(x));
     }
     [[nodiscard]] MIR_HD double density_from_eye(std::uint32_t i) const {
         const PathEdge& e = edges_[i - 1];
         const PathVertex& from = path_.x(i - 1);
         if (i == k_ && !ends_on_surface()) return 0.0;
+        const Vec3 normal = lit_shading_normal(i - 1);
         const float cosine = larger(-glm::dot(e.w, path_.x(i).normal), 0.0f);
         const float pdf =
-            i == 3 ? cosine_hemisphere_pdf(glm::dot(e.w, from.shading_normal))
-                   : B::pdf(world_.params(from), from.shading_normal, e.w, to_eye(i - 1));
+            i == 3 ? cosine_hemisphere_pdf(glm::dot(e.w, normal))
+                   : B::pdf(world_.params(from), normal, e.w, turned(i - 1, to_eye(i - 1)));
         const double density = per_area(pdf, cosine, e) * unit_of(i);
         // Light samples put an end on a lamp that a ray may pass.
         return i == k_ ? density * static_cast<double>(world_.stop_chance(end(), e.w)) : density;
     }
     [[nodiscard]] MIR_HD double density_from_light(std::uint32_t i) const {
         const PathEdge& e = edges_[i];
-        const float cosine = larger(glm::dot(e.w, path_.x(i).normal), 0.0f);
+        const float cosine = larger(glm::dot(e.w, lit_normal(i)), 0.0f);
         if (i + 1 == k_)
             return light_ray_density(world_, end(), path_.light, -e.w, cosine, e.d2) * unit_of(i);
         const PathVertex& from = path_.x(i + 1);
-        const float pdf = B::pdf(world_.params(from), from.shading_normal, -e.w, to_light(i + 1));
+        const float pdf =
+            B::pdf(world_.params(from), from.shading_normal, -e.w, turned(i + 1, to_light(i + 1)));
         return per_area(pdf, cosine, e) * unit_of(i);
     }
     /// Density per m^2 at the end of an edge. It follows from a direction's density and the cosine

@@ -18,7 +18,7 @@ MIR_HD VplRecord record_of(const World& world, const WeightedPath& p, Rgb intens
     r.bounce = static_cast<std::uint8_t>(p.path.bounce());
     r.light_group = p.path.light.light_group;
     r.weight = static_cast<float>(weight);
-    r.lobe_share = on_lamp ? 0.0f : world.luxels.surfaces.lobe_share(x.material);
+    r.lobe_share = on_lamp || x.is_through ? 0.0f : world.luxels.surfaces.lobe_share(x.material);
     return r;
 }
 

@@ -79,9 +79,37 @@ struct PathWorld {
         SurfacePoint p;
         passed = 1.0f;
         if (!find_point(luxels.caster, ray, p)) return false;
-        if (luxels.surfaces.is_specular(p.material) && !pass_straight(ray, p, passed)) return false;
+        bool is_through = false;
+        if (luxels.surfaces.is_specular(p.material)) {
+            RayNumbers numbers(ray);
+            if (!pass_straight(ray, p, passed, numbers)) return false;
+            const float chance = luxels.surfaces.through_chance(p.material, attributes_of(p));
+            is_through = chance > 0.0f && numbers.next() < chance;
+        }
         vertex = vertex_at(p, luxels.surfaces.shading_normal(p));
+        vertex.is_through = is_through;
         return true;
+    }
+    /// The same of a ray that light runs along: what it meets is the vertex's other side where
+    /// that lets it through diffusely.
+    [[nodiscard]] MIR_HD_CALL bool hit_from_light(const Ray& ray, PathVertex& vertex) const {
+        if (!hit(ray, vertex)) return false;
+        if (vertex.is_through) vertex = other_side(vertex);
+        return true;
+    }
+    /// Vertex x_i, i >= 1, as x_(i+1) sees it.
+    [[nodiscard]] MIR_HD PathVertex lit_side(const Path& path, std::uint32_t i) const {
+        return path.is_lit_behind(i) ? other_side(path.x(i)) : path.x(i);
+    }
+    /// One over the chance of what hit() has drawn at a vertex behind x1: that light is reflected
+    /// or that it goes through. The chances are no part of densities, because all techniques draw
+    /// by the same ones.
+    [[nodiscard]] MIR_HD float event_weight(const PathVertex& v) const {
+        if (!luxels.surfaces.is_specular(v.material)) return 1.0f;
+        const float chance = luxels.surfaces.through_chance(
+            v.material, geometry.attributes(v.triangle, v.barycentrics));
+        if (!(chance > 0.0f)) return 1.0f;
+        return 1.0f / (v.is_through ? chance : 1.0f - chance);
     }
     /// Chance with which a ray along the unit vector `w` that meets a vertex by hit() ends there:
     /// others pass it.
@@ -100,13 +128,18 @@ struct PathWorld {
         if (seen.is_background) return false;
         vertex = vertex_at(seen.point, luxels.normal(seen));
         vertex.on_coat = seen.on_coat;
+        vertex.is_through = seen.is_through;
         path.eye = seen.ray.origin;
         path.chain = seen.reflection;
         return true;
     }
     /// How the surface reflects at a vertex, textures and vertex colours included.
     [[nodiscard]] MIR_HD_CALL typename B::Params params(const PathVertex& v) const {
-        if (v.on_coat) return luxels.surfaces.coat(v.material);
+        if (v.on_coat || v.is_through) {
+            const VertexAttributes at = geometry.attributes(v.triangle, v.barycentrics);
+            return v.on_coat ? luxels.surfaces.coat(v.material, at)
+                             : luxels.surfaces.through(v.material, at);
+        }
         if (luxels.surfaces.is_specular(v.material))
             return luxels.surfaces.params_of_side(
                 luxels.surfaces.params(v.material, geometry.attributes(v.triangle, v.barycentrics)),
@@ -128,8 +161,8 @@ struct PathWorld {
     }
     /// Goes straight on through what is seen through. False when the ray leaves the scene, or ends
     /// on glass.
-    [[nodiscard]] MIR_HD bool pass_straight(Ray ray, SurfacePoint& p, float& passed) const {
-        RayNumbers numbers(ray);
+    [[nodiscard]] MIR_HD bool pass_straight(Ray ray, SurfacePoint& p, float& passed,
+                                            RayNumbers& numbers) const {
         for (std::uint32_t events = 0; luxels.surfaces.is_specular(p.material); ++events) {
             const VertexAttributes at = attributes_of(p);
             const MaterialFactors factors = luxels.surfaces.factors(p.material, at);
@@ -141,6 +174,14 @@ struct PathWorld {
             if (!find_next(luxels.caster, -p.geometric_normal, ray, p)) return false;
         }
         return true;
+    }
+    /// A vertex turned over to the other side of its surface.
+    [[nodiscard]] MIR_HD PathVertex other_side(PathVertex v) const {
+        v.normal = -v.normal;
+        v.shading_normal = -v.shading_normal;
+        const float offset = geometry.offset_at(v.position);
+        v.position = lift(geometry.place(v.triangle, v.barycentrics, offset), v.normal, offset);
+        return v;
     }
     [[nodiscard]] MIR_HD static PathVertex vertex_at(const SurfacePoint& p, Vec3 shading_normal) {
         return {lift(p),        p.geometric_normal, shading_normal,

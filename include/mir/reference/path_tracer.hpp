@@ -99,6 +99,14 @@ class PathTracer {
                                           Random& random) const;
     [[nodiscard]] MIR_HD SpecularEnd met_along(const Walk& walk, Vec3 direction,
                                                Random& random) const;
+    /// What of the light is wanted that the first vertex gets from another. A VPL there shines to
+    /// the side that the path came from, wherever its light arrives.
+    [[nodiscard]] MIR_HD float share_of(const Walk& walk, const SpecularEnd& met,
+                                        const Hit& next) const {
+        if (!met.is_straight) return split_.unbounded();
+        const Hit from{next.position, met.is_through ? -next.normal : next.normal};
+        return split_.reflected(walk.at.hit, walk.at.surface.normal, from);
+    }
     [[nodiscard]] MIR_HD Rgb found_light(const Walk& walk, const BsdfSample& sample,
                                          const SpecularEnd& met, const Vertex& next) const;
     [[nodiscard]] MIR_HD bool find_next_point(const Walk& walk, const Ray& ray,
@@ -218,10 +226,7 @@ MIR_HD bool PathTracer<B, R, V, Rules>::advance(Walk& walk, Random& random, Sums
     const Rgb found = found_light(walk, sample, met, next);
     sums.add(walk.bounce, walk.throughput * found * walk.share);
     if (last || B::is_black(next.surface.bsdf)) return false;
-    if (walk.bounce == 1)
-        walk.throughput =
-            walk.throughput * (met.is_straight ? split_.reflected(hit, surface.normal, next.hit)
-                                               : split_.unbounded());
+    if (walk.bounce == 1) walk.throughput = walk.throughput * share_of(walk, met, next.hit);
     if (is_black(walk.throughput)) return false;
     walk.at = next;
     ++walk.bounce;

@@ -104,7 +104,7 @@ MIR_HD void LightPathTracer<B, R, S>::record(const LightVertex<B>& v, const Bsdf
                                              std::uint8_t bounce, std::uint16_t light_group,
                                              Out& out) const {
     const SurfacePoint& point = v.at.point;
-    const float lobe_share = world_.surfaces.lobe_share(point.material);
+    const float lobe_share = v.is_through ? 0.0f : world_.surfaces.lobe_share(point.material);
     const Rgb weight = options_.arrivals && lobe_share > 0.0f
                            ? B::albedo(v.bsdf, point.shading_normal, v.at.towards_light)
                            : sample.weight;

@@ -14,6 +14,7 @@ struct LightVertex {
     typename B::Params bsdf;  ///< of the surface
     Vec3 normal{0};           ///< unit, around which it scatters
     bool is_straight = true;  ///< no mirror and no body of glass lies on the last edge
+    bool is_through = false;  ///< the light has gone through the surface diffusely
 };
 
 /// Goes from light to surface and from surface to surface, through specular chains. A value of
@@ -37,7 +38,8 @@ struct LightWalk {
         v = {{met.point, -met.ray.direction, light.power * met.reflection},
              params_at(met),
              met.point.geometric_normal,
-             met.is_straight};
+             met.is_straight,
+             met.is_through};
         if (!met.on_coat) v.at.point.shading_normal = surfaces.shading_normal(met.point);
         // What reflects alike in all directions does so below its shading normal, too.
         if (!surfaces.is_lambertian(met.point.material)) v.normal = v.at.point.shading_normal;
@@ -47,7 +49,8 @@ struct LightWalk {
  private:
     [[nodiscard]] MIR_HD typename B::Params params_at(const SpecularEnd& met) const {
         const SurfacePoint& p = met.point;
-        if (met.on_coat) return surfaces.coat(p.material);
+        if (met.on_coat) return surfaces.coat(p.material, attributes_of(p));
+        if (met.is_through) return surfaces.through(p.material, attributes_of(p));
         return surfaces.params_of_side(surfaces.params(p.material, attributes_of(p)), p.material,
                                        p.front);
     }

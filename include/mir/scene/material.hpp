@@ -34,15 +34,27 @@ struct Material {
     Rgb attenuation_color{1.0f, 1.0f, 1.0f};
     float attenuation_distance = std::numeric_limits<float>::infinity();  ///< metres
 
-    float clearcoat = 0.0f;            ///< MaterialFactors::clearcoat
-    float clearcoat_roughness = 0.0f;  ///< MaterialFactors::clearcoat_roughness
+    float clearcoat = 0.0f;             ///< MaterialFactors::clearcoat
+    float clearcoat_roughness = 0.0f;   ///< MaterialFactors::clearcoat_roughness
+    float diffuse_transmission = 0.0f;  ///< MaterialFactors::diffuse_transmission
+    Rgb diffuse_transmission_color{1.0f, 1.0f,
+                                   1.0f};  ///< MaterialFactors::diffuse_transmission_color
 
     /// True when its emission is not black, whatever its texture.
     [[nodiscard]] bool emits() const { return !is_black(emission); }
     /// How it reflects without textures and vertex colours.
     [[nodiscard]] MaterialFactors factors() const {
-        return {base_color,   metallic, roughness, specular,           ior,
-                transmission, is_thin,  clearcoat, clearcoat_roughness};
+        return {base_color,
+                metallic,
+                roughness,
+                specular,
+                ior,
+                transmission,
+                is_thin,
+                clearcoat,
+                clearcoat_roughness,
+                diffuse_transmission,
+                diffuse_transmission_color};
     }
     /// True when it may have holes.
     [[nodiscard]] bool is_masked() const { return alpha_cutoff > 0.0f; }
@@ -50,9 +62,13 @@ struct Material {
     [[nodiscard]] bool is_see_through() const {
         return is_blended || (transmission > 0.0f && is_thin && metallic < 1.0f);
     }
+    /// True when light may go through it diffusely.
+    [[nodiscard]] bool is_translucent() const {
+        return diffuse_transmission > 0.0f && metallic < 1.0f;
+    }
     /// True when all light passes it unchanged. It is as if it were not there, in every bit.
     [[nodiscard]] bool is_nothing() const {
-        if (emits() || textures.base_color.is_set()) return false;
+        if (emits() || textures.base_color.is_set() || textures.transmission.is_set()) return false;
         if (is_blended && alpha == 0.0f) return true;
         const bool clear = transmission == 1.0f && metallic == 0.0f && roughness == 0.0f;
         return clear && is_thin && ior == 1.0f && base_color == Rgb{1.0f, 1.0f, 1.0f};

@@ -20,6 +20,19 @@ struct MaterialFactors {
     float clearcoat =
         0.0f;  ///< weight of a second, colourless interface on top, 0..1; not on glass
     float clearcoat_roughness = 0.0f;  ///< of that one, 0..1
+    /// Share of diffuse reflection that goes through instead, 0..1. It leaves the other side in all
+    /// directions: leaves, paper. Metals let nothing through.
+    float diffuse_transmission = 0.0f;
+    Rgb diffuse_transmission_color{1.0f, 1.0f, 1.0f};  ///< of that light, 0..1
+
+    /// The material as its other side sends out light. The base is what goes through diffusely,
+    /// and what goes through is the base.
+    [[nodiscard]] MIR_HD MaterialFactors through() const {
+        MaterialFactors m = *this;
+        m.base_color = diffuse_transmission_color;
+        m.diffuse_transmission = 1.0f - diffuse_transmission;
+        return m;
+    }
 };
 
 }  // namespace mir

@@ -10,20 +10,19 @@ namespace mir {
 
 /// What of a material says how much light goes straight through it. Plain values that kernels read.
 struct SeeThrough {
-    MaterialFactors factors{};     ///< what textures multiply
-    float alpha = 1.0f;            ///< 0..1; read where it is blended
-    bool is_blended = false;       ///< alpha is the covered share
-    bool is_set = false;           ///< false: nothing goes through
-    Texture base_color{};          ///< multiplies the base colour, and its alpha `alpha`
-    Texture metallic_roughness{};  ///< multiplies roughness and metallic
+    MaterialFactors factors{};  ///< what textures multiply
+    float alpha = 1.0f;         ///< 0..1; read where it is blended
+    bool is_blended = false;    ///< alpha is the covered share
+    bool is_set = false;        ///< false: nothing goes through
+    MaterialTextures own{};     ///< those that say how much goes through, and no other
 
     /// Luminance of straight_transmittance() at a point with these attributes.
     template <Space S>
     [[nodiscard]] MIR_HD float transmittance(const TextureView<S>& textures,
                                              const VertexAttributes& at, float cosine) const {
-        const float covered = is_blended ? covered_share(alpha, base_color, textures, at) : 1.0f;
-        const MaterialFactors there =
-            textured_factors(factors, base_color, metallic_roughness, textures, at);
+        const float covered =
+            is_blended ? covered_share(alpha, own.base_color, textures, at) : 1.0f;
+        const MaterialFactors there = textured_factors(factors, own, textures, at);
         return luminance(straight_transmittance(there, covered, cosine));
     }
 };

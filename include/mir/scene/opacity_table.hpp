@@ -21,9 +21,11 @@ namespace mir {
 
 /// What of a material says how much light goes straight through it.
 [[nodiscard]] inline SeeThrough see_through_of(const Material& m) {
-    return {m.factors(),           m.alpha,
-            m.is_blended,          m.is_see_through(),
-            m.textures.base_color, m.textures.metallic_roughness};
+    MaterialTextures own;
+    own.base_color = m.textures.base_color;
+    own.metallic_roughness = m.textures.metallic_roughness;
+    own.transmission = m.textures.transmission;
+    return {m.factors(), m.alpha, m.is_blended, m.is_see_through(), own};
 }
 
 /// Masks and see-through materials of a scene, with the images that they read. Needs the scene no
@@ -31,7 +33,8 @@ namespace mir {
 /// const use from any thread.
 class OpacityTable {
  public:
-    /// @throws Error(invalid_input) when an alpha or a transmission lies outside 0..1 or a cutoff
+    /// @throws Error(invalid_input) when an alpha, a transmission or a coat lies outside 0..1 or a
+    /// cutoff
     ///         is negative or not finite; where some material is not opaque, what TextureTable
     ///         throws.
     explicit OpacityTable(const Scene& scene) {
@@ -55,7 +58,9 @@ class OpacityTable {
                 masks_.push_back(is_nothing(m) ? AlphaMask{0.0f, 1.0f, {}} : alpha_mask_of(m));
             if (has_see_through) see_through_.push_back(see_through_of(m));
             if (m.is_masked() || m.is_see_through()) keep(scene, m.textures.base_color);
-            if (m.is_see_through()) keep(scene, m.textures.metallic_roughness);
+            if (!m.is_see_through()) continue;
+            keep(scene, m.textures.metallic_roughness);
+            keep(scene, m.textures.transmission);
         }
     }
     OpacityTable(const OpacityTable&) = delete;
@@ -97,6 +102,11 @@ class OpacityTable {
             if (!(share >= 0.0f && share <= 1.0f))
                 fail("its clear coat has " + number_text(share) +
                      " as weight or roughness (they are shares); use numbers from 0 to 1");
+        const Rgb& through = m.diffuse_transmission_color;
+        for (const float share : {m.diffuse_transmission, through.r, through.g, through.b})
+            if (!(share >= 0.0f && share <= 1.0f))
+                fail("its diffuse transmission or the colour of that is " + number_text(share) +
+                     " (they are shares of the light); use numbers from 0 to 1");
     }
 
     void keep(const Scene& scene, const Texture& texture) {

@@ -79,18 +79,20 @@ class SceneHash {
                  m.emits_from_both_sides, m.light_group);
         const MaterialTextures& t = m.textures;
         int part = 0;
-        for (const Texture& x : {t.base_color, t.metallic_roughness, t.normal, t.emission}) {
+        t.for_each([&](const Texture& x) {
             ++part;
             if (x.is_set())
                 add_each(part, x.image, x.wrap_u, x.wrap_v, x.nearest, x.u_axis, x.v_axis,
                          x.offset);
-        }
+        });
         if (t.normal.is_set()) add(t.normal_scale);
         if (m.is_masked()) add_each(m.alpha, m.alpha_cutoff);
         if (m.is_blended) add_each(m.is_blended, m.alpha);
         if (m.transmission > 0.0f)
             add_each(m.transmission, m.is_thin, m.attenuation_color, m.attenuation_distance);
         if (m.clearcoat > 0.0f) add_each(m.clearcoat, m.clearcoat_roughness);
+        if (m.diffuse_transmission > 0.0f)
+            add_each(m.diffuse_transmission, m.diffuse_transmission_color);
     }
 
     void add_environment(const Environment& e) {

@@ -4,6 +4,7 @@
 #include "mir/core/math.hpp"
 
 #include <cstdint>
+#include <initializer_list>
 
 namespace mir {
 
@@ -33,15 +34,33 @@ struct Texture {
 
 /// Every texture of a material.
 struct MaterialTextures {
-    Texture base_color;          ///< sRGB; multiplies Material::base_color, and its alpha alpha
-    Texture metallic_roughness;  ///< linear; green multiplies roughness, blue metallic
-    Texture normal;              ///< linear; tangent space, +y against the image's v
-    Texture emission;            ///< sRGB; multiplies Material::emission
-    float normal_scale = 1.0f;   ///< of x and y of `normal`
+    Texture base_color;            ///< sRGB; multiplies Material::base_color, and its alpha alpha
+    Texture metallic_roughness;    ///< linear; green multiplies roughness, blue metallic
+    Texture normal;                ///< linear; tangent space, +y against the image's v
+    Texture emission;              ///< sRGB; multiplies Material::emission
+    float normal_scale = 1.0f;     ///< of x and y of `normal`
+    Texture transmission;          ///< linear; red multiplies Material::transmission
+    Texture clearcoat;             ///< linear; red multiplies Material::clearcoat
+    Texture clearcoat_roughness;   ///< linear; green multiplies that of Material
+    Texture diffuse_transmission;  ///< linear; alpha multiplies that of Material
+    Texture diffuse_transmission_color;  ///< sRGB; multiplies that of Material
 
     /// True when it makes the reflectance vary. Normal maps, which turn it, do not count.
     [[nodiscard]] MIR_HD bool changes_reflection() const {
-        return base_color.is_set() || metallic_roughness.is_set();
+        return base_color.is_set() || metallic_roughness.is_set() || changes_other_layers();
+    }
+    /// True when what lies above the base varies, or what goes through it.
+    [[nodiscard]] MIR_HD bool changes_other_layers() const {
+        return transmission.is_set() || clearcoat.is_set() || clearcoat_roughness.is_set() ||
+               diffuse_transmission.is_set() || diffuse_transmission_color.is_set();
+    }
+    /// Calls f with each texture, in the order of the members.
+    template <class F>
+    void for_each(F&& f) const {
+        for (const Texture* t :
+             {&base_color, &metallic_roughness, &normal, &emission, &transmission, &clearcoat,
+              &clearcoat_roughness, &diffuse_transmission, &diffuse_transmission_color})
+            f(*t);
     }
 };
 

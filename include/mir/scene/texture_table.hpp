@@ -31,14 +31,14 @@ class TextureTable {
             images_.push_back({image.texels.data(), image.width, image.height});
         }
         for (const Material& m : scene.materials)
-            for (const Texture* t : {&m.textures.base_color, &m.textures.metallic_roughness,
-                                     &m.textures.normal, &m.textures.emission})
-                if (t->is_set() && t->image >= images_.size())
+            m.textures.for_each([&](const Texture& t) {
+                if (t.is_set() && t.image >= images_.size())
                     throw Error(ErrorCode::invalid_input,
                                 "material " + detail::in_quotes(m.name) + " uses image " +
-                                    std::to_string(t->image) + ", but the scene has " +
+                                    std::to_string(t.image) + ", but the scene has " +
                                     std::to_string(images_.size()) +
                                     "; add it or correct the index");
+            });
     }
 
     /// What kernels on the host read; valid until the table is moved or ends.

@@ -11,7 +11,8 @@
 namespace mir {
 
 /// What a camera ray sees: a point of a surface, or the background. It may lie behind glass or in a
-/// mirror. `ray` is the last edge then, so that the viewer seems to stand where it begins.
+/// mirror. `ray` is the last edge then, so that the viewer seems to stand where it begins:
+/// opposite, where light goes through the surface diffusely.
 using SeenLuxel = SpecularEnd;
 
 /// Says what camera rays see; all that asks goes through here.
@@ -89,9 +90,10 @@ MIR_HD void LuxelTracer<R, S, B>::weaken(const SeenLuxel& seen, Surface& surface
         if (ends_specular)
             surface.bsdf = surfaces.params_of_side(surface.bsdf, p.material, p.front);
         if (seen.on_coat) {
-            surface.bsdf = surfaces.coat(p.material);
+            surface.bsdf = surfaces.coat(p.material, attributes_of(p));
             surface.normal = surfaces.coat_normal(p, surface.wo);
         }
+        if (seen.is_through) surface.bsdf = surfaces.through(p.material, attributes_of(p));
         surface.bsdf = B::scaled(surface.bsdf, seen.reflection);
     }
 }

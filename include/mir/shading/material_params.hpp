@@ -9,11 +9,11 @@ namespace mir {
 
 /// A scene material in the parameters of a Bsdf. Overloaded per model by a tag of its type.
 inline Lambert::Params material_params(const Material& m, Lambert) {
-    return {m.base_color * (1.0f - m.transmission)};
+    return {m.base_color * ((1.0f - m.transmission) * (1.0f - m.diffuse_transmission))};
 }
 /// The same for one point of a textured material. A Bsdf without such an overload sees no textures.
 MIR_HD inline Lambert::Params material_params(const MaterialFactors& m, Lambert) {
-    return {m.base_color * (1.0f - m.transmission)};
+    return {m.base_color * ((1.0f - m.transmission) * (1.0f - m.diffuse_transmission))};
 }
 
 /// Metallic-roughness parameters (glTF 2.0, appendix B). With `metallic`, f0 runs from
@@ -33,7 +33,8 @@ MIR_HD inline CookTorrance::Params material_params(const MaterialFactors& m, Coo
     const auto base = [&](float color, float f0) {
         const float mean = f0 + (p.f90 - f0) / 21.0f;
         const float below = 1.0f - mean - Clearcoat{p.clearcoat}.mean_taken(f0, p.f90);
-        const float diffuse = color * (1.0f - m.metallic) * (1.0f - m.transmission);
+        const float diffuse =
+            color * (1.0f - m.metallic) * (1.0f - m.transmission) * (1.0f - m.diffuse_transmission);
         return below > 0.0f ? diffuse / below : 0.0f;
     };
     p.diffuse = {base(m.base_color.r, p.f0.r), base(m.base_color.g, p.f0.g),

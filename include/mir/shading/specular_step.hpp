@@ -12,7 +12,8 @@ enum class SpecularEvent : std::uint8_t {
     pass,      ///< straight on
     mirror,    ///< reflected
     transmit,  ///< to the other side in another direction
-    coat       ///< its rough coat is the end of the chain, with a lobe of its own
+    coat,      ///< its rough coat is the end of the chain, with a lobe of its own
+    through    ///< the other side is the end of the chain: what goes through diffusely
 };
 
 /// How events are drawn and weighed.
@@ -40,25 +41,32 @@ struct SpecularOdds {
     float mirror = 0.0f;
     float transmit = 0.0f;
     float coat = 0.0f;
+    float through = 0.0f;
 
     /// `rest` is what the Bsdf may be worth.
     [[nodiscard]] MIR_HD static SpecularOdds of(const SpecularShares& shares, float rest,
                                                 float least) {
-        SpecularOdds o{rest, luminance(shares.pass), luminance(shares.mirrored),
-                       luminance(shares.transmitted), shares.coated};
+        SpecularOdds o{rest,
+                       luminance(shares.pass),
+                       luminance(shares.mirrored),
+                       luminance(shares.transmitted),
+                       shares.coated,
+                       shares.through};
         const float sum = o.sum();
         if (!(sum > 0.0f)) return {};
         const auto odd = [=](float x) { return x > 0.0f ? larger(x / sum, least) : 0.0f; };
-        o = {odd(o.stop), odd(o.pass), odd(o.mirror), odd(o.transmit), odd(o.coat)};
+        o = {odd(o.stop), odd(o.pass), odd(o.mirror), odd(o.transmit), odd(o.coat), odd(o.through)};
         const float paid = o.sum() - 1.0f;
         float* likeliest = &o.stop;
-        for (float* other : {&o.pass, &o.mirror, &o.transmit, &o.coat})
+        for (float* other : {&o.pass, &o.mirror, &o.transmit, &o.coat, &o.through})
             if (*other > *likeliest) likeliest = other;
         *likeliest -= paid;
         return o;
     }
 
-    [[nodiscard]] MIR_HD float sum() const { return stop + pass + mirror + transmit + coat; }
+    [[nodiscard]] MIR_HD float sum() const {
+        return stop + pass + mirror + transmit + coat + through;
+    }
 };
 
 /// Direction behind an interface of index `eta` with normal `n`, on the side of `wo`. Zero where
@@ -155,6 +163,10 @@ template <class Numbers>
         return step;
     }
     if (take(odds.coat)) return detail::coat_step(s, shares.coated, odds.coat);
+    if (take(odds.through)) {
+        const float weight = s.cover / odds.through;
+        return {SpecularEvent::through, Vec3(0.0f), {weight, weight, weight}, odds.through};
+    }
     if (odds.stop > 0.0f) {
         const float rest = shares.rest / odds.stop;
         return {SpecularEvent::stop, Vec3(0.0f), Rgb{rest, rest, rest}, odds.stop};

@@ -25,6 +25,7 @@ struct SpecularSurface {
     bool front = true;          ///< `wo` lies outside of a body
     bool has_interface = true;  ///< what is opaque and smooth is a mirror
     Vec3 coat_normal{0, 0, 1};  ///< unit, that of a coat: without the surface's normal texture
+    float through = 0.0f;       ///< share of the light that goes through diffusely, 0..1
 
     /// True for the surface of a body that light enters.
     [[nodiscard]] MIR_HD bool bounds_body() const { return !factors.is_thin && clear() > 0.0f; }
@@ -62,11 +63,12 @@ struct SpecularSurface {
 /// The shares of light that leave a surface other than by its Bsdf. Of all that is reflected and
 /// let through they leave `rest` times what specular_end_params() says.
 struct SpecularShares {
-    Rgb pass;             ///< goes straight on
-    Rgb mirrored;         ///< reflected by an interface without a lobe of its own
-    float coated = 0.0f;  ///< reflected by the coat, in one direction or by its lobe
-    Rgb transmitted;      ///< refracted, or spread by a rough sheet
-    float rest = 1.0f;    ///< covered share, which the Bsdf is of
+    Rgb pass;              ///< goes straight on
+    Rgb mirrored;          ///< reflected by an interface without a lobe of its own
+    float coated = 0.0f;   ///< reflected by the coat, in one direction or by its lobe
+    float through = 0.0f;  ///< leaves the other side in all directions
+    Rgb transmitted;       ///< refracted, or spread by a rough sheet
+    float rest = 1.0f;     ///< covered share, which the Bsdf is of
 };
 
 /// What a surface does to a ray. The interface of opaque materials has the Fresnel term of their
@@ -89,6 +91,7 @@ struct SpecularShares {
     shares.pass = straight_transmittance(f, s.cover, cosine);
     const float coat = s.coat(glm::dot(s.coat_normal, s.wo));
     shares.coated = s.cover * coat;
+    shares.through = s.cover * s.through;
     if (clear > 0.0f && !(is_sheet && smooth))
         shares.transmitted = f.base_color * (s.cover * clear * (1.0f - reflected));
     const bool is_mirror = smooth && (clear > 0.0f || s.has_interface);

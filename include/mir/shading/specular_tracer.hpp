@@ -21,6 +21,9 @@ struct SpecularEnd {
     std::uint32_t events = 0;  ///< surfaces that the ray went on from
     bool is_straight = true;   ///< none of them has changed its direction
     bool on_coat = false;  ///< the end is the rough coat of the surface, and not what lies below
+    /// Light goes through the surface diffusely: `point` is turned over, and `ray` comes from
+    /// opposite.
+    bool is_through = false;
 };
 
 /// Follows rays through specular chains to the first surface that ends them. A value of views;
@@ -65,7 +68,8 @@ struct SpecularTracer {
         absorb(end, inside);
         const SpecularSurface surface = surface_of(end);
         const SpecularStep step = step_of(end, surface, rules, numbers);
-        const bool ends = step.event == SpecularEvent::stop || step.event == SpecularEvent::coat;
+        const bool ends = step.event == SpecularEvent::stop || step.event == SpecularEvent::coat ||
+                          step.event == SpecularEvent::through;
         if (ends || is_black(step.weight)) {
             stop(end, step);
             return false;
@@ -82,14 +86,17 @@ struct SpecularTracer {
         const SurfacePoint& p = end.point;
         const VertexAttributes at = attributes_of(p);
         const Vec3 wo = -end.ray.direction;
-        return {surfaces.factors(p.material, at),
-                surfaces.coverage(p.material, at),
-                surfaces.seen_normal(p, wo),
-                p.geometric_normal,
-                wo,
-                p.front,
-                B::has_interface,
-                surfaces.coat_normal(p, wo)};
+        SpecularSurface s{surfaces.factors(p.material, at),
+                          surfaces.coverage(p.material, at),
+                          surfaces.seen_normal(p, wo),
+                          p.geometric_normal,
+                          wo,
+                          p.front,
+                          B::has_interface,
+                          surfaces.coat_normal(p, wo)};
+        if (s.factors.diffuse_transmission > 0.0f)
+            s.through = luminance(B::albedo(surfaces.through(s.factors), s.normal, wo));
+        return s;
     }
 
     template <class Numbers>
@@ -119,7 +126,16 @@ struct SpecularTracer {
         end.on_coat = step.event == SpecularEvent::coat;
         // What shines is the surface below.
         if (end.on_coat) end.light = {};
+        if (step.event == SpecularEvent::through) go_through(end);
         if (is_black(step.weight)) lose(end);
+    }
+    /// Ends on the other side, as if the ray had met it from opposite. The stop counts the
+    /// emission.
+    MIR_HD static void go_through(SpecularEnd& end) {
+        end.is_through = true;
+        end.light = {};
+        turn_over(end.point);
+        end.ray = {2.0f * end.point.position - end.ray.origin, -end.ray.direction};
     }
     MIR_HD static void lose(SpecularEnd& end) { end.light = end.reflection = {}; }
 

@@ -55,7 +55,8 @@ class SurfaceTable {
     [[nodiscard]] const typename B::Params& params(std::uint32_t material) const {
         return view().params(material);
     }
-    /// Luminance of the reflectance at a typical angle, 0..1: what Keller's rho averages.
+    /// Luminance of what leaves either side at a typical angle, 0..1: what Keller's rho
+    /// averages.
     [[nodiscard]] float mean_albedo(std::uint32_t material) const {
         return entries_[material].mean_albedo;
     }
@@ -67,23 +68,29 @@ class SurfaceTable {
     }
 
  private:
-    /// Whether some of what it reflects, or lets through, goes in one direction.
+    /// Whether chains go on from it, or end on its other side.
     static bool is_specular(const Scene& scene, const Material& m) {
-        return SpecularBsdf<B> && (m.is_blended || m.clearcoat > 0.0f || bends_rays(scene, m));
+        return SpecularBsdf<B> &&
+               (m.is_blended || m.clearcoat > 0.0f || m.is_translucent() || bends_rays(scene, m));
     }
     /// Whether some of it goes on in one direction that is not that of before.
     static bool bends_rays(const Scene& scene, const Material& m) {
         bool mirrors = false;
         if constexpr (SpecularBsdf<B>) mirrors = B::has_interface;
         if (m.transmission > 0.0f && m.metallic < 1.0f) return true;
-        if (mirrors && m.clearcoat > 0.0f && is_smooth(m.clearcoat_roughness)) return true;
+        const auto may_be_smooth = [&](float roughness, const Texture& texture) {
+            return is_smooth(roughness) || is_smooth(roughness * least_green(scene, texture));
+        };
+        const MaterialTextures& t = m.textures;
+        if (mirrors && m.clearcoat > 0.0f &&
+            may_be_smooth(m.clearcoat_roughness, t.clearcoat_roughness))
+            return true;
         const bool reflects = m.metallic > 0.0f || m.specular > 0.0f;
-        return mirrors && reflects && is_smooth(m.roughness * least_green(scene, m));
+        return mirrors && reflects && may_be_smooth(m.roughness, t.metallic_roughness);
     }
-    /// Smallest value that the texture of a material multiplies its roughness by, 0..1.
-    static float least_green(const Scene& scene, const Material& m) {
-        const Texture& texture = m.textures.metallic_roughness;
-        if (!texture.is_set() || is_smooth(m.roughness)) return 1.0f;
+    /// Smallest value that a texture multiplies a roughness by, 0..1.
+    static float least_green(const Scene& scene, const Texture& texture) {
+        if (!texture.is_set()) return 1.0f;
         std::uint32_t least = 255;
         for (const std::uint32_t texel : scene.images[texture.image].texels)
             least = std::min(least, texel >> 8 & 0xffu);
@@ -99,8 +106,12 @@ class SurfaceTable {
         return {channel(left.r), channel(left.g), channel(left.b)};
     }
     static float mean_albedo(const Scene& scene, const Material& m) {
-        return smaller(typical_albedo(material_params(mean_factors(scene, m), CookTorrance{})),
-                       1.0f);
+        const MaterialFactors mean = mean_factors(scene, m);
+        float all = typical_albedo(material_params(mean, CookTorrance{}));
+        if (m.is_translucent())
+            all += typical_albedo(
+                CookTorrance::without_lobe(material_params(mean.through(), CookTorrance{})));
+        return smaller(all, 1.0f);
     }
     static float lobe_share(const Scene& scene, const Material& m) {
         if (m.is_lambertian()) return 0.0f;

@@ -100,14 +100,34 @@ struct SurfaceTableView {
     [[nodiscard]] MIR_HD static Vec3 coat_normal(const SurfacePoint& p, Vec3 wo) {
         return glm::dot(p.shading_normal, wo) > 0.0f ? p.shading_normal : p.geometric_normal;
     }
-    /// How the rough coat of a material reflects, which it must have.
-    [[nodiscard]] MIR_HD typename B::Params coat(std::uint32_t material) const {
-        const MaterialFactors& m = entries[material].factors;
+    /// How the rough coat of a material reflects at a point with these attributes, which it must
+    /// have.
+    [[nodiscard]] MIR_HD typename B::Params coat(std::uint32_t material,
+                                                 const VertexAttributes& at) const {
+        const MaterialFactors m = factors(material, at);
         if constexpr (requires { B::coat(m.clearcoat, m.clearcoat_roughness); })
             return B::coat(m.clearcoat, m.clearcoat_roughness);
         else
             return {};
     }
+    /// How one side of a surface sends out diffusely what arrives on the other: as if it had
+    /// arrived here, from the opposite direction.
+    [[nodiscard]] MIR_HD static typename B::Params through(const MaterialFactors& m) {
+        if constexpr (SpecularBsdf<B>)
+            return B::without_lobe(material_params(m.through(), B{}));
+        else
+            return {};
+    }
+    /// The same of a material at a point with these attributes.
+    [[nodiscard]] MIR_HD typename B::Params through(std::uint32_t material,
+                                                    const VertexAttributes& at) const {
+        return through(factors(material, at));
+    }
+    /// Chance with which a path goes on at the other side of a surface: by what goes through
+    /// diffusely and what is reflected, at normal incidence. It depends on the point alone, so
+    /// that a path has the same chance from both its ends.
+    [[nodiscard]] MIR_HD float through_chance(std::uint32_t material,
+                                              const VertexAttributes& at) const;
     /// True when rays that meet the material may go on as specular chains. Never of a model that
     /// cannot stand at their end.
     [[nodiscard]] MIR_HD bool is_specular(std::uint32_t material) const {
@@ -196,8 +216,25 @@ MIR_HD typename B::Params SurfaceTableView<S, B>::params(std::uint32_t material,
 template <Space S, Bsdf B>
 MIR_HD MaterialFactors SurfaceTableView<S, B>::factors(const SurfaceEntry<B>& e,
                                                        const VertexAttributes& at) const {
-    return textured_factors(e.factors, e.textures.base_color, e.textures.metallic_roughness,
-                            textures, at);
+    return textured_factors(e.factors, e.textures, textures, at);
+}
+
+template <Space S, Bsdf B>
+MIR_HD float SurfaceTableView<S, B>::through_chance(std::uint32_t material,
+                                                    const VertexAttributes& at) const {
+    if constexpr (SpecularBsdf<B>) {
+        if (!(entries[material].factors.diffuse_transmission > 0.0f)) return 0.0f;
+        const MaterialFactors m = factors(material, at);
+        if (!(m.diffuse_transmission > 0.0f)) return 0.0f;
+        const Vec3 n(0.0f, 0.0f, 1.0f);
+        const float through_it = luminance(B::albedo(through(m), n, n));
+        const float back = luminance(B::albedo(textured_params(m), n, n));
+        if (!(through_it > 0.0f)) return 0.0f;
+        if (!(back > 0.0f)) return 1.0f;
+        return smaller(larger(through_it / (through_it + back), 0.1f), 0.9f);
+    } else {
+        return 0.0f;
+    }
 }
 
 /// Source: Khronos glTF 2.0 specification, 3.9.3 (normal textures).

@@ -3,6 +3,7 @@
 
 #include "io/detail/gltf_build_arrays.hpp"
 #include "io/detail/gltf_build_textures.hpp"
+#include "io/detail/gltf_extension_textures.hpp"
 #include "mir/core/frame.hpp"
 #include "mir/scene/light_kinds.hpp"
 #include "mir/scene/scene.hpp"
@@ -82,6 +83,9 @@ class GltfBuilder {
     }
 
     static tinygltf::Value number(double value) { return tinygltf::Value(value); }
+    static tinygltf::Value array(const Rgb& c) {
+        return tinygltf::Value(tinygltf::Value::Array{number(c.r), number(c.g), number(c.b)});
+    }
 
     static void keep_group(std::uint16_t group, tinygltf::Value& extras) {
         if (group == 0) return;
@@ -120,6 +124,10 @@ class GltfBuilder {
             extend(to.extensions, "KHR_materials_clearcoat",
                    {{"clearcoatFactor", number(from.clearcoat)},
                     {"clearcoatRoughnessFactor", number(from.clearcoat_roughness)}});
+        if (from.diffuse_transmission > 0.0f)
+            extend(to.extensions, "KHR_materials_diffuse_transmission",
+                   {{"diffuseTransmissionFactor", number(from.diffuse_transmission)},
+                    {"diffuseTransmissionColorFactor", array(from.diffuse_transmission_color)}});
         keep_group(from.light_group, to.extras);
         use_textures(from, to);
     }
@@ -131,10 +139,8 @@ class GltfBuilder {
         if (from.is_thin) return;
         Object volume{{"thicknessFactor", number(1.0)}};
         if (std::isfinite(from.attenuation_distance)) {
-            const Rgb& left = from.attenuation_color;
             volume["attenuationDistance"] = number(from.attenuation_distance);
-            volume["attenuationColor"] = tinygltf::Value(
-                tinygltf::Value::Array{number(left.r), number(left.g), number(left.b)});
+            volume["attenuationColor"] = array(from.attenuation_color);
         }
         extend(to.extensions, "KHR_materials_volume", std::move(volume));
     }
@@ -147,6 +153,18 @@ class GltfBuilder {
         textures_.use(t.normal, from.name, to.normalTexture);
         textures_.use(t.emission, from.name, to.emissiveTexture);
         to.normalTexture.scale = t.normal_scale;
+        for (const GltfExtensionTexture& which : gltf_extension_textures)
+            use_texture(t.*which.part, from.name, which, to);
+    }
+
+    /// A texture of an extension that the material lacks would multiply nothing.
+    void use_texture(const Texture& from, const std::string& user,
+                     const GltfExtensionTexture& which, tinygltf::Material& to) {
+        const auto extension = to.extensions.find(which.extension);
+        if (!from.is_set() || extension == to.extensions.end()) return;
+        tinygltf::TextureInfo info;
+        textures_.use(from, user, info);
+        extension->second.Get<Object>()[which.key] = value_of_texture(info);
     }
 
     void add(const Mesh& from) {

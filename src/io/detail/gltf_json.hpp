@@ -21,13 +21,18 @@ using Json = nlohmann::json;
 
 /// Extensions that are read beyond their name.
 inline bool is_read_extension(std::string_view name) {
-    constexpr std::array<std::string_view, 11> known = {
-        "EXT_mesh_gpu_instancing", "KHR_lights_punctual",
-        "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-        "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
-        "KHR_materials_specular",  "KHR_materials_transmission",
-        "KHR_materials_volume",    "KHR_node_visibility",
-        "KHR_texture_transform"};
+    constexpr std::array<std::string_view, 12> known = {"EXT_mesh_gpu_instancing",
+                                                        "KHR_lights_punctual",
+                                                        "KHR_materials_clearcoat",
+                                                        "KHR_materials_diffuse_transmission",
+                                                        "KHR_materials_emissive_strength",
+                                                        "KHR_materials_ior",
+                                                        "KHR_materials_pbrSpecularGlossiness",
+                                                        "KHR_materials_specular",
+                                                        "KHR_materials_transmission",
+                                                        "KHR_materials_volume",
+                                                        "KHR_node_visibility",
+                                                        "KHR_texture_transform"};
     return std::find(known.begin(), known.end(), name) != known.end();
 }
 

@@ -34,6 +34,8 @@ class GltfMaterials {
         for (const auto& [name, extension] : from.extensions) this->extension(name, extension, to);
         if (to.clearcoat > 0.0f && to.transmission > 0.0f)
             ignore("KHR_materials_clearcoat on glass");
+        if (to.is_translucent() && to.transmission == 0.0f && !to.is_thin)
+            ignore("KHR_materials_volume of diffuse transmission");
         textures(from, to);
         if (from.extensions.contains("KHR_materials_unlit")) shine(to);
         return to;
@@ -87,6 +89,7 @@ class GltfMaterials {
         if (name == "KHR_materials_transmission") return transmission(value, to);
         if (name == "KHR_materials_volume") return volume(value, to);
         if (name == "KHR_materials_clearcoat") return clearcoat(value, to);
+        if (name == "KHR_materials_diffuse_transmission") return diffuse_transmission(value, to);
         if (name == "KHR_materials_pbrSpecularGlossiness") return specular_glossiness(value, to);
         count_extension(name, report_);
     }
@@ -114,15 +117,24 @@ class GltfMaterials {
     void transmission(const tinygltf::Value& from, Material& to) {
         to.transmission =
             unit(number_or(from, "transmissionFactor", 0.0, place_), "transmissionFactor");
-        if (from.Has("transmissionTexture")) ignore("texture transmissionTexture");
     }
 
     void clearcoat(const tinygltf::Value& from, Material& to) {
         to.clearcoat = unit(number_or(from, "clearcoatFactor", 0.0, place_), "clearcoatFactor");
         to.clearcoat_roughness = unit(number_or(from, "clearcoatRoughnessFactor", 0.0, place_),
                                       "clearcoatRoughnessFactor");
-        for (const char* texture : clearcoat_textures)
-            if (from.Has(texture)) ignore(std::string("texture ") + texture);
+        if (from.Has("clearcoatNormalTexture")) ignore("texture clearcoatNormalTexture");
+    }
+
+    void diffuse_transmission(const tinygltf::Value& from, Material& to) {
+        constexpr const char* factor = "diffuseTransmissionFactor";
+        to.diffuse_transmission = unit(number_or(from, factor, 0.0, place_), factor);
+        const tinygltf::Value& color = from.Get("diffuseTransmissionColorFactor");
+        if (color.ArrayLen() < 3) return;
+        const auto channel = [&](int k) {
+            return unit(color.Get(k).GetNumberAsDouble(), "diffuseTransmissionColorFactor");
+        };
+        to.diffuse_transmission_color = {channel(0), channel(1), channel(2)};
     }
 
     /// How thick it is, rays find out; that it is thick, makes it a body.
@@ -177,6 +189,8 @@ class GltfMaterials {
         t.normal_scale =
             checked_float(from.normalTexture.scale, "scale of a normalTexture", place_);
         if (from.occlusionTexture.index >= 0) ignore("texture occlusionTexture");
+        for (const GltfExtensionTexture& which : gltf_extension_textures)
+            t.*which.part = texture(which.key, texture_under(from.extensions, which));
     }
 
     template <class TextureInfo>
@@ -202,6 +216,7 @@ class GltfMaterials {
         to.base_color = {0.0f, 0.0f, 0.0f};
         to.metallic = 0.0f;
         to.specular = 0.0f;
+        to.diffuse_transmission = 0.0f;
     }
 
     const tinygltf::Model& model_;

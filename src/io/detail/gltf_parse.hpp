@@ -269,6 +269,7 @@ inline void GltfParser::parse_the_rest() {
         material.pbrMetallicRoughness.metallicRoughnessTexture = {};
         material.normalTexture = {};
         material.emissiveTexture = {};
+        drop_extension_textures(material.extensions);
         model_.materials[i] = std::move(material);
     }
 }

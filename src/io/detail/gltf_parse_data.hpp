@@ -61,6 +61,8 @@ inline void GltfData::material(std::size_t i) {
     texture(to.pbrMetallicRoughness.metallicRoughnessTexture.index);
     texture(to.normalTexture.index);
     texture(to.emissiveTexture.index);
+    for (const GltfExtensionTexture& t : gltf_extension_textures)
+        texture(texture_under(to.extensions, t).index);
     model_.materials[i] = std::move(to);
     materials_[i] = 1;
 }

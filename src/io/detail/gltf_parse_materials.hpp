@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/detail/data_uri.hpp"
+#include "io/detail/gltf_extension_textures.hpp"
 #include "io/detail/gltf_parse_nodes.hpp"
 
 #include <tiny_gltf.h>
@@ -46,23 +47,36 @@ inline void parse_surface(const GltfDocument& document, const GltfValue& from,
         parse_texture_info(document, *texture, to.metallicRoughnessTexture);
 }
 
-/// Of KHR_materials_clearcoat, which are counted.
-inline constexpr std::array clearcoat_textures = {"clearcoatTexture", "clearcoatRoughnessTexture",
-                                                  "clearcoatNormalTexture"};
+/// The textures under an extension that are read.
+inline void take_textures(const GltfDocument& document, const std::string& extension,
+                          const GltfValue& from, tinygltf::Value::Object& to) {
+    for (const GltfExtensionTexture& t : gltf_extension_textures) {
+        if (extension != t.extension) continue;
+        const auto texture = from.find(t.key);
+        if (!texture) continue;
+        tinygltf::TextureInfo info;
+        parse_texture_info(document, *texture, info);
+        to[t.key] = value_of_texture(info);
+    }
+}
 
-inline tinygltf::Value parse_material_extension(const std::string& name, const GltfValue& from) {
+inline tinygltf::Value parse_material_extension(const GltfDocument& document,
+                                                const std::string& name, const GltfValue& from) {
     tinygltf::Value::Object to;
+    take_textures(document, name, from, to);
     if (name == "KHR_materials_emissive_strength") {
         take_number(from, "emissiveStrength", to);
     } else if (name == "KHR_materials_ior") {
         take_number(from, "ior", to);
     } else if (name == "KHR_materials_transmission") {
         take_number(from, "transmissionFactor", to);
-        take_presence(from, "transmissionTexture", to);
     } else if (name == "KHR_materials_clearcoat") {
         take_number(from, "clearcoatFactor", to);
         take_number(from, "clearcoatRoughnessFactor", to);
-        for (const char* texture : clearcoat_textures) take_presence(from, texture, to);
+        take_presence(from, "clearcoatNormalTexture", to);
+    } else if (name == "KHR_materials_diffuse_transmission") {
+        take_number(from, "diffuseTransmissionFactor", to);
+        take_numbers(from, "diffuseTransmissionColorFactor", 3, to);
     } else if (name == "KHR_materials_volume") {
         take_number(from, "thicknessFactor", to);
         take_presence(from, "thicknessTexture", to);
@@ -98,7 +112,9 @@ inline void parse_material(const GltfDocument& document, const GltfValue& from,
         parse_texture_info(document, *texture, to.emissiveTexture);
     // Not read, so that nothing inside can be wrong.
     if (from.find("occlusionTexture")) to.occlusionTexture.index = 0;
-    take_extensions(from, to.extensions, parse_material_extension);
+    take_extensions(from, to.extensions, [&](const std::string& name, const GltfValue& value) {
+        return parse_material_extension(document, name, value);
+    });
     tinygltf::Value::Object extras;
     if (const auto given = extras_of(from)) take_number(*given, "light_group", extras);
     to.extras = tinygltf::Value(std::move(extras));
@@ -119,6 +135,10 @@ inline std::vector<std::string> coordinate_sets(const tinygltf::Material& materi
         add(info->index, info->texCoord, info->extensions);
     add(material.normalTexture.index, material.normalTexture.texCoord,
         material.normalTexture.extensions);
+    for (const GltfExtensionTexture& t : gltf_extension_textures) {
+        const tinygltf::TextureInfo info = texture_under(material.extensions, t);
+        add(info.index, info.texCoord, info.extensions);
+    }
     return names;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/detail/gltf_document.hpp"
+#include "io/detail/gltf_extension_textures.hpp"
 
 #include <cstddef>
 #include <initializer_list>
@@ -38,6 +39,12 @@ inline void check_material_references(const GltfDocument& document, const GltfVa
     const auto surface = from.find("pbrMetallicRoughness");
     if (surface && surface->json().is_object())
         check(*surface, {"baseColorTexture", "metallicRoughnessTexture"});
+    const auto extensions = from.find("extensions");
+    if (!extensions || !extensions->json().is_object()) return;
+    for (const GltfExtensionTexture& t : gltf_extension_textures)
+        if (const auto extension = extensions->find(t.extension);
+            extension && extension->json().is_object())
+            check(*extension, {t.key});
 }
 
 /// Refuses numbers that name nothing, even where a picture does not need them. Most often such a

@@ -45,6 +45,15 @@ inline Build of_material(const std::string& name, const json& values = json::obj
     return [=](Gltf& g) { g.material()["extensions"][name] = values; };
 }
 
+/// The same with textures.
+inline Build textured(const std::string& name, const json& values,
+                      const std::vector<std::string>& textures) {
+    return [=](Gltf& g) {
+        json& to = g.material()["extensions"][name] = values;
+        for (const std::string& texture : textures) to[texture] = g.texture();
+    };
+}
+
 inline std::vector<Extension> read_materials() {
     const auto ior = [](float value) {
         return [value](const mir::Material& m) { CHECK(m.ior == value); };
@@ -94,31 +103,32 @@ inline std::vector<Extension> read_materials() {
             "lights what is around. A vertex colour multiplies it if a primitive has only one"),
         extension("KHR_materials_unlit", "vertex colours that differ", varied,
                   counted({"COLOR_0 of an unlit material"}, orange), "white"),
-        extension(
-            "KHR_materials_transmission", "`transmissionFactor`, `transmissionTexture`",
-            of_material("KHR_materials_transmission",
-                        {{"transmissionFactor", 0.5}, {"transmissionTexture", {{"index", 0}}}}),
-            counted({"texture transmissionTexture"}, material([](const mir::Material& m) {
-                        CHECK(m.transmission == 0.5f);
-                        CHECK(m.is_thin);
-                    })),
-            "the factor is read: glass, a sheet without `KHR_materials_volume`"),
-        extension(
-            "KHR_materials_clearcoat",
-            "`clearcoatFactor`, `clearcoatRoughnessFactor`, `clearcoatTexture`, "
-            "`clearcoatRoughnessTexture`, `clearcoatNormalTexture`",
-            of_material("KHR_materials_clearcoat", {{"clearcoatFactor", 0.75},
-                                                    {"clearcoatRoughnessFactor", 0.25},
-                                                    {"clearcoatTexture", {{"index", 0}}},
-                                                    {"clearcoatRoughnessTexture", {{"index", 0}}},
-                                                    {"clearcoatNormalTexture", {{"index", 0}}}}),
-            counted({"texture clearcoatNormalTexture", "texture clearcoatRoughnessTexture",
-                     "texture clearcoatTexture"},
-                    material([](const mir::Material& m) {
-                        CHECK(m.clearcoat == 0.75f);
-                        CHECK(m.clearcoat_roughness == 0.25f);
-                    })),
-            "both factors are read: a second interface on top, without the normal texture"),
+        extension("KHR_materials_transmission", "`transmissionFactor`, `transmissionTexture`",
+                  textured("KHR_materials_transmission", {{"transmissionFactor", 0.5}},
+                           {"transmissionTexture"}),
+                  read(material([](const mir::Material& m) {
+                      CHECK(m.transmission == 0.5f);
+                      CHECK(m.is_thin);
+                      CHECK(m.textures.transmission.is_set());
+                  })),
+                  "glass, a sheet without `KHR_materials_volume`"),
+        extension("KHR_materials_clearcoat",
+                  "`clearcoatFactor`, `clearcoatRoughnessFactor`, `clearcoatTexture`, "
+                  "`clearcoatRoughnessTexture`",
+                  textured("KHR_materials_clearcoat",
+                           {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.25}},
+                           {"clearcoatTexture", "clearcoatRoughnessTexture"}),
+                  read(material([](const mir::Material& m) {
+                      CHECK(m.clearcoat == 0.75f);
+                      CHECK(m.clearcoat_roughness == 0.25f);
+                      CHECK(m.textures.clearcoat.is_set());
+                      CHECK(m.textures.clearcoat_roughness.is_set());
+                  })),
+                  "a second interface on top, without the normal texture"),
+        extension("KHR_materials_clearcoat", "`clearcoatNormalTexture`",
+                  of_material("KHR_materials_clearcoat",
+                              {{"clearcoatFactor", 1}, {"clearcoatNormalTexture", {{"index", 0}}}}),
+                  counted({"texture clearcoatNormalTexture"})),
         extension(
             "KHR_materials_clearcoat", "on glass",
             [](Gltf& g) {
@@ -127,6 +137,30 @@ inline std::vector<Extension> read_materials() {
                 all["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1}};
             },
             counted({"KHR_materials_clearcoat on glass"}), "no coat"),
+        extension("KHR_materials_diffuse_transmission",
+                  "`diffuseTransmissionFactor`, `diffuseTransmissionColorFactor`, "
+                  "`diffuseTransmissionTexture`, `diffuseTransmissionColorTexture`",
+                  textured("KHR_materials_diffuse_transmission",
+                           {{"diffuseTransmissionFactor", 0.5},
+                            {"diffuseTransmissionColorFactor", {1, 0.5, 0.25}}},
+                           {"diffuseTransmissionTexture", "diffuseTransmissionColorTexture"}),
+                  read(material([](const mir::Material& m) {
+                      CHECK(m.diffuse_transmission == 0.5f);
+                      CHECK(m.diffuse_transmission_color == mir::Rgb{1.0f, 0.5f, 0.25f});
+                      CHECK(m.textures.diffuse_transmission.is_set());
+                      CHECK(m.textures.diffuse_transmission_color.is_set());
+                  })),
+                  "leaves, paper, lampshades: light comes out of the other side in all directions"),
+        extension(
+            "KHR_materials_diffuse_transmission", "of a body (`KHR_materials_volume`)",
+            [](Gltf& g) {
+                g.surface()["metallicFactor"] = 0;
+                json& all = g.material()["extensions"];
+                all["KHR_materials_volume"] = {{"thicknessFactor", 0.1}};
+                all["KHR_materials_diffuse_transmission"] = {{"diffuseTransmissionFactor", 1}};
+            },
+            counted({"KHR_materials_volume of diffuse transmission"}),
+            "as of a sheet: the body takes no light away"),
         extension("KHR_materials_volume",
                   "`thicknessFactor`, `thicknessTexture`, `attenuationDistance`, "
                   "`attenuationColor`",
@@ -163,7 +197,6 @@ inline std::vector<Extension> read_materials() {
 inline std::vector<Extension> counted_materials() {
     const std::vector<std::pair<const char*, const char*>> names = {
         {"KHR_materials_anisotropy", "highlights drawn out"},
-        {"KHR_materials_diffuse_transmission", "light through leaves and paper"},
         {"KHR_materials_dispersion", "colours of glass"},
         {"KHR_materials_iridescence", "thin films"},
         {"KHR_materials_sheen", "cloth"},
