@@ -54,6 +54,77 @@ TEST_CASE("glass without colour leaves all light: in each event the weight is on
             }
 }
 
+TEST_CASE("events that share out luxels have probabilities in whole steps, one at least") {
+    using mir::detail::SpecularOdds;
+    mir::Random random(906, mir::Stream::test, 0);
+    for (int i = 0; i < 2000; ++i) {
+        mir::SpecularShares shares;
+        // Equal ones, nearly none and none are among them.
+        const auto share = [&] {
+            const float u = random.next();
+            return u < 0.2f ? 0.0f : u < 0.4f ? 0.5f : u < 0.6f ? 1e-5f : random.next();
+        };
+        shares.pass = share() * white;
+        shares.mirrored = share() * white;
+        shares.transmitted = share() * white;
+        shares.coated = share();
+        shares.through = share();
+        const float rest = share();
+        const std::uint32_t steps = 4 + static_cast<std::uint32_t>(13.0f * random.next());
+        const auto o = SpecularOdds::of(shares, rest, 1.0f / static_cast<float>(steps));
+        const float odds[] = {o.stop, o.pass, o.mirror, o.transmit, o.coat, o.through};
+        const float of[] = {rest,
+                            luminance(shares.pass),
+                            luminance(shares.mirrored),
+                            luminance(shares.transmitted),
+                            shares.coated,
+                            shares.through};
+        std::uint32_t events = 0;
+        for (const float s : of) events += s > 0.0f ? 1 : 0;
+        if (events == 0) continue;
+        const auto all = static_cast<float>(std::max(steps, events));
+        CHECK(o.sum() == Approx(1.0f));
+        for (int k = 0; k < 6; ++k) {
+            CAPTURE(steps, k, of[k], odds[k]);
+            CHECK((odds[k] > 0.0f) == (of[k] > 0.0f));
+            CHECK(odds[k] * all == Approx(std::round(odds[k] * all)).margin(1e-4));
+            if (of[k] > 0.0f) CHECK(odds[k] * all > 0.999f);
+        }
+    }
+}
+
+TEST_CASE("luxels that share events out show each equally often in every pixel") {
+    MaterialFactors veil;
+    veil.base_color = white;
+    veil.diffuse_transmission = 0.61f;
+    SpecularSurface s = surface(veil, 0.8f);
+    s.cover = 0.83f;
+    s.through = 0.5f;
+    struct Numbers {
+        float first;
+        [[nodiscard]] float next() const { return first; }
+    };
+    for (const std::uint32_t luxels : {4u, 9u, 16u}) {
+        std::vector<std::uint32_t> usual;
+        for (int shift = 0; shift < 50; ++shift) {
+            std::vector<std::uint32_t> counts(6);
+            const float own = 1.0f / static_cast<float>(luxels);
+            for (std::uint32_t k = 0; k < luxels; ++k) {
+                // Not on a border, where rounding decides.
+                Numbers numbers{
+                    (static_cast<float>(k) + 0.01f + 0.0196f * static_cast<float>(shift)) * own};
+                const auto step = specular_step(s, 0.7f, {Transport::radiance, own}, numbers);
+                ++counts[static_cast<std::size_t>(step.event)];
+            }
+            if (usual.empty()) usual = counts;
+            CHECK(counts == usual);
+        }
+        CHECK(usual[static_cast<std::size_t>(SpecularEvent::pass)] > 0);
+        CHECK(usual[static_cast<std::size_t>(SpecularEvent::through)] > 0);
+        CHECK(usual[static_cast<std::size_t>(SpecularEvent::stop)] > 0);
+    }
+}
+
 TEST_CASE("radiance that is refracted shrinks by the square of the index, power does not") {
     const auto transmitted = [](Transport transport, bool front) {
         const SpecularSurface s = surface(glass(false), 0.9f, front);

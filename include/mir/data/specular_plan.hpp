@@ -7,7 +7,7 @@ namespace mir {
 /// out, so that each that glass can send light by has luxels of its own.
 struct SpecularPlan {
     float first = -1.0f;  ///< number in [0, 1) that draws it; negative: one of the ray's own
-    float least = 0.0f;   ///< smallest probability of an event that can be, 0..0.25
+    float least = 0.0f;   ///< probabilities of events are multiples of it, 0..0.25; 0: any
 };
 
 }  // namespace mir

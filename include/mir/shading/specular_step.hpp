@@ -19,7 +19,9 @@ enum class SpecularEvent : std::uint8_t {
 /// How events are drawn and weighed.
 struct SpecularRules {
     Transport transport = Transport::radiance;  ///< what the chain carries
-    float least = 0.0f;  ///< smallest probability of an event that can be, 0..0.25
+    /// Probabilities are multiples of it, 0..0.25, or of one over the events where those are more.
+    /// 0: they go by the events' shares alone.
+    float least = 0.0f;
 };
 
 /// One event of a chain.
@@ -33,8 +35,9 @@ struct SpecularStep {
 
 namespace detail {
 
-/// Probabilities of the events, in the ratio of their shares: all weights are alike then. None that
-/// can be is below `least`, for which the likeliest pays.
+/// Probabilities of the events, in the ratio of their shares: all weights are alike then. With a
+/// `least` they are multiples of it, one at least of each event that can be: samples that are
+/// spread evenly in so many steps then have each event equally often, whatever their shift.
 struct SpecularOdds {
     float stop = 0.0f;
     float pass = 0.0f;
@@ -54,14 +57,30 @@ struct SpecularOdds {
                        shares.through};
         const float sum = o.sum();
         if (!(sum > 0.0f)) return {};
-        const auto odd = [=](float x) { return x > 0.0f ? larger(x / sum, least) : 0.0f; };
-        o = {odd(o.stop), odd(o.pass), odd(o.mirror), odd(o.transmit), odd(o.coat), odd(o.through)};
-        const float paid = o.sum() - 1.0f;
-        float* likeliest = &o.stop;
-        for (float* other : {&o.pass, &o.mirror, &o.transmit, &o.coat, &o.through})
-            if (*other > *likeliest) likeliest = other;
-        *likeliest -= paid;
+        float* const odds[] = {&o.stop, &o.pass, &o.mirror, &o.transmit, &o.coat, &o.through};
+        float* likeliest = odds[0];
+        std::uint32_t events = 0;
+        for (float* const odd : odds) {
+            *odd = *odd > 0.0f ? *odd / sum : 0.0f;
+            events += *odd > 0.0f ? 1 : 0;
+            if (*odd > *likeliest) likeliest = odd;
+        }
+        if (least > 0.0f)
+            o.share_out(events, likeliest, static_cast<std::uint32_t>(1.0f / least + 0.5f));
+        // What rounding leaves, too.
+        *likeliest -= o.sum() - 1.0f;
         return o;
+    }
+
+    /// Makes multiples of 1 / `steps` of all but the likeliest, which takes the rest: one step at
+    /// least, as no other has more than its share of those that are left.
+    MIR_HD void share_out(std::uint32_t events, const float* likeliest, std::uint32_t steps) {
+        const std::uint32_t all = events > steps ? events : steps;
+        const auto left = static_cast<float>(all - events);
+        const float step = 1.0f / static_cast<float>(all);
+        for (float* const odd : {&stop, &pass, &mirror, &transmit, &coat, &through})
+            if (odd != likeliest && *odd > 0.0f)
+                *odd = step * (1.0f + static_cast<float>(static_cast<std::uint32_t>(left * *odd)));
     }
 
     [[nodiscard]] MIR_HD float sum() const {
