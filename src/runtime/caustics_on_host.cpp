@@ -9,7 +9,7 @@ namespace mir {
 namespace {
 
 /// The layers of bounces 1, 2, ... at one luxel.
-struct LayersThere {
+struct CausticLayersThere {
     std::span<Image<Rgb>* const> layers;
     std::uint32_t x;
     std::uint32_t y;
@@ -48,7 +48,7 @@ CausticImages seen_caustics_on_host(RenderFrame& frame, const FrameBand& band,
             const auto y = static_cast<std::uint32_t>(row);
             for (std::uint32_t x = 0; x < extent.width; ++x) {
                 const CausticRadiance light =
-                    caustics(x, band.first_row + y, LayersThere{bounces, x, y});
+                    caustics(x, band.first_row + y, CausticLayersThere{bounces, x, y});
                 seen.direct(x, y) = light.direct;
                 seen.indirect(x, y) = light.indirect;
             }

@@ -18,7 +18,7 @@ using mir::VplRecord;
 
 /// A frame of the host and one in a backend's memory, of the same picture.
 struct TwoFrames {
-    explicit TwoFrames(Scene s, mir::RenderSettings settings = mirtest::small_picture())
+    explicit TwoFrames(Scene s)
         : scene(std::move(s)),
           job({scene, geometry, mir::AnyExecutor(executor), nullptr, clock}, settings),
           there(job, mirtest::HostBackend(executor),
@@ -28,6 +28,7 @@ struct TwoFrames {
                 {}) {}
 
     Scene scene;
+    mir::RenderSettings settings = mirtest::small_picture();
     mir::WorldGeometry geometry{scene};
     mir::InlineExecutor executor;
     mir::StageClock clock;

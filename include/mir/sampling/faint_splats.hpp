@@ -15,7 +15,8 @@ namespace mir {
 /// Upper limit of the share of indirect light that all light paths of caustics bring, 97.5 % sure,
 /// from the first `traced` of them. Splats count as independent, none of them brighter than the
 /// brightest found or than ten usual light paths of `indirect`: Bernstein's inequality. Few paths
-/// therefore never say that nothing is there. None where `indirect` knows no light.
+/// therefore never say that nothing is there. Rare splats beyond that are not covered. None where
+/// `indirect` knows no light.
 /// @param splats of the paths that were traced, with their power shared out over `paths`
 /// @param indirect mean luminance of indirect light by light paths, W m^-2 sr^-1
 /// @param luxels of the whole image

@@ -65,8 +65,7 @@ struct SpecularOdds {
             events += *odd > 0.0f ? 1 : 0;
             if (*odd > *likeliest) likeliest = odd;
         }
-        if (least > 0.0f)
-            o.share_out(events, likeliest, static_cast<std::uint32_t>(1.0f / least + 0.5f));
+        if (least > 0.0f) o.share_out(events, likeliest, static_cast<std::uint32_t>(1.01f / least));
         // What rounding leaves, too.
         *likeliest -= o.sum() - 1.0f;
         return o;
